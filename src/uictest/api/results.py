@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final, overload
 from uictest import report, runs
 from uictest.api.arguments import PathName
 from uictest.core import measures
+from uictest.core.document import Data
 from uictest.core.recording import Recording, read_parquet
 from uictest.judging import evaluation, series
 from uictest.judging.series import SeriesResult
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
-def frame_of(table: report.Table, index: Sequence[str]) -> pd.DataFrame:
+def frame_of(table: Data, index: Sequence[str]) -> pd.DataFrame:
     """Return a table as a data frame with the units of its columns in `attrs["units"]`.
 
     Columns of numbers are 64-bit floats (NaN: no number), or integers and booleans where every row has one.

@@ -6,7 +6,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from uictest import runs
+from uictest import report, runs
 from uictest.analysis import validation
 from uictest.api.arguments import (
     Assignments,
@@ -74,7 +74,8 @@ class Validation:
 
     def __repr__(self) -> str:
         """Return the counts, the figures and the domain, as `uictest validate` prints them."""
-        lines = validation.validation_lines(self.result, None, every_figure=False)
+        document = validation.validation_document(self.result, every_figure=False)
+        lines = report.document_lines(document, None)
         return "\n".join([f"{self.result.name}: {self.tally}", *lines])
 
     def _repr_html_(self) -> str:

@@ -75,7 +75,7 @@ from .run_report import (
 )
 from .series.github import series_annotations as series_annotations
 from .series.lines import series_line as series_line, series_lines as series_lines
-from .series.table import series_table as series_table
+from .series.tables import series_table as series_table
 from .series.wording import (
     count_sentences as count_sentences,
     not_counted_sentences as not_counted_sentences,
@@ -161,7 +161,7 @@ from .terminal.verdict_table import (
     part_lines as part_lines,
     verdict_table as verdict_table,
 )
-from .text_tables import Cell as Cell, Table as Table, csv_text as csv_text, prose as prose
+from .text_tables import csv_text as csv_text, document_markdown as document_markdown, prose as prose
 from .traces.overlay_svg import overlay_svg as overlay_svg
 from .traces.quantities import (
     Panel as Panel,

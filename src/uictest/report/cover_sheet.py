@@ -7,12 +7,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
+from uictest.core.document import Cell
 from uictest.report.content import RunContent
 from uictest.report.escaping import printable
 from uictest.report.part_wording import domain_notices
 from uictest.report.series.wording import series_word
 from uictest.report.sheet import Row, Styles, heading_rows, print_on_a4, write_cell
-from uictest.report.text_tables import Cell
 from uictest.report.wording import CASE_WORDS, counted, tone
 
 if TYPE_CHECKING:

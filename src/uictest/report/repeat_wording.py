@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from typing import Final
 
 from uictest.core import statistics
+from uictest.core.document import Cell
 from uictest.judging import evaluation
-from uictest.report.text_tables import Cell
 
 SHARE_COLUMNS: Final = ("stops", "passed", "share", "share_low", "share_high")
 """Columns of a table of cases that say how many stops came out as `pass`, and the interval of their share."""

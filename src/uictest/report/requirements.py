@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING, Final, Literal
 
+from uictest.core.document import Cell
 from uictest.judging import evaluation
 from uictest.plans import scenario
-from uictest.report.text_tables import Cell
 from uictest.report.wording import outcome_word
 
 if TYPE_CHECKING:

@@ -11,9 +11,9 @@ from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, Final
 
 from uictest.core import files
+from uictest.core.document import Cell
 from uictest.report.escaping import printable
 from uictest.report.sheet_columns import NUMBER_FORMATS, SheetColumn, sheet_column
-from uictest.report.text_tables import Cell
 from uictest.report.wording import CASE_WORDS, tone
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""Tables as CSV and as Markdown: user text guarded, missing numbers as empty cells."""
+"""Tables as CSV and as Markdown, documents as Markdown: user text guarded, missing numbers as empty cells."""
 
 from __future__ import annotations
 
@@ -8,23 +8,10 @@ import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Self
+from typing import Any
 
+from uictest.core.document import Cell, Column, Document, Lines, Table
 from uictest.report.escaping import csv_cell, printable
-
-Cell = str | float | int | bool | None
-
-
-class Table(NamedTuple):
-    """The columns of a table and its rows; a row may lack columns."""
-
-    columns: Sequence[str]
-    rows: Sequence[dict[str, Cell]]
-
-    @classmethod
-    def of(cls, rows: Sequence[dict[str, Cell]]) -> Self:
-        """Return the table of rows with every column of any of them, in the order of their first use."""
-        return cls(list(dict.fromkeys(column for row in rows for column in row)), rows)
 
 
 def csv_text(columns: Sequence[str], rows: Iterable[dict[str, Cell]]) -> str:
@@ -71,17 +58,51 @@ class MarkdownTable:
     rest: str = ""
     most: int | None = None
 
+    def all(self) -> str:
+        """Return every row."""
+        return self._head + "".join(self.rows)
+
+    @property
+    def _head(self) -> str:
+        return row(self.columns) + f"|{'|'.join(_RULES[letter] for letter in self.alignment)}|\n"
+
     def within(self, room: int) -> str:
         """Return the table in at most so many bytes; empty where there is no room for a single row.
 
         Where rows were left out, a last line says how many.
         """
-        head = row(self.columns) + f"|{'|'.join(_RULES[letter] for letter in self.alignment)}|\n"
+        head = self._head
         shown = list(_fitting(self.rows[: self.most], room - len(head.encode()) - _RESERVE))
         if not shown and self.rows:
             return ""
         left_out = len(self.rows) - len(shown)
         return head + "".join(shown) + (f"\n{left_out} {self.rest}\n" if left_out else "")
+
+
+def document_markdown(document: Document) -> str:
+    """Return a document as a page."""
+    about = "".join(f"\n{prose(each)}\n" for each in document.about)
+    return f"# {prose(document.title)}\n{about}" + "".join(map(_section, document.sections))
+
+
+def _section(section: Table | Lines) -> str:
+    heading = f"\n## {prose(section.title)}\n" if section.title else ""
+    if isinstance(section, Table):
+        return f"{heading}\n{markdown_table(section).all()}"
+    return f"{heading}\n" + "".join(f"- {prose(each)}\n" for each in section.sentences)
+
+
+def markdown_table(table: Table, most: int | None = None, rest: str = "") -> MarkdownTable:
+    """Return a table as Markdown; `most` and `rest` as there."""
+    rows = [row(_markdown_cell(each, item) for each in table.columns) for item in table.rows]
+    headings = [prose(each.heading.replace("\n", ", ")) for each in table.columns]
+    alignment = "".join("r" if each.right else "l" for each in table.columns)
+    return MarkdownTable(headings, alignment, rows, rest or table.more, most)
+
+
+def _markdown_cell(column: Column[Any], item: Any) -> str:
+    text = (code if column.literal else prose)(column.text(item))
+    return f"**{text}**" if column.stands_out is not None and column.stands_out(item) else text
 
 
 def row(cells: Iterable[str]) -> str:

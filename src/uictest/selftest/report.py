@@ -19,13 +19,13 @@ def _within(finding: Finding) -> str:
 
 
 _COLUMNS: Final[tuple[Column[Finding], ...]] = (
-    Column("check", lambda each: each.id),
-    Column("verdict", lambda each: each.status),
-    Column("expected", lambda each: _expected(each), rank=1, right=True),
-    Column("found", lambda each: _text(each, each.found), rank=1, right=True),
-    Column("within", _within, rank=3, right=True),
-    Column("unit", lambda each: each.unit, rank=3),
-    Column("requirement", lambda each: each.requirement, rank=2),
+    Column(heading="check", text=lambda each: each.id),
+    Column(heading="verdict", text=lambda each: each.status),
+    Column(heading="expected", text=lambda each: _expected(each), rank=1, right=True),
+    Column(heading="found", text=lambda each: _text(each, each.found), rank=1, right=True),
+    Column(heading="within", text=_within, rank=3, right=True),
+    Column(heading="unit", text=lambda each: each.unit, rank=3),
+    Column(heading="requirement", text=lambda each: each.requirement, rank=2),
 )
 
 

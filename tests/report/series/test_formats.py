@@ -110,7 +110,7 @@ def test_markdown_compares_and_judges(
 ) -> None:
     text = markdown_summary(content)
     assert "| `acceptance` | pass | 5 of 6 |" in text
-    assert "| **fail** | `acceptance` | `k-wet` |" in markdown_summary(make_content(series=[missed]))
+    assert "| `acceptance` | `k-wet` | **fail** |" in markdown_summary(make_content(series=[missed]))
     for limit in (400, 1000, 3000):
         assert len(markdown_summary(content, limit).encode()) <= limit
 

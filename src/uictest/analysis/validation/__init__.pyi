@@ -21,13 +21,10 @@ from .domain import (
     is_condition as is_condition,
 )
 from .report import (
-    figures_csv as figures_csv,
     figures_table as figures_table,
-    markdown as markdown,
-    stops_csv as stops_csv,
     stops_table as stops_table,
     tally as tally,
-    validation_lines as validation_lines,
+    validation_document as validation_document,
 )
 from .stops import (
     Agreement as Agreement,

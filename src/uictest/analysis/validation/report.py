@@ -1,28 +1,17 @@
-"""A validation as lines, as CSV and as Markdown."""
+"""A validation as a document, and as tables for programs."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import Final
 
 from uictest.analysis.validation.document import Validation
 from uictest.analysis.validation.domain import Conditions, Domain
 from uictest.analysis.validation.stops import Agreement, ComparedStop, Differences
+from uictest.core.document import Cell, Column, Data, Document, Lines, Table
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.units import KILOMETRE_PER_HOUR
-from uictest.report import (
-    Cell,
-    Table,
-    TableColumn,
-    aligned,
-    columns_not_shown,
-    counted,
-    csv_text,
-    fitted,
-    interval_text,
-    printable,
-    prose,
-)
+from uictest.report import counted, interval_text
 
 _ALWAYS: Final = ("initial_speed", "brake.command", "rail.friction", "rail.gradient", "vehicle.body.mass")
 """Numbers of a domain that are shown even where they are the same in all stops."""
@@ -31,29 +20,58 @@ _SETTINGS: Final = ("brake.position", "rig.wsp", "rig.topology", "rig.compensati
 _OF_DIFFERENCES: Final = ("bias", "deviation", "bias_low", "bias_high", "limits_low", "limits_high")
 _DRAWS: Final = "one seed per stop"
 """How the simulations behind the intervals of a validation were drawn, as figures.csv says it."""
-_TABLE: Final = ("stops", "recorded", "bias", "interval of bias", "spread", "limits of agreement", "bias, %")
 
 
-def validation_lines(validation: Validation, width: int | None, *, every_figure: bool) -> Iterator[str]:
-    """Yield stops, figures, domain and remarks, in so many characters.
+def _interval(low: float, high: float) -> str:
+    return "-" if low != low else f"{low:+.4g} .. {high:+.4g}"
 
-    Args:
-        validation: what is shown.
-        width: of the terminal; None for a stream that is none.
-        every_figure: whether the figures of single wheelsets are shown as well.
-    """
-    yield from _stop_lines(validation)
+
+def _number(value: float) -> str:
+    return "-" if value != value else f"{value:.5g}"
+
+
+def _relative_bias(agreement: Agreement) -> str:
+    return "-" if agreement.relative is None else f"{100.0 * agreement.relative.bias:+.2f}"
+
+
+_FIGURES: Final[tuple[Column[Agreement], ...]] = (
+    Column(heading="figure", text=lambda each: each.figure),
+    Column(heading="stops", text=lambda each: str(each.stops), right=True),
+    Column(heading="recorded", text=lambda each: _number(each.recorded_mean), rank=4, right=True),
+    Column(heading="bias", text=lambda each: f"{each.absolute.bias:+.4g}", right=True),
+    Column(
+        heading="interval of bias",
+        text=lambda each: _interval(each.absolute.bias_low, each.absolute.bias_high),
+        rank=1,
+        right=True,
+    ),
+    Column(heading="spread", text=lambda each: _number(each.absolute.deviation), rank=2, right=True),
+    Column(
+        heading="limits of agreement",
+        text=lambda each: _interval(each.absolute.limits_low, each.absolute.limits_high),
+        rank=3,
+        right=True,
+    ),
+    Column(heading="bias, %", text=_relative_bias, rank=5, right=True),
+)
+
+
+def validation_document(validation: Validation, *, every_figure: bool = True) -> Document:
+    """Return stops, figures, domain and remarks; `every_figure`: those of single wheelsets too."""
     shown = [each for each in validation.figures if every_figure or each.figure in STOP_COLUMNS]
-    if shown:
-        columns, hidden = fitted(_columns(shown), width)
-        yield from aligned(columns)
-        if hidden:
-            yield columns_not_shown(hidden, "figures.csv has them")
-    yield from _domain_lines(validation)
-    yield from remarks(validation)
     further = len(validation.figures) - len(shown)
-    if further:
-        yield f"{further} figures of single wheelsets: -v, figures.csv"
+    more = [f"{further} figures of single wheelsets: -v, figures.csv"] if further else []
+    about = [validation.title, f"uictest {validation.version}, {tally(validation)}."]
+    return Document(
+        f"Validation {validation.name}",
+        [
+            Lines(list(_stop_lines(validation)), "Stops"),
+            Table(_FIGURES, shown, "Figures", "figures.csv has them"),
+            Lines(list(_domain_lines(validation)), "Domain"),
+            Lines([*remarks(validation), *more], "Remarks"),
+        ],
+        list(filter(None, about)),
+    )
 
 
 def tally(validation: Validation) -> str:
@@ -69,47 +87,12 @@ def _stop_lines(validation: Validation) -> Iterator[str]:
         if stop.tuned:
             figures += "; not counted: numbers of its scenario were found with it"
         shown = f"not counted: {stop.not_counted}" if stop.not_counted else figures
-        yield printable(f"stop {stop.id} {speed}: {shown}")
+        yield f"stop {stop.id} {speed}: {shown}"
 
 
 def _percent(recorded: float, simulated: float) -> str:
     share = (simulated - recorded) / recorded if recorded else float("nan")
     return "-" if share != share else f"{100.0 * share:+.2f} %"
-
-
-def _columns(figures: Iterable[Agreement]) -> list[TableColumn]:
-    listed = list(figures)
-    cells = [_cells(each) for each in listed]
-    ranks = dict(zip(_TABLE, (0, 4, 0, 1, 2, 3, 5), strict=True))
-    return [
-        TableColumn("figure", [each.figure for each in listed]),
-        *(
-            TableColumn(title, [row[place] for row in cells], ranks[title], right=True)
-            for place, title in enumerate(_TABLE)
-        ),
-    ]
-
-
-def _cells(agreement: Agreement) -> tuple[str, ...]:
-    one = agreement.absolute
-    relative = "-" if agreement.relative is None else f"{100.0 * agreement.relative.bias:+.2f}"
-    return (
-        str(agreement.stops),
-        _number(agreement.recorded_mean),
-        f"{one.bias:+.4g}",
-        _interval(one.bias_low, one.bias_high),
-        _number(one.deviation),
-        _interval(one.limits_low, one.limits_high),
-        relative,
-    )
-
-
-def _interval(low: float, high: float) -> str:
-    return "-" if low != low else f"{low:+.4g} .. {high:+.4g}"
-
-
-def _number(value: float) -> str:
-    return "-" if value != value else f"{value:.5g}"
 
 
 def _domain_lines(validation: Validation) -> Iterator[str]:
@@ -127,7 +110,7 @@ def domain_text(domain: Domain) -> str:
     further = len(conditions.ranges) + len(conditions.settings) - len(shown) - len(settings)
     stops = f"{domain.stops} stop" + ("s" if domain.stops > 1 else "")
     listed = "; ".join((*names, *settings, *ranges))
-    return printable(f"{stops}: {listed}; {further} further numbers and settings as in these stops")
+    return f"{stops}: {listed}; {further} further numbers and settings as in these stops"
 
 
 def _varies(conditions: Conditions, key: str) -> bool:
@@ -177,12 +160,7 @@ def _column_of(figure: str) -> str:
     return stem if stem in WHEELSET_COLUMNS and number.isdigit() else figure
 
 
-def figures_csv(validation: Validation) -> str:
-    """Return the table of the figures as CSV."""
-    return csv_text(*figures_table(validation))
-
-
-def figures_table(validation: Validation) -> Table:
+def figures_table(validation: Validation) -> Data:
     """Return every figure with its agreement, absolute and as a share of the recorded figure."""
     columns = ("figure", "unit", "stops", "draws", "recorded_mean")
     known = all(stop.seed is not None for stop in validation.counted)
@@ -199,25 +177,20 @@ def figures_table(validation: Validation) -> Table:
         }
         for each in validation.figures
     ]
-    return Table([*columns, *_OF_DIFFERENCES, *relative], rows)
+    return Data([*columns, *_OF_DIFFERENCES, *relative], rows)
 
 
 def _values(differences: Differences, prefix: str) -> dict[str, float]:
     return {f"{prefix}{name}": getattr(differences, name) for name in _OF_DIFFERENCES}
 
 
-def stops_csv(validation: Validation) -> str:
-    """Return the table of the stops as CSV."""
-    return csv_text(*stops_table(validation))
-
-
-def stops_table(validation: Validation) -> Table:
+def stops_table(validation: Validation) -> Data:
     """Return one row for each figure of each stop: recorded, simulated and their difference."""
     columns = (
         *("stop", "recording", "counted", "tuned", "not_counted", "seed", "repeats"),
         *("figure", "recorded", "simulated", "difference"),
     )
-    return Table(columns, [row for stop in validation.stops for row in _rows(stop)])
+    return Data(columns, [row for stop in validation.stops for row in _rows(stop)])
 
 
 def _rows(stop: ComparedStop) -> Iterator[dict[str, Cell]]:
@@ -236,23 +209,3 @@ def _rows(stop: ComparedStop) -> Iterator[dict[str, Cell]]:
         simulated = stop.simulated.get(name, float("nan"))
         values = {"recorded": recorded, "simulated": simulated, "difference": simulated - recorded}
         yield {**shared, "figure": name, **values}
-
-
-def markdown(validation: Validation) -> str:
-    """Return the validation as a page in Markdown."""
-    lines = [f"# Validation {prose(validation.name)}", ""]
-    if validation.title:
-        lines += [prose(validation.title), ""]
-    lines += [f"uictest {validation.version}, {tally(validation)}.", "", "## Stops", ""]
-    lines += [f"- {prose(line)}" for line in _stop_lines(validation)]
-    lines += ["", "## Figures", "", *_markdown_table(validation.figures), "", "## Domain", ""]
-    lines += [f"- {prose(line)}" for line in _domain_lines(validation)]
-    lines += ["", "## Remarks", "", *(f"- {prose(line)}" for line in remarks(validation))]
-    return "\n".join(lines) + "\n"
-
-
-def _markdown_table(figures: Iterable[Agreement]) -> Iterator[str]:
-    yield f"| figure | {' | '.join(_TABLE)} |"
-    yield f"|---|{'---:|' * len(_TABLE)}"
-    for each in figures:
-        yield f"| {each.figure} | {' | '.join(_cells(each))} |"

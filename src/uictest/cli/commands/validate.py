@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import rig, runs
+from uictest import report, rig, runs
 from uictest.analysis import validation
 from uictest.cli import options
 from uictest.cli.exit_codes import ExitCode, worst
@@ -79,8 +79,8 @@ def _show(validated: validation.Validation, shown: options.PlainFormat, *, every
     if shown is options.PlainFormat.JSON:
         data(validation.validation_json(validated).rstrip("\n"))
         return
-    width = terminal_width(sys.stdout)
-    data("\n".join(validation.validation_lines(validated, width, every_figure=every_figure)))
+    document = validation.validation_document(validated, every_figure=every_figure)
+    data("\n".join(report.document_lines(document, terminal_width(sys.stdout))))
 
 
 def _code(run: runs.ValidationRun) -> ExitCode:

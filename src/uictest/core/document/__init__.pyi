@@ -1,4 +1,11 @@
-from .table import Cell as Cell, Column as Column, Document as Document, Lines as Lines, Table as Table
+from .table import (
+    Cell as Cell,
+    Column as Column,
+    Data as Data,
+    Document as Document,
+    Lines as Lines,
+    Table as Table,
+)
 from .testcases import (
     Suite as Suite,
     Testcase as Testcase,

@@ -4,39 +4,45 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, NamedTuple, Self, TypeVar
 
 Cell = str | float | int | bool | None
 Row = TypeVar("Row")
 
 
-@dataclass(frozen=True, slots=True)
+class Data(NamedTuple):
+    """The names of columns and the rows under them, for programs; a row may lack columns."""
+
+    columns: Sequence[str]
+    rows: Sequence[dict[str, Cell]]
+
+    @classmethod
+    def of(cls, rows: Sequence[dict[str, Cell]]) -> Self:
+        """Return rows with every column of any of them, in the order of their first use."""
+        return cls(list(dict.fromkeys(column for row in rows for column in row)), rows)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Column(Generic[Row]):
-    """A column of a table, told once for people and for programs.
+    """A column of a table for people.
 
     Args:
-        heading: for people; empty: only programs see it. A line feed begins its second line on a terminal.
+        heading: what it is called; a line feed begins its second line, a unit, on a terminal.
         text: what people read of a row; any text, each format guards it.
-        key: name in files for programs; empty: only people see it.
-        value: what programs read of a row; by default the text.
         rank: where a terminal is too narrow the column of the highest rank is left out first, 0 never.
         right: whether it holds numbers.
         wraps: whether its texts may continue on the next line.
         literal: whether a reader must see each letter of it: a name, an id.
+        stands_out: whether a reader must not overlook the text of a row.
     """
 
     heading: str
     text: Callable[[Row], str]
-    key: str = ""
-    value: Callable[[Row], Cell] | None = None
     rank: int = 0
     right: bool = False
     wraps: bool = False
     literal: bool = False
-
-    def cell(self, row: Row) -> Cell:
-        """Return what programs read of a row."""
-        return self.text(row) if self.value is None else self.value(row)
+    stands_out: Callable[[Row], bool] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,11 +53,6 @@ class Table:
     rows: Sequence[Any]
     title: str = ""
     more: str = ""
-
-    @property
-    def shown(self) -> list[Column[Any]]:
-        """The columns for people."""
-        return [each for each in self.columns if each.heading]
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +65,8 @@ class Lines:
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """What a result says: its sections in their order."""
+    """What a result says: its sections in their order; title and `about` stand on a page of its own only."""
 
     title: str
     sections: Sequence[Table | Lines]
+    about: Sequence[str] = ()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from uictest.core.document import Cell, Data
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.judging import evaluation
 from uictest.report import series as series_views
@@ -22,7 +23,7 @@ from uictest.report.repeat_wording import (
     stop_rows,
 )
 from uictest.report.requirements import requirement_rows, verified_requirements
-from uictest.report.text_tables import Cell, Table, csv_text
+from uictest.report.text_tables import csv_text
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import definition_sentence, reading_sentences
 
@@ -40,7 +41,7 @@ _CRITERION_FIELDS = {
 """Column -> field of a verdict."""
 
 
-def summary_table(results: Sequence[evaluation.CaseResult], uictest_version: str = "") -> Table:
+def summary_table(results: Sequence[evaluation.CaseResult], uictest_version: str = "") -> Data:
     """Return one row per case: swept parameters (as written), outcome, controller, changes, measures.
 
     `uictest_version` is that of built-in controllers.
@@ -65,40 +66,38 @@ def summary_table(results: Sequence[evaluation.CaseResult], uictest_version: str
         *STOP_COLUMNS,
         *_of_repeated(results, range_columns(STOP_COLUMNS)),
     ]
-    return Table(columns, [_summary_row(result, uictest_version) for result in results])
+    return Data(columns, [_summary_row(result, uictest_version) for result in results])
 
 
-def wheelsets_table(results: Sequence[evaluation.CaseResult]) -> Table:
+def wheelsets_table(results: Sequence[evaluation.CaseResult]) -> Data:
     """Return one row per case and wheelset; wheelset 1 leads. Ranges as in :func:`summary_table`."""
     ranges = _of_repeated(results, range_columns(WHEELSET_COLUMNS))
-    return Table(["id", "wheelset", *WHEELSET_COLUMNS, *ranges], list(_wheelset_rows(results)))
+    return Data(["id", "wheelset", *WHEELSET_COLUMNS, *ranges], list(_wheelset_rows(results)))
 
 
-def criteria_table(results: Sequence[evaluation.CaseResult]) -> Table:
+def criteria_table(results: Sequence[evaluation.CaseResult]) -> Data:
     """Return one row per case and criterion, with the definitions that its verdict depends on.
 
     Where a case repeats its stop, there are the counts of its stops and the range of the values, too.
     """
     own = [*_of_repeated(results, CRITERION_COLUMNS), REQUIREMENTS]
     columns = ["id", "criterion", *_CRITERION_FIELDS, READINGS, *own, "definition"]
-    return Table(columns, list(_criterion_rows(results)))
+    return Data(columns, list(_criterion_rows(results)))
 
 
-def repeats_table(results: Sequence[evaluation.CaseResult]) -> Table:
+def repeats_table(results: Sequence[evaluation.CaseResult]) -> Data:
     """Return one row per stop of every repeated case: seed, outcome, measures."""
     wheelsets = (f"{name}_{position}" for position in WHEELSETS for name in WHEELSET_COLUMNS)
     columns = ["id", "seed", "outcome", "reason", *STOP_COLUMNS, *wheelsets]
-    return Table(columns, list(stop_rows(results)))
+    return Data(columns, list(stop_rows(results)))
 
 
-def requirements_table(
-    results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult] = ()
-) -> Table:
+def requirements_table(results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult] = ()) -> Data:
     """Return one row per requirement and case or series that names it."""
-    return Table.of(list(requirement_rows(verified_requirements(results, series))))
+    return Data.of(list(requirement_rows(verified_requirements(results, series))))
 
 
-def run_tables(content: RunContent) -> Mapping[str, Table]:
+def run_tables(content: RunContent) -> Mapping[str, Data]:
     """Return the tables of a run by the names of their files, without `.csv`.
 
     Without repeated cases, requirements or series, the tables of these are missing.

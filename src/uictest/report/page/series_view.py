@@ -12,7 +12,7 @@ from uictest.judging import evaluation
 from uictest.judging.series import SeriesResult, SeriesStop, SeriesVerdict, SpeedResult, observed_stops
 from uictest.report.page.axis import Axis, Tick
 from uictest.report.page.links import fragment, series_anchor
-from uictest.report.series.comparison import comparison_columns, comparison_rows, value_with_interval
+from uictest.report.series.tables import comparison_table, value_with_interval
 from uictest.report.series.wording import (
     confidence_words,
     count_sentences,
@@ -30,8 +30,7 @@ _OF_DISTANCE = ("braking_distance", "median_braking_distance", "worst_braking_di
 
 
 SERIES_WORDS: Final = {
-    "comparison_columns": comparison_columns,
-    "comparison_rows": comparison_rows,
+    "comparison_table": comparison_table,
     "confidence_words": confidence_words,
     "count_sentences": count_sentences,
     "limits": limits,

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from uictest.core.document import Cell, Data
 from uictest.core.series_measures import SERIES_MEASURES, Estimate, SeriesValue
 from uictest.judging.series import SeriesResult, SeriesVerdict, observed_stops
 from uictest.report.series.wording import series_word
-from uictest.report.text_tables import Cell, Table
 from uictest.report.wording import definition_sentence
 
 Row = dict[str, Cell]
@@ -113,12 +113,12 @@ def stop_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
             }
 
 
-def series_tables(results: Sequence[SeriesResult]) -> dict[str, Table]:
+def series_tables(results: Sequence[SeriesResult]) -> dict[str, Data]:
     """Return the tables of series by the names of their files: measures, criteria, stops."""
     return {
-        "series": Table.of(list(measure_rows(results))),
-        "series-criteria": Table.of(list(criterion_rows(results))),
-        "series-stops": Table.of(list(stop_rows(results))),
+        "series": Data.of(list(measure_rows(results))),
+        "series-criteria": Data.of(list(criterion_rows(results))),
+        "series-stops": Data.of(list(stop_rows(results))),
     }
 
 

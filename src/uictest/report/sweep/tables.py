@@ -6,6 +6,7 @@ import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
+from uictest.core.document import Cell
 from uictest.report.cover_sheet import Cells, Plotted, histogram_chart, line_chart
 from uictest.report.sheet import columns_of, heading_rows
 from uictest.report.sweep.result import (
@@ -18,7 +19,7 @@ from uictest.report.sweep.result import (
     Trend,
 )
 from uictest.report.sweep.tail_tables import tail_csv_tables
-from uictest.report.text_tables import Cell, csv_text
+from uictest.report.text_tables import csv_text
 
 if TYPE_CHECKING:
     from xlsxwriter import Workbook

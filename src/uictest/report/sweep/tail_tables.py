@@ -7,11 +7,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from uictest.core.document import Cell
 from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.tails import DrawCount, KDry, KDryLevel, MeasureQuantiles, Quantile
 from uictest.report.sweep.wording import circumstances_words
 from uictest.report.terminal.fitted_columns import aligned_rows
-from uictest.report.text_tables import Cell, csv_text
+from uictest.report.text_tables import csv_text
 from uictest.report.wording import counted, number, quantity
 
 _K_DRY_DECIMALS = 3

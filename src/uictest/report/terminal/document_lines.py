@@ -34,5 +34,5 @@ def table_columns(table: Table) -> list[TableColumn]:
             [printable(each.text(row)) for row in table.rows],
             *(each.rank, each.right, each.wraps),
         )
-        for each in table.shown
+        for each in table.columns
     ]

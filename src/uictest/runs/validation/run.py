@@ -48,9 +48,9 @@ def publish_validation(validated: validation.Validation, arguments: Sequence[str
     with files.RunFolder(output, f"validation-{report.run_name(datetime.now(UTC), manifest)}") as folder:
         for name, text in (
             (validation.RESULT, validation.validation_json(validated)),
-            ("figures.csv", validation.figures_csv(validated)),
-            ("stops.csv", validation.stops_csv(validated)),
-            ("validation.md", validation.markdown(validated)),
+            ("figures.csv", report.csv_text(*validation.figures_table(validated))),
+            ("stops.csv", report.csv_text(*validation.stops_table(validated))),
+            ("validation.md", report.document_markdown(validation.validation_document(validated))),
         ):
             files.write(folder.path, name, text)
         return folder.publish()

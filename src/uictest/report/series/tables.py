@@ -1,0 +1,155 @@
+"""Tables of series for people: what they compare by, and the criteria of each; on a terminal, in Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import accumulate
+from typing import Final, NamedTuple
+
+from uictest.core.document import Column, Document, Lines, Table
+from uictest.core.series_measures import SeriesValue
+from uictest.judging.series import SeriesResult, SeriesVerdict
+from uictest.report.escaping import printable
+from uictest.report.series.wording import (
+    confidence_words,
+    count_sentences,
+    interval,
+    not_counted_sentences,
+    of_dry_stop,
+    series_word,
+    short,
+)
+from uictest.report.terminal.document_lines import document_lines, table_lines
+from uictest.report.text_tables import markdown_table, prose
+from uictest.report.wording import counted, limits, quantity
+
+_REMARKS: Final = {"fail": "fail", "inconclusive": "inconclusive", "not_applicable": "not applicable"}
+_REST: Final = "more rows are in `series-criteria.csv` and `results.json`."
+
+
+def comparison_table(results: Sequence[SeriesResult]) -> Table:
+    """Return series side by side: the value of every criterion with its interval, and which are missed."""
+    first: dict[str, SeriesVerdict] = {}
+    for each in (each for result in results for each in result.criteria):
+        first.setdefault(each.verdict.id, each)
+    columns: list[Column[SeriesResult]] = [
+        Column(heading="series", text=lambda result: result.id, wraps=True, literal=True),
+        Column(heading="verdict", text=series_word, rank=1),
+        Column(
+            heading="wet stops",
+            text=lambda result: f"{result.wet_stops.counted} of {result.wet_stops.run}",
+            rank=2,
+            right=True,
+        ),
+    ]
+    columns += [_criterion_column(each, rank) for rank, each in enumerate(first.values(), start=3)]
+    return Table(columns, results, more="every criterion stands below")
+
+
+def _criterion_column(each: SeriesVerdict, rank: int) -> Column[SeriesResult]:
+    name = each.verdict.id
+    unit = "" if each.verdict.unit == "1" else f"\n{each.verdict.unit}{of_dry_stop(each)}"
+
+    def text(result: SeriesResult) -> str:
+        verdicts = {own.verdict.id: own for own in result.criteria}
+        return _value(verdicts[name]) if name in verdicts else "-"
+
+    return Column(heading=f"{name}{unit}", text=text, rank=rank, right=True)
+
+
+def _value(each: SeriesVerdict) -> str:
+    known = short(each.verdict.value)
+    value = known if each.estimate is None else value_with_interval(SeriesValue(each.estimate))
+    remark = _REMARKS.get(each.verdict.status, "")
+    certain = "not certain" if each.confident is False else ""
+    return ", ".join(filter(None, (f"{value} {remark}".strip(), certain)))
+
+
+def value_with_interval(value: SeriesValue) -> str:
+    """Return a value with its interval in parentheses, `-` where there is none."""
+    if value.estimate is None:
+        return "-"
+    shown = interval(value.estimate)
+    return f"{short(value.estimate.value)} ({shown})" if shown else short(value.estimate.value)
+
+
+class _Judged(NamedTuple):
+    """A criterion with the series that it judged."""
+
+    result: SeriesResult
+    each: SeriesVerdict
+
+    @property
+    def status(self) -> str:
+        return self.each.verdict.status.replace("_", " ")
+
+
+_SERIES: Final[Column[_Judged]] = Column(heading="series", text=lambda judged: judged.result.id, literal=True)
+_CRITERIA: Final[tuple[Column[_Judged], ...]] = (
+    Column(heading="criterion", text=lambda judged: judged.each.verdict.id, wraps=True, literal=True),
+    Column(
+        heading="verdict",
+        text=lambda judged: judged.status,
+        stands_out=lambda judged: judged.status not in ("pass", "not applicable"),
+    ),
+    Column(
+        heading="value",
+        text=lambda judged: (
+            f"{quantity(judged.each.verdict.value, judged.each.verdict.unit)}{of_dry_stop(judged.each)}"
+        ),
+        right=True,
+    ),
+    Column(
+        heading="limit", text=lambda judged: f"{limits(judged.each.verdict, '')}{of_dry_stop(judged.each)}"
+    ),
+    Column(
+        heading="margin",
+        text=lambda judged: quantity(judged.each.verdict.margin, judged.each.verdict.unit),
+        right=True,
+    ),
+    Column(
+        heading="confidence",
+        text=lambda judged: (
+            confidence_words(judged.each, judged.result.confidence) or judged.each.verdict.reason
+        ),
+        wraps=True,
+    ),
+)
+
+
+def _judged(result: SeriesResult) -> list[_Judged]:
+    return [_Judged(result, each) for each in result.criteria]
+
+
+def _counts(result: SeriesResult) -> list[str]:
+    return [*count_sentences(result), *not_counted_sentences(result)]
+
+
+def series_table(results: Sequence[SeriesResult], width: int) -> Iterator[str]:
+    """Yield the lines of the comparison and of the criteria of every series."""
+    yield from table_lines(comparison_table(results), width)
+    for result in results:
+        yield ""
+        yield f"{series_word(result)} {printable(result.id)}"
+        document = Document(result.id, [Table(_CRITERIA, _judged(result)), Lines(_counts(result))])
+        yield from (f"  {line}" for line in document_lines(document, width - 2))
+
+
+def series_markdown(results: Sequence[SeriesResult], limit: int) -> str:
+    """Return the series in at most so many bytes; empty without any."""
+    if not results:
+        return ""
+    text = f"{markdown_table(comparison_table(results), rest=_REST).within(limit // 3)}\n"
+    counts = [f"- {prose(f'{result.id}: {line}')}" for result in results for line in _counts(result)]
+    text += f"{_within(counts, limit // 3)}\n"
+    criteria = Table((_SERIES, *_CRITERIA), [judged for result in results for judged in _judged(result)])
+    return f"{text}{markdown_table(criteria, rest=_REST).within(limit - len(text.encode()))}\n"
+
+
+def _within(lines: Sequence[str], limit: int) -> str:
+    """Return as many whole lines as fit into so many bytes, and how many do not."""
+    sizes = accumulate(len(line.encode()) + 1 for line in lines)
+    fitting = sum(size <= limit for size in sizes)
+    rest = len(lines) - fitting
+    more = [f"- {counted(rest, 'more line')} in `series-stops.csv` and `results.json`"] if rest else []
+    return "".join(f"{line}\n" for line in [*lines[:fitting], *more])
