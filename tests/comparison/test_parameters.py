@@ -11,12 +11,12 @@ from uictest.analysis.comparison import (
     ParameterOfRun,
     Tolerances,
     compare_runs,
+    comparison_document,
     comparison_html,
-    comparison_lines,
 )
 from uictest.analysis.comparison.parameters import change_text
 from uictest.judging.evaluation import EffectivePart, Parameter
-from uictest.report import RunContent
+from uictest.report import RunContent, document_lines
 
 MakeRun = Callable[..., RunContent]
 
@@ -46,7 +46,9 @@ def test_the_parameter_that_changed_is_named(make_run: MakeRun) -> None:
             ("dry-120",),
         )
     ]
-    assert "parameter controller.slip_threshold: 4 km/h -> 3 km/h (in dry-120)" in comparison_lines(found)
+    assert "parameter controller.slip_threshold: 4 km/h -> 3 km/h (in dry-120)" in document_lines(
+        comparison_document(found), None
+    )
     assert found.to_dict()["parameters"][0]["second"] == "3 km/h"
     assert "<td>4 km/h</td><td>3 km/h</td>" in comparison_html(found)
 

@@ -17,12 +17,19 @@ from uictest.analysis.comparison import (
     accepted_document,
     compare_runs,
     compare_variants,
-    comparison_lines,
+    comparison_document,
 )
 from uictest.core.series_measures import SeriesValue, mean_of
 from uictest.judging import series
 from uictest.judging.evaluation import CaseResult, Verdict
-from uictest.report import RunContent, junit_text, missing_annotations, missing_lines, run_suites
+from uictest.report import (
+    RunContent,
+    document_lines,
+    junit_text,
+    missing_annotations,
+    missing_lines,
+    run_suites,
+)
 from uictest.report.document import baseline_form, read_baseline_comparison
 
 MakeCase = Callable[..., CaseResult]
@@ -79,7 +86,7 @@ def test_a_series_and_itself_agree(make_series: MakeSeries) -> None:
     assert found.agrees
     # The outcome, a criterion, the dry and the wet stops that count, two measures.
     assert found.compared == 6
-    assert list(comparison_lines(found)) == []
+    assert list(document_lines(comparison_document(found), None)) == []
 
 
 def test_verdicts_counts_and_measures_of_a_series_are_compared(make_series: MakeSeries) -> None:
@@ -120,7 +127,11 @@ def test_stops_of_a_series_that_met_the_same_noise_are_told_apart(make_series: M
     found = _compared([make_series([500.0, 510.0], keys=keys)], [make_series([501.0, 513.0], keys=keys)])
     (group,) = _paired(found).groups
     assert (group.pairs, group.draws) == (4, 2)
-    line = next(line for line in comparison_lines(found) if line.startswith("paired: acceptance"))
+    line = next(
+        line
+        for line in document_lines(comparison_document(found), None)
+        if line.startswith("paired: acceptance")
+    )
     assert "only 2 draws of noise, so that the intervals are too narrow" in line
 
 

@@ -11,13 +11,13 @@ from uictest.analysis.comparison import (
     Tolerances,
     compare_recordings,
     compare_runs,
+    comparison_document,
     comparison_html,
     comparison_json,
-    comparison_lines,
     verdict_line,
 )
 from uictest.core.recording import Recording
-from uictest.report import RunContent
+from uictest.report import RunContent, document_lines
 
 MakeRun = Callable[..., RunContent]
 MakeRecording = Callable[..., Recording]
@@ -27,10 +27,13 @@ HOSTILE = "\x1b[31m=cmd() <b>x</b></script>\u202e"
 
 def test_only_what_is_out_of_tolerance_is_shown_unless_asked(make_run: MakeRun) -> None:
     found = compare_runs(make_run(), make_run(braking_distance_m=470.0, braking_time_s=27.51), DEFAULT)
-    heading, line = comparison_lines(found)
+    heading, line = document_lines(comparison_document(found), None)
     assert heading.split() == ["case", "quantity", "first", "second", "deviation", "allowed", "unit"]
     assert line.split()[:5] == ["differs", "dry-120", "braking_distance_m", "465", "470"]
-    assert [row.split()[0] for row in comparison_lines(found, every=True)][1:] == ["differs", "within"]
+    assert [row.split()[0] for row in document_lines(comparison_document(found, every=True), None)][1:] == [
+        "differs",
+        "within",
+    ]
     assert verdict_line(found) == "41 quantities compared: 1 out of tolerance, 1 different within tolerance"
 
 
@@ -39,7 +42,7 @@ def test_on_a_narrow_terminal_the_case_stands_above_its_figures(make_run: MakeRu
     case_id = "wet-80-friction[friction=0.10,command=80]"
     changes = {"braking_distance_m": 470.0, "verdict": "fail"}
     found = compare_runs(make_run(case_id=case_id), make_run(case_id=case_id, **changes), DEFAULT)
-    lines = list(comparison_lines(found, width=width))
+    lines = list(document_lines(comparison_document(found), width))
     assert max(len(line) for line in lines if not line.startswith("not shown")) <= width
     assert case_id in "".join(line.strip() for line in lines[:2])
     assert any({"465", "470"} <= set(line.split()) for line in lines)
@@ -49,7 +52,7 @@ def test_on_a_narrow_terminal_the_case_stands_above_its_figures(make_run: MakeRu
 
 def test_nothing_is_shown_of_what_is_the_same(make_run: MakeRun) -> None:
     found = compare_runs(make_run(), make_run(), DEFAULT)
-    assert list(comparison_lines(found, every=True)) == []
+    assert list(document_lines(comparison_document(found, every=True), None)) == []
     assert verdict_line(found) == "41 quantities compared, no difference"
 
 
@@ -67,7 +70,7 @@ def test_hostile_names_of_channels_are_text_on_the_terminal_and_on_the_page(
     found = compare_recordings(
         make_recording(**channels), make_recording(**{HOSTILE: np.ones(101)}), (HOSTILE, HOSTILE), DEFAULT
     )
-    shown = "\n".join(comparison_lines(found))
+    shown = "\n".join(document_lines(comparison_document(found), None))
     html = comparison_html(found)
     for text in (shown, html):
         assert "\x1b" not in text
@@ -89,8 +92,16 @@ def test_the_worst_wheelset_stands_for_all_unless_every_one_is_asked_for(make_ru
     slid = [{**after.results[0].wheelsets[0], "maximum_slide": slide} for slide in (0.3, 0.4)]
     after = RunContent("after", [dataclasses.replace(after.results[0], wheelsets=tuple(slid))])
     found = compare_runs(before, after, DEFAULT)
-    rows = [line.split() for line in comparison_lines(found) if line.startswith("differs")]
+    rows = [
+        line.split()
+        for line in document_lines(comparison_document(found), None)
+        if line.startswith("differs")
+    ]
     assert [row[2:5] for row in rows] == [["maximum_slide_2", "0.02", "0.4"]]
     assert rows[0][7:] == ["1", "worst", "of", "2", "wheelsets"]
-    every = [line.split()[2] for line in comparison_lines(found, every=True) if line.startswith("differs")]
+    every = [
+        line.split()[2]
+        for line in document_lines(comparison_document(found, every=True), None)
+        if line.startswith("differs")
+    ]
     assert every == ["maximum_slide_1", "maximum_slide_2"]

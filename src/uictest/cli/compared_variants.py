@@ -24,7 +24,7 @@ def compare_variants(place: Path, keys: Sequence[str], shown: PlainFormat, page:
     if shown is PlainFormat.JSON:
         data(comparison.variants_json(run.name, compared))
     else:
-        for line in comparison.variants_lines(compared, terminal_width(sys.stdout)):
+        for line in report.document_lines(comparison.variants_document(compared), terminal_width(sys.stdout)):
             data(line)
     if page is not None:
         files.write_to(page, comparison.variants_html(run.name, compared))

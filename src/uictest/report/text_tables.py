@@ -94,15 +94,21 @@ def _section(section: Table | Lines) -> str:
 
 def markdown_table(table: Table, most: int | None = None, rest: str = "") -> MarkdownTable:
     """Return a table as Markdown; `most` and `rest` as there."""
-    rows = [row(_markdown_cell(each, item) for each in table.columns) for item in table.rows]
-    headings = [prose(each.heading.replace("\n", ", ")) for each in table.columns]
-    alignment = "".join("r" if each.right else "l" for each in table.columns)
+    columns = [each for each, _ in table.texts]
+    cells = [_markdown_cells(each, texts, table.rows) for each, texts in table.texts]
+    headings = [prose(each.heading.replace("\n", ", ")) for each in columns]
+    alignment = "".join("r" if each.right else "l" for each in columns)
+    rows = list(map(row, zip(*cells, strict=True)))
     return MarkdownTable(headings, alignment, rows, rest or table.more, most)
 
 
-def _markdown_cell(column: Column[Any], item: Any) -> str:
-    text = (code if column.literal else prose)(column.text(item))
-    return f"**{text}**" if column.stands_out is not None and column.stands_out(item) else text
+def _markdown_cells(column: Column[Any], texts: Iterable[str], rows: Iterable[Any]) -> list[str]:
+    cells = map(code if column.literal else prose, texts)
+    if column.stands_out is None:
+        return list(cells)
+    return [
+        f"**{cell}**" if column.stands_out(item) else cell for cell, item in zip(cells, rows, strict=True)
+    ]
 
 
 def row(cells: Iterable[str]) -> str:

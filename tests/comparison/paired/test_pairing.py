@@ -13,15 +13,15 @@ from uictest.analysis.comparison import (
     Tolerances,
     compare_runs,
     compare_variants,
+    comparison_document,
     comparison_html,
     comparison_json,
-    comparison_lines,
+    variants_document,
     variants_html,
     variants_json,
-    variants_lines,
 )
 from uictest.judging.evaluation import CaseResult, EffectivePart, Parameter
-from uictest.report import RunContent
+from uictest.report import RunContent, document_lines
 
 Make = Callable[..., CaseResult]
 BEFORE = {1: 500.0, 2: 510.0, 3: 520.0}
@@ -106,7 +106,9 @@ def test_what_does_not_pair_is_named_with_its_reason(make_repeated: Make) -> Non
     assert found.paired is not None
     assert found.paired.groups == ()
     assert [each.name for each in found.paired.not_paired] == ["alone", "slip"]
-    lines = [line for line in comparison_lines(found) if line.startswith("not paired")]
+    lines = [
+        line for line in document_lines(comparison_document(found), None) if line.startswith("not paired")
+    ]
     assert lines[0] == "not paired: alone: only one has it"
     assert lines[1].startswith("not paired: slip: the stops met other noise: ")
 
@@ -117,12 +119,12 @@ def test_single_stops_and_runs_that_are_the_same_say_nothing_of_pairs(make_repea
     assert found.paired is not None
     assert (found.paired.groups, found.paired.not_paired) == ((), ())
     same = [make_repeated(BEFORE)]
-    assert list(comparison_lines(_compared(same, same))) == []
+    assert list(document_lines(comparison_document(_compared(same, same)), None)) == []
 
 
 def test_terminal_json_and_page_have_the_method_and_the_numbers(make_repeated: Make) -> None:
     found = _compared([make_repeated(BEFORE)], [make_repeated({**AFTER, 4: 500.0})])
-    lines = list(comparison_lines(found))
+    lines = list(document_lines(comparison_document(found), None))
     paired = lines.index(
         "paired: slip: 3 pairs, seeds 1..3; without a partner: 0 of the first, 1 of the second"
     )
@@ -130,7 +132,7 @@ def test_terminal_json_and_page_have_the_method_and_the_numbers(make_repeated: M
     assert "order statistics" in lines[paired - 1]
     row = lines[paired + 2].split("  ")
     assert [cell.strip() for cell in row if cell.strip()] == [
-        *("braking_distance_m", "510", "501", "-10.333", "-14.128 .. -6.5388"),
+        *("braking_distance_m", "510", "501", "-10.333", "-2.03", "-14.128 .. -6.5388"),
         *("-10", "-", "0 of 3", "m"),
     ]
     form = json.loads(comparison_json(found))["paired"]["groups"][0]
@@ -166,7 +168,7 @@ def test_variants_of_a_run_are_compared_with_the_first(make_repeated: Make) -> N
         "slip[rail.friction=0.09]",
     ]
     assert found[0].not_paired[0].reason == "only controller=a has it"
-    assert "first controller=a, second controller=b" in list(variants_lines(found))
+    assert "first controller=a, second controller=b" in list(document_lines(variants_document(found), None))
     document = json.loads(variants_json("run", found))
     assert (document["schema"], len(document["variants"])) == ("uictest/variants/1", 2)
     assert "slip[rail.friction=0.07]" in variants_html("run", found)

@@ -5,8 +5,8 @@ from .baseline import (
 )
 from .difference import (
     Comparison as Comparison,
+    comparison_document as comparison_document,
     comparison_json as comparison_json,
-    comparison_lines as comparison_lines,
     verdict_line as verdict_line,
 )
 from .page import comparison_html as comparison_html, variants_html as variants_html
@@ -22,7 +22,7 @@ from .paired.pairing import (
     variants_json as variants_json,
 )
 from .paired.variants import compare_variants as compare_variants
-from .paired.wording import variants_lines as variants_lines
+from .paired.wording import variants_document as variants_document
 from .parameters import ParameterChange as ParameterChange, ParameterOfRun as ParameterOfRun
 from .recordings import (
     compare_recordings as compare_recordings,

@@ -5,28 +5,21 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import groupby
-from typing import Any
+from typing import Any, Final
 
-from uictest import report
 from uictest.analysis.comparison.overlay import Overlay
 from uictest.analysis.comparison.paired.pairing import PairedComparison, paired_form
-from uictest.analysis.comparison.paired.wording import paired_lines
+from uictest.analysis.comparison.paired.wording import paired_sections
 from uictest.analysis.comparison.parameters import ParameterChange, parameter_lines
+from uictest.core.document import Column, Document, Lines, Table
 from uictest.report import (
+    DIFFERS,
     Difference,
-    TableColumn,
-    aligned,
-    columns_not_shown,
     counted,
     differences_form,
-    fitted,
     number,
-    printable,
     side_text,
-    table_width,
     worst_of_wheelsets,
-    wrapped_name,
 )
 
 
@@ -90,22 +83,19 @@ _MOST_PARAMETERS = 20
 """Changed parameters that are listed without `-v`; two vehicles differ in some 25."""
 
 
-def comparison_lines(
-    comparison: Comparison, *, every: bool = False, width: int | None = None
-) -> Iterator[str]:
-    """Yield a table of the differences out of tolerance, then paired differences, parameters and notes.
+def comparison_document(comparison: Comparison, *, every: bool = False) -> Document:
+    """Return the differences out of tolerance, then paired differences, parameters and notes.
 
     The table has only the worst wheelset for each measure of wheelsets; with `every`, it has all differences.
-    It is at most `width` characters wide, None for any width.
     """
-    shown = comparison.differences if every else worst_of_wheelsets(comparison.beyond)
-    if shown:
-        yield from _table(shown, width)
+    sections: list[Table | Lines] = [
+        _table(comparison.differences if every else worst_of_wheelsets(comparison.beyond))
+    ]
     if comparison.paired is not None:
-        yield from paired_lines(comparison.paired, width)
-    yield from _parameter_lines(comparison, every=every)
-    for note in comparison.notes:
-        yield f"note: {printable(note)}"
+        sections += paired_sections(comparison.paired)
+    sections.append(Lines(list(_parameter_lines(comparison, every=every))))
+    sections.append(Lines([f"note: {note}" for note in comparison.notes]))
+    return Document(f"{comparison.first} and {comparison.second}", sections)
 
 
 def _parameter_lines(comparison: Comparison, *, every: bool) -> Iterator[str]:
@@ -117,22 +107,28 @@ def _parameter_lines(comparison: Comparison, *, every: bool) -> Iterator[str]:
         yield f"parameters: {len(changes) - len(shown)} more differ; -v lists them"
 
 
-def _table(differences: Sequence[report.Difference], width: int | None) -> Iterator[str]:
-    """Yield the differences as one table; where that is too wide, as one below the id of each case."""
-    columns = _columns(differences)
-    if width is None or table_width(columns) <= width:
-        yield from aligned(columns)
-        return
-    all_hidden: dict[str, TableColumn] = {}
-    for case_id, group in groupby(differences, key=lambda each: each.case):
-        if case_id:
-            yield from wrapped_name(printable(case_id), width)
-        own = [column for column in _columns(list(group)) if column.title != "case"]
-        shown, hidden = fitted(own, width)
-        all_hidden |= {column.title: column for column in hidden}
-        yield from aligned(shown)
-    if line := columns_not_shown(list(all_hidden.values()), "--format json has them"):
-        yield line
+def _word(difference: Difference) -> str:
+    return "within" if difference.within else DIFFERS
+
+
+_CASE: Final[Column[Difference]] = Column(heading="case", text=lambda each: each.case, wraps=True)
+_COLUMNS: Final[tuple[Column[Difference], ...]] = (
+    _CASE,
+    Column(heading="quantity", text=lambda each: each.quantity, wraps=True),
+    Column(heading="first", text=lambda each: side_text(each.first)),
+    Column(heading="second", text=lambda each: side_text(each.second)),
+    Column(heading="deviation", text=lambda each: number(each.deviation), rank=2),
+    Column(heading="allowed", text=lambda each: number(each.allowed), rank=3),
+    Column(heading="unit", text=lambda each: each.unit or "-", rank=1),
+    Column(heading="remark", text=lambda each: each.remark, rank=4),
+)
+
+
+def _table(differences: Sequence[Difference]) -> Table:
+    # A word that all rows share is left out first.
+    word = Column(heading="", text=_word, rank=5 if len(set(map(_word, differences))) == 1 else 0)
+    more = "--format json has them"
+    return Table((word, *_COLUMNS), differences, more=more, grouped_by=_CASE)
 
 
 def comparison_json(comparison: Comparison) -> str:
@@ -147,23 +143,3 @@ def verdict_line(comparison: Comparison) -> str:
         return f"{count} compared, no difference"
     within = len(comparison.differences) - len(comparison.beyond)
     return f"{count} compared: {len(comparison.beyond)} out of tolerance, {within} different within tolerance"
-
-
-def _columns(differences: Sequence[report.Difference]) -> list[TableColumn]:
-    """Return the table of differences; without a case for recordings."""
-    words = ["within" if difference.within else report.DIFFERS for difference in differences]
-    # A word that all rows share is left out first.
-    rank_of_words = 5 if len(set(words)) == 1 else 0
-    cases = [printable(difference.case) for difference in differences]
-    columns = [
-        TableColumn("", words, rank_of_words),
-        TableColumn("case", cases, wraps=True),
-        TableColumn("quantity", [printable(difference.quantity) for difference in differences], wraps=True),
-        TableColumn("first", [printable(side_text(difference.first)) for difference in differences]),
-        TableColumn("second", [printable(side_text(difference.second)) for difference in differences]),
-        TableColumn("deviation", [number(difference.deviation) for difference in differences], rank=2),
-        TableColumn("allowed", [number(difference.allowed) for difference in differences], rank=3),
-        TableColumn("unit", [printable(difference.unit) or "-" for difference in differences], rank=1),
-        TableColumn("remark", [printable(difference.remark) for difference in differences], rank=4),
-    ]
-    return [column for column in columns if any(column.cells)]

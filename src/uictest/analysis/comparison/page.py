@@ -13,12 +13,9 @@ from uictest.analysis.comparison.difference import Comparison, verdict_line
 from uictest.analysis.comparison.overlay import BINS, Overlay, curve_name
 from uictest.analysis.comparison.paired.pairing import PairedComparison
 from uictest.analysis.comparison.paired.wording import (
-    HEADINGS,
     METHOD,
-    differing,
     group_text,
-    paired_cells,
-    paired_percent,
+    paired_table,
     same_text,
 )
 from uictest.core.measures import WHEELSET_COLUMNS
@@ -180,14 +177,10 @@ def _with_unit(each: ChannelDifference, text: str) -> str:
 
 
 _PAIRED: Final[dict[str, Any]] = {
-    "paired_headings": HEADINGS,
     "paired_method": METHOD,
-    "differing": differing,
-    "paired_cells": paired_cells,
+    "paired_table": paired_table,
     "group_text": group_text,
     "same_text": same_text,
-    "paired_mean": HEADINGS.index("mean"),
-    "paired_percent": paired_percent,
 }
 """What the tables of paired differences are made with."""
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from uictest.judging import evaluation
-from uictest.report import listed, printable
+from uictest.report import listed
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +47,7 @@ def change_text(change: ParameterChange) -> str:
 def parameter_lines(changes: Iterable[ParameterChange]) -> Iterator[str]:
     """Yield a line for each change, with the cases it is in."""
     for change in changes:
-        yield printable(f"parameter {change_text(change)} (in {listed(change.cases)})")
+        yield f"parameter {change_text(change)} (in {listed(change.cases)})"
 
 
 Change = tuple[str, ParameterOfRun | None, ParameterOfRun | None]

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from uictest import runs
+from uictest import report, runs
 from uictest.analysis import comparison
 from uictest.cli.compared_variants import compare_variants
 from uictest.cli.exit_codes import ExitCode
@@ -63,9 +63,8 @@ def compare(
     if shown is PlainFormat.JSON:
         data(comparison.comparison_json(compared))
     else:
-        for line in comparison.comparison_lines(
-            compared, every=verbosity > 0, width=terminal_width(sys.stdout)
-        ):
+        document = comparison.comparison_document(compared, every=verbosity > 0)
+        for line in report.document_lines(document, terminal_width(sys.stdout)):
             data(line)
     if page is not None:
         files.write_to(page, comparison.comparison_html(compared))

@@ -47,12 +47,27 @@ class Column(Generic[Row]):
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Rows under columns; `more` says where the columns and rows are that a format has no room for."""
+    """Rows under columns; a column in which no row has a text is not shown.
+
+    Args:
+        columns: from left to right.
+        rows: anything that the columns know.
+        title: what the table shows.
+        more: where the columns and rows are that a format has no room for.
+        grouped_by: column whose texts stand above the rows that share them where a terminal is too narrow.
+    """
 
     columns: Sequence[Column[Any]]
     rows: Sequence[Any]
     title: str = ""
     more: str = ""
+    grouped_by: Column[Any] | None = None
+
+    @property
+    def texts(self) -> list[tuple[Column[Any], list[str]]]:
+        """The columns that are shown, with a text for each row."""
+        columns = [(each, [each.text(row) for row in self.rows]) for each in self.columns]
+        return [(each, texts) for each, texts in columns if any(texts) or not texts]
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterator
+from itertools import groupby
 
 from uictest.core.document import Document, Lines, Table
 from uictest.report.escaping import printable
-from uictest.report.terminal.fitted_columns import TableColumn, aligned, columns_not_shown, fitted
+from uictest.report.terminal.fitted_columns import (
+    TableColumn,
+    aligned,
+    columns_not_shown,
+    fitted,
+    table_width,
+    wrapped_name,
+)
 
 
 def document_lines(document: Document, width: int | None) -> Iterator[str]:
@@ -20,19 +29,31 @@ def document_lines(document: Document, width: int | None) -> Iterator[str]:
 
 def table_lines(table: Table, width: int | None) -> Iterator[str]:
     """Yield the lines of a table; the last one names the columns left out and where they are."""
-    shown, hidden = fitted(table_columns(table), width)
-    yield from aligned(shown)
+    columns = _columns(table)
+    if width is None or table.grouped_by is None or table_width(columns) <= width:
+        shown, hidden = fitted(columns, width)
+        yield from aligned(shown)
+    else:
+        hidden = []
+        for lines, left_out in _groups(table, width):
+            yield from lines
+            hidden += [each for each in left_out if each.title not in {known.title for known in hidden}]
     if line := columns_not_shown(hidden, table.more):
         yield line
 
 
-def table_columns(table: Table) -> list[TableColumn]:
-    """Return the columns for people with their texts."""
+def _groups(table: Table, width: int) -> Iterator[tuple[list[str], list[TableColumn]]]:
+    """Yield the lines of each run of rows that share a text, and the columns left out there."""
+    common = table.grouped_by
+    assert common is not None
+    others = [each for each in table.columns if each is not common]
+    for text, rows in groupby(table.rows, key=common.text):
+        shown, hidden = fitted(_columns(dataclasses.replace(table, columns=others, rows=list(rows))), width)
+        yield [*(wrapped_name(printable(text), width) if text else ()), *aligned(shown)], hidden
+
+
+def _columns(table: Table) -> list[TableColumn]:
     return [
-        TableColumn(
-            each.heading,
-            [printable(each.text(row)) for row in table.rows],
-            *(each.rank, each.right, each.wraps),
-        )
-        for each in table.columns
+        TableColumn(each.heading, list(map(printable, texts)), each.rank, each.right, each.wraps)
+        for each, texts in table.texts
     ]

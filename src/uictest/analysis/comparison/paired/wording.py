@@ -1,26 +1,17 @@
-"""Paired differences in words: lines for the terminal, cells for the page."""
+"""Paired differences as a document."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Final
 
 from uictest.analysis.comparison.paired.difference import CONFIDENCE, PairedDifference, PairedGroup
 from uictest.analysis.comparison.paired.pairing import PairedComparison
+from uictest.core.document import Column, Document, Lines, Table
 from uictest.core.series_measures import Estimate
 from uictest.judging import evaluation
-from uictest.report import (
-    TableColumn,
-    aligned,
-    columns_not_shown,
-    counted,
-    fitted,
-    number,
-    percent_text,
-    printable,
-    relative_percent,
-)
+from uictest.report import counted, number, percent_text, relative_percent
 
 METHOD: Final = (
     "second - first, stop by stop under the same noise: mean with its interval by Student's t, median with"
@@ -28,38 +19,28 @@ METHOD: Final = (
 )
 """How all paired differences are made."""
 
-HEADINGS: Final = (
-    *("quantity", "first", "second", "mean", "interval", "median", "interval of the median"),
-    *("second larger", "unit"),
-)
-_RANKS: Final = (0, 4, 4, 0, 0, 2, 2, 3, 1)
 
-
-def paired_lines(compared: PairedComparison, width: int | None = None) -> Iterator[str]:
-    """Yield a table per group that differs, and why the stops of the others do not pair.
-
-    The tables are at most `width` characters wide, None for any width.
-    """
+def paired_sections(compared: PairedComparison) -> list[Table | Lines]:
+    """Return a table per group that differs, and why the stops of the others do not pair."""
     groups = [group for group in compared.groups if differing(group)]
-    if groups:
-        yield f"paired: {METHOD}"
+    sections: list[Table | Lines] = [Lines([f"paired: {METHOD}"])] if groups else []
     for group in groups:
-        yield f"paired: {printable(group_text(group))}"
-        yield from _table(group, width)
-        if same := same_text(group):
-            yield same
-    for each in compared.not_paired:
-        yield f"not paired: {printable(f'{each.name}: {each.reason}')}"
+        sections += [Lines([f"paired: {group_text(group)}"]), paired_table(group)]
+        sections.append(Lines(list(filter(None, [same_text(group)]))))
+    sections.append(Lines([f"not paired: {each.name}: {each.reason}" for each in compared.not_paired]))
+    return sections
 
 
-def variants_lines(compared: Sequence[PairedComparison], width: int | None = None) -> Iterator[str]:
-    """Yield the lines of every variant of a run, under the names of both sides."""
+def variants_document(compared: Sequence[PairedComparison]) -> Document:
+    """Return every variant of a run, under the names of both sides."""
+    sections: list[Table | Lines] = []
     for each in compared:
-        yield printable(f"first {each.first}, second {each.second}")
-        lines = list(paired_lines(each, width))
-        yield from lines
-        if not lines:
-            yield "no difference in any pair" if each.groups else "no case or series has several stops"
+        sections.append(Lines([f"first {each.first}, second {each.second}"]))
+        sections += paired_sections(each)
+        if not each.not_paired and not any(map(differing, each.groups)):
+            none = "no difference in any pair" if each.groups else "no case or series has several stops"
+            sections.append(Lines([none]))
+    return Document("Variants", sections)
 
 
 def group_text(group: PairedGroup) -> str:
@@ -90,26 +71,31 @@ def interval_text(estimate: Estimate) -> str:
     return "-" if any(map(math.isnan, ends)) else " .. ".join(map(number, ends))
 
 
-def paired_cells(each: PairedDifference) -> tuple[str, ...]:
-    """Return the cells of a quantity under `HEADINGS`."""
-    numbers = number(each.first), number(each.second), number(each.mean.value), interval_text(each.mean)
-    larger = f"{each.larger} of {each.pairs}" + (f" ({each.missing} without)" if each.missing else "")
-    medians = number(each.median.value), interval_text(each.median)
-    return (each.quantity, *numbers, *medians, larger, each.unit)
+def _larger(each: PairedDifference) -> str:
+    return f"{each.larger} of {each.pairs}" + (f" ({each.missing} without)" if each.missing else "")
 
 
-def paired_percent(each: PairedDifference) -> str:
+def _percent(each: PairedDifference) -> str:
     """Return the mean difference in per cent of the median of the first side; `-` where that is 0."""
     return percent_text(relative_percent(each.first, each.first + each.mean.value, each.unit))
 
 
-def _table(group: PairedGroup, width: int | None) -> Iterator[str]:
-    cells = zip(*map(paired_cells, differing(group)), strict=True)
-    columns = [
-        TableColumn(heading, list(map(printable, texts)), rank)
-        for heading, texts, rank in zip(HEADINGS, cells, _RANKS, strict=True)
-    ]
-    shown, hidden = fitted(columns, width)
-    yield from aligned(shown)
-    if line := columns_not_shown(hidden, "--format json has them"):
-        yield line
+_COLUMNS: Final[tuple[Column[PairedDifference], ...]] = (
+    Column(heading="quantity", text=lambda each: each.quantity),
+    Column(heading="first", text=lambda each: number(each.first), rank=4, right=True),
+    Column(heading="second", text=lambda each: number(each.second), rank=4, right=True),
+    Column(heading="mean", text=lambda each: number(each.mean.value), right=True),
+    Column(heading="% of first", text=_percent, rank=5, right=True),
+    Column(heading="interval", text=lambda each: interval_text(each.mean), right=True),
+    Column(heading="median", text=lambda each: number(each.median.value), rank=2, right=True),
+    Column(
+        heading="interval of the median", text=lambda each: interval_text(each.median), rank=2, right=True
+    ),
+    Column(heading="second larger", text=_larger, rank=3, right=True),
+    Column(heading="unit", text=lambda each: each.unit, rank=1),
+)
+
+
+def paired_table(group: PairedGroup) -> Table:
+    """Return the quantities of a group that differ in some pair."""
+    return Table(_COLUMNS, differing(group), more="--format json has them")
