@@ -134,7 +134,7 @@ def _read(terminal: int) -> bytes:
 
 
 def _variables(tree: Path, scratch: Path) -> dict[str, str]:
-    """Return the variables of commands for which `uictest` and `python` are those of the tree.
+    """Return the variables of commands for which `uictest`, `reproduce` and `python` are those of the tree.
 
     They have an environment of their own: some processes of the program ignore PYTHONPATH.
     """
@@ -142,12 +142,18 @@ def _variables(tree: Path, scratch: Path) -> dict[str, str]:
     venv.EnvBuilder(symlinks=True).create(place)
     packages = next(place.glob("lib/python*/site-packages"))
     ours = [entry for entry in sys.path if entry.endswith("site-packages")]
-    (packages / "tree.pth").write_text("\n".join([str(tree / "src"), *ours, ""]))
+    (packages / "tree.pth").write_text("\n".join([str(tree / "src"), str(tree), *ours, ""]))
     script = tomllib.loads((tree / "pyproject.toml").read_text("utf-8"))["project"]["scripts"]["uictest"]
     module, _, function = script.partition(":")
     program = place / "bin/uictest"
     program.write_text(f"#!{place}/bin/python\nfrom {module} import {function}\n\n{function}()\n")
     program.chmod(0o755)
+    # A revision whose studies are in the package has them as a command of the program.
+    beside = (tree / "studies/__main__.py").is_file()
+    studies = f"{place}/bin/python -m studies" if beside else f"{program} reproduce"
+    reproduce = place / "bin/reproduce"
+    reproduce.write_text(f'#!/bin/sh\nexec {studies} "$@"\n')
+    reproduce.chmod(0o755)
     kept = {name: os.environ[name] for name in ("HOME", "UICTEST_CACHE", "CC") if name in os.environ}
     fixed = {"LC_ALL": "C.UTF-8", "TZ": "UTC", "TERM": "dumb", "COLUMNS": "110", "MPLBACKEND": "agg"}
     return {**kept, **fixed, "PATH": f"{place / 'bin'}{os.pathsep}{os.environ['PATH']}"}

@@ -12,6 +12,7 @@ import pty
 import re
 import shutil
 import subprocess
+import sys
 import sysconfig
 from collections.abc import Callable
 from pathlib import Path
@@ -42,8 +43,13 @@ def refreshed(page: str, folder: Path) -> str:
 
 
 def prepare(page: str, folder: Path) -> None:
-    """Put the shipped scenarios and the files that the page shows into ``folder``."""
+    """Put the shipped scenarios, the files that the page shows and `./reproduce` into ``folder``."""
     shutil.copytree(REPOSITORY / "scenarios", folder / "scenarios", dirs_exist_ok=True)
+    if "$ ./reproduce" in page:
+        # The script in the repository would set up an environment; here there is one.
+        script = f"#!/bin/sh\nPYTHONPATH='{REPOSITORY}' exec '{sys.executable}' -m studies \"$@\"\n"
+        (folder / "reproduce").write_text(script, "utf-8")
+        (folder / "reproduce").chmod(0o755)
     for block in (*blocks(page, "yaml"), *blocks(page, "python")):
         if block.file_name is not None:
             target = folder / block.file_name

@@ -1,4 +1,4 @@
-"""Pictures that a study draws, as `uictest reproduce` does, in few colours and at the width of a page."""
+"""Pictures that a study draws, as `./reproduce` does, in few colours and at the width of a page."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+_REPOSITORY = Path(__file__).parents[2]
 _WIDTH = 1000  # pixels
 _COLOURS = 48
 
@@ -15,8 +16,8 @@ def draw(picture: Path, folder: Path) -> None:
     from PIL import Image
 
     study = picture.stem
-    command = [sys.executable, "-m", "uictest", "reproduce", study, "-q", "-o", str(folder)]
-    subprocess.run(command, check=True)
+    command = [sys.executable, "-m", "studies", study, "-q", "-o", str(folder)]
+    subprocess.run(command, cwd=_REPOSITORY, check=True)
     with Image.open(folder / study / f"{study}.png") as figure:
         height = round(figure.height * _WIDTH / figure.width)
         small = figure.convert("RGB").resize((_WIDTH, height), Image.Resampling.LANCZOS)

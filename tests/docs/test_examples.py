@@ -17,6 +17,7 @@ from unittest.mock import patch
 import pytest
 import yaml
 
+from studies.study import STUDIES
 from uictest.cli.entry import execute
 from uictest.plans import scenario
 from uictest.plans.scenario import ScenarioErrors
@@ -27,7 +28,6 @@ from uictest.plans.sweeps import load_sweep
 from uictest.plans.validation import ValidationFile
 from uictest.recorded.field_data import load_map
 from uictest.rig.bench.recipe import load_bench
-from uictest.studies import STUDIES
 
 REPOSITORY = Path(__file__).parents[2]
 SLOW_STUDIES = ("compensation-domain", "field-against-rig")
@@ -115,7 +115,7 @@ def takes_long(block: Any) -> bool:
 
     The block with all of them is compared to the digit by tests/studies/test_claims.py.
     """
-    return any(f"uictest reproduce {each}" in block.text for each in (*SLOW_STUDIES, "-q\n"))
+    return any(f"./reproduce {each}" in block.text for each in (*SLOW_STUDIES, "-q\n"))
 
 
 class Terminal(io.StringIO):

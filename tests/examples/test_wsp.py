@@ -64,7 +64,7 @@ def test_each_series_has_five_frictions_two_speeds_and_ten_seeds(load: Load) -> 
 def test_no_friction_and_no_seed_was_used_to_calibrate_or_to_judge_the_compensation(load: Load) -> None:
     used = [
         yaml.safe_load((ROOT / name).read_text())
-        for name in ("calibration/conditions.yaml", "src/uictest/studies/conditions/judgement.yaml")
+        for name in ("calibration/conditions.yaml", "studies/conditions/judgement.yaml")
     ]
     frictions = {friction for each in used for friction in each["frictions"]}
     seeds = {seed for each in used for seed in each.get("seeds", ())}

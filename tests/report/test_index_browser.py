@@ -8,19 +8,12 @@ from typing import Any
 
 import pytest
 
+from studies.page import write_pages
+from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
+from studies.study import Study, StudyFindings, StudyResult
+from studies.writing import write_figures
 from uictest import report, runs
 from uictest.judging.evaluation import CaseResult
-from uictest.studies import (
-    OwnBand,
-    SourceBand,
-    Study,
-    StudyFindings,
-    StudyQuantity,
-    StudyResult,
-    StudyValue,
-    write_figures,
-    write_pages,
-)
 
 from .chromium import emulate, resize, run, wait
 from .test_accessibility import appearances, violations
@@ -71,7 +64,7 @@ def study_page(tmp_path: Path) -> Path:
     )
     pytest.importorskip("matplotlib")
     write_figures(tmp_path, result)
-    write_pages(tmp_path, [result], [], ["reproduce"])
+    write_pages(tmp_path, [result], [], [])
     return tmp_path / "made-up" / "index.html"
 
 

@@ -7,18 +7,9 @@ from functools import cache
 
 import pytest
 
-from uictest.studies import (
-    STUDIES,
-    OwnBand,
-    SourceBand,
-    StopRunner,
-    Study,
-    StudyFindings,
-    StudyQuantity,
-    StudyResult,
-    StudyValue,
-    run_study,
-)
+from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
+from studies.stop_runner import StopRunner
+from studies.study import STUDIES, Study, StudyFindings, StudyResult, run_study
 
 RunStudy = Callable[[str], StudyResult]
 

@@ -3,9 +3,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from studies.neighbourhood import BANDS, PAPER, counts, in_bands, in_order, mean_counts
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig import SimulatedStop
-from uictest.studies.neighbourhood import BANDS, PAPER, counts, in_bands, in_order, mean_counts
 
 
 def stop(*vents: int) -> SimulatedStop:

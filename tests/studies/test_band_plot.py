@@ -3,8 +3,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import assume, given, strategies as st
 
-from uictest.studies import OwnBand, StudyQuantity, StudyValue
-from uictest.studies.quantity import WIDTH, BandPlot, PaperComparison, band_plot
+from studies.quantity import WIDTH, BandPlot, OwnBand, PaperComparison, StudyQuantity, StudyValue, band_plot
 
 numbers = st.floats(-1e6, 1e6)
 

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from uictest.studies import STUDIES, StudyResult
-from uictest.studies.comparison import band_text, ours_text
+from studies.comparison import band_text, ours_text
+from studies.study import STUDIES, StudyResult
 
 _SLOW = frozenset({"compensation-domain", "field-against-rig", "robustness"})
 

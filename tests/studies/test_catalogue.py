@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from uictest.studies import STUDIES, StudyQuantity, experiments
-from uictest.studies.study import find_studies
+from studies import experiments
+from studies.quantity import StudyQuantity
+from studies.study import STUDIES, find_studies
 
 BANDS = {
     ("cylinder-dynamics", "before"): (4.0, 8.0),
@@ -64,7 +65,7 @@ def test_studies_are_listed_in_the_order_of_the_paper_then_ours() -> None:
 
 
 def test_a_new_study_is_one_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    text = "from uictest.studies.study import Study\nSTUDY = Study('new', 'New', '', (), None, position=15)\n"
+    text = "from studies.study import Study\nSTUDY = Study('new', 'New', '', (), None, position=15)\n"
     (tmp_path / "new_study.py").write_text(text)
     monkeypatch.setattr(experiments, "__path__", [*experiments.__path__, str(tmp_path)])
     names = list(find_studies())

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from uictest.studies import STUDIES, SourceBand, StudyResult, claims, misses
-from uictest.studies.quantity import NOT_ASKED, NOT_PUBLIC
+from studies.comparison import claims, misses
+from studies.quantity import NOT_ASKED, NOT_PUBLIC, SourceBand
+from studies.study import STUDIES, StudyResult
 
 REPOSITORY = Path(__file__).parents[2]
 TARGETS = {
@@ -64,6 +65,6 @@ def test_the_readme_counts_what_the_program_finds(result: Callable[[str], StudyR
     """To the digit: console blocks are otherwise compared without their numbers."""
     results = [result(name) for name in STUDIES]
     readme = (REPOSITORY / "README.md").read_text("utf-8")
-    block = re.search(r"^\$ uictest reproduce -q\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)
+    block = re.search(r"^\$ \./reproduce -q\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)
     assert block is not None
     assert block[1].splitlines() == [line.rstrip() for line in (*misses(results), *claims(results))]

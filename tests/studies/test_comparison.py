@@ -5,20 +5,19 @@ from dataclasses import replace
 
 import pytest
 
-from uictest.studies import (
-    OwnBand,
-    SourceBand,
-    StudyQuantity,
-    StudyResult,
-    StudyValue,
+from studies.comparison import (
+    band_text,
     claims,
-    document,
+    comparison_table,
     lines,
     misses,
-    study_table,
+    ours_text,
+    paper_text,
     tally,
 )
-from uictest.studies.comparison import band_text, comparison_table, ours_text, paper_text
+from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
+from studies.study import StudyResult
+from studies.table import document, study_table
 
 
 def test_lines_have_the_papers_value_ours_and_the_band(made_up: StudyResult) -> None:

@@ -9,11 +9,12 @@ from typing import Any
 import pytest
 import yaml
 
+from studies import judged_conditions as module
+from studies.judged_conditions import JudgedConditions, judged_cases, judged_conditions
+from studies.stop_runner import StopRunner
 from uictest.plans.scenario import ScenarioErrors, load
 from uictest.rig import bench
 from uictest.rig.bench.recipe import StopReplay
-from uictest.studies import StopRunner, judged_conditions as module
-from uictest.studies.judged_conditions import JudgedConditions, judged_cases, judged_conditions
 
 CALIBRATION = Path(__file__).parents[2] / "calibration" / "conditions.yaml"
 

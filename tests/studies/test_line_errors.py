@@ -1,8 +1,8 @@
 from __future__ import annotations
 
-from uictest.studies import StopRunner
-from uictest.studies.judged_conditions import JudgedConditions
-from uictest.studies.phases import held_out_errors, with_bc_lines
+from studies.judged_conditions import JudgedConditions
+from studies.phases import held_out_errors, with_bc_lines
+from studies.stop_runner import StopRunner
 
 
 def test_two_lines_are_those_of_the_bc() -> None:

@@ -3,8 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from studies.model_errors import force_channel, force_error, pressure_error
 from uictest.core.recording import Recording
-from uictest.studies.model_errors import force_channel, force_error, pressure_error
 
 UNITS = {
     "time": "s",

@@ -4,10 +4,10 @@ from typing import Any
 
 import pytest
 
+from studies import stop_runner
+from studies.neighbourhood import SEEDS, friction_sweep, neighbourhood
+from studies.stop_runner import StopRunner, constant_friction
 from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
-from uictest.studies import StopRunner, stop_runner
-from uictest.studies.neighbourhood import SEEDS, friction_sweep, neighbourhood
-from uictest.studies.stop_runner import constant_friction
 
 
 @pytest.fixture(autouse=True)

@@ -8,10 +8,12 @@ from typing import Any
 
 import pytest
 
-from uictest.studies import Study, StudyFindings, StudyResult, run_study, write_figures, write_pages
-from uictest.studies.stop_runner import StopRunner
+from studies.page import write_pages
+from studies.stop_runner import StopRunner
+from studies.study import Study, StudyFindings, StudyResult, run_study
+from studies.writing import write_figures
 
-ARGUMENTS = ("reproduce", "made-up")
+ARGUMENTS = ("made-up",)
 
 
 def page_of(folder: Path, name: str = "made-up") -> str:

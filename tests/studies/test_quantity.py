@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.studies.quantity import (
+from studies.quantity import (
     OwnBand,
     PaperComparison,
     SourceBand,

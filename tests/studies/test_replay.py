@@ -3,10 +3,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from studies.replay import CYCLE, maximum_pressure, replayed, replayed_in_turn
+from studies.stop_runner import StopRunner
 from uictest.core.recording import Recording
 from uictest.plans.scenario import Case
-from uictest.studies import StopRunner
-from uictest.studies.replay import CYCLE, maximum_pressure, replayed, replayed_in_turn
 
 
 @pytest.fixture(scope="module")

@@ -2,8 +2,9 @@ from __future__ import annotations
 
 import pytest
 
-from uictest.studies import StopRunner, slip_brake_tests
-from uictest.studies.slip_brake_tests import CLEANED, CONTROLLERS, Map, slip_tests
+from studies import slip_brake_tests
+from studies.slip_brake_tests import CLEANED, CONTROLLERS, Map, slip_tests
+from studies.stop_runner import StopRunner
 
 SMALL, DEEP = CONTROLLERS
 

@@ -5,9 +5,9 @@ from typing import Any
 
 import pytest
 
+from studies.phases import Loop, slope_spread, slopes_table
 from uictest.rig.identification import HysteresisResult
 from uictest.rig.identification.lines import FittedLine
-from uictest.studies.phases import Loop, slope_spread, slopes_table
 
 
 def loop(level: str, **slopes: float) -> Loop:

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from studies import stop_runner
+from studies.stop_runner import StopRunner, seeded
 from uictest import rig
 from uictest.plans.scenario import Case, load
-from uictest.studies import StopRunner, stop_runner
-from uictest.studies.stop_runner import seeded
 
 SHIPPED = Path(__file__).parents[2] / "scenarios"
 

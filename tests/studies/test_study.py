@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from uictest.studies import StopRunner, StudyFindings, StudyResult, StudyValue, run_study
+from studies.quantity import StudyValue
+from studies.stop_runner import StopRunner
+from studies.study import StudyFindings, StudyResult, run_study
 
 
 def test_one_figure_outside_its_band_decides(made_up: StudyResult) -> None:

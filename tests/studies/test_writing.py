@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from uictest.studies import STUDIES, StudyFindings, StudyResult, write_comparison, write_figures, write_tables
-from uictest.studies.writing import table_text
+from studies.study import STUDIES, StudyFindings, StudyResult
+from studies.writing import table_text, write_comparison, write_figures, write_tables
 
 QUICK = ("bench-loops", "four-phase-lines", "command-level", "slide-test", "valve-actuations", "appendix-b")
 

@@ -45,7 +45,6 @@ _COMMANDS: Final = {
     "export-rig": "export_rig",
     "fit": "fit",
     "bench": "bench",
-    "reproduce": "reproduce",
     "report": "report",
     "open": "open_page",
     "compare": "compare",

@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from studies.experiments import compensation_domain
+from studies.figures.compensation_domain import worst_by_cell
+from studies.judged_conditions import JudgedConditions, judged_cases
+from studies.model_errors import ReplayErrors, SettingErrors, replay_errors
+from studies.quantity import OwnBand, SourceBand
+from studies.stop_runner import StopRunner
+from studies.study import STUDIES, run_study
 from uictest.plans.scenario import COMPENSATION_SETTINGS
-from uictest.studies import STUDIES, StopRunner, run_study
-from uictest.studies.experiments import compensation_domain
-from uictest.studies.figures.compensation_domain import worst_by_cell
-from uictest.studies.judged_conditions import JudgedConditions, judged_cases
-from uictest.studies.model_errors import ReplayErrors, SettingErrors, replay_errors
-from uictest.studies.quantity import OwnBand, SourceBand
 
 FEW = JudgedConditions(frictions=(0.11,), positions=("R", "emergency"), wheelsets=(2,), seeds=(31,))
 QUANTITIES = {quantity.key: quantity for quantity in STUDIES["compensation-domain"].quantities}

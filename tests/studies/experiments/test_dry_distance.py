@@ -4,10 +4,8 @@ from typing import Any
 
 import pytest
 
-from uictest.plans.scenario import COMPENSATION_SETTINGS
-from uictest.studies import STUDIES, StopRunner, run_study
-from uictest.studies.experiments import dry_distance
-from uictest.studies.experiments.dry_distance import (
+from studies.experiments import dry_distance
+from studies.experiments.dry_distance import (
     COMMANDS,
     RIGS,
     SPEEDS,
@@ -16,6 +14,9 @@ from uictest.studies.experiments.dry_distance import (
     dry_stops,
     worst_stop,
 )
+from studies.stop_runner import StopRunner
+from studies.study import STUDIES, run_study
+from uictest.plans.scenario import COMPENSATION_SETTINGS
 
 
 @pytest.fixture

@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
+from studies.experiments.four_phase_lines import _gain, apart
+from studies.phases import LineErrors
 from uictest.rig.identification.lines import FittedLine
-from uictest.studies.experiments.four_phase_lines import _gain, apart
-from uictest.studies.phases import LineErrors
 
 
 def hysteresis(**lines: FittedLine) -> Any:

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from studies.experiments.rig_equivalence import RIGS, TRAIN, differences_at, overall
+from studies.neighbourhood import FOUR_CALIPER, SETTINGS, Point, mean_counts
 from uictest.core.measures import STOP_MEASURES as STOP, WHEELSET_MEASURES
 from uictest.rig import SimulatedStop
-from uictest.studies.experiments.rig_equivalence import RIGS, TRAIN, differences_at, overall
-from uictest.studies.neighbourhood import FOUR_CALIPER, SETTINGS, Point, mean_counts
 
 
 def stop(distance: float, *vents: int) -> SimulatedStop:

@@ -6,17 +6,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig import SimulatedStop
-from uictest.studies.experiments.robustness import (
+from studies.experiments.robustness import (
     SweptFriction,
     _in_order,
     _ratio,
     _values_of_sweep,
     swept_friction,
 )
-from uictest.studies.figures.robustness import draw_sweep
-from uictest.studies.neighbourhood import Point
+from studies.figures.robustness import draw_sweep
+from studies.neighbourhood import Point
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig import SimulatedStop
 
 
 def stop(*vents: int) -> SimulatedStop:

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
+from studies.field.families import DRY, Assumptions
+from studies.field.field_rig import FieldRig, field_stop
+from studies.stop_runner import StopRunner
 from uictest import rig
-from uictest.studies import StopRunner
-from uictest.studies.field.families import DRY, Assumptions
-from uictest.studies.field.field_rig import FieldRig, field_stop
 
 SPEED = 80.0 / 3.6
 DRY_STOP = Assumptions("constant", DRY, 0.0, "ep-disc", 0.8)

@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import pytest
 
-from uictest.studies import OwnBand
-from uictest.studies.experiments.field_against_rig import QUANTITIES
-from uictest.studies.field.real_train import REAL_TRAIN, TOLERANCES, FieldStop, even_braking_delay
+from studies.experiments.field_against_rig import QUANTITIES
+from studies.field.real_train import REAL_TRAIN, TOLERANCES, FieldStop, even_braking_delay
+from studies.quantity import OwnBand
 
 
 def _stop(**figures: float) -> FieldStop:

@@ -4,11 +4,11 @@ from collections import Counter
 
 import pytest
 
-from uictest.studies import StopRunner
-from uictest.studies.field import real_train
-from uictest.studies.field.families import CARRY_OVERS, FAMILIES, SHAPES, Assumptions, Family
-from uictest.studies.field.field_rig import FieldRig
-from uictest.studies.field.search import Trial, closest, evenly_spread, neighbours, search
+from studies.field import real_train
+from studies.field.families import CARRY_OVERS, FAMILIES, SHAPES, Assumptions, Family
+from studies.field.field_rig import FieldRig
+from studies.field.search import Trial, closest, evenly_spread, neighbours, search
+from studies.stop_runner import StopRunner
 
 BY_NAME = {family.name: family for family in FAMILIES}
 

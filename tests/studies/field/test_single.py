@@ -4,14 +4,14 @@ from dataclasses import fields, replace
 
 import pytest
 
-from uictest.studies import StopRunner
-from uictest.studies.field import real_train
-from uictest.studies.field.families import FAMILIES, Assumptions
-from uictest.studies.field.field_rig import FieldRig
-from uictest.studies.field.real_train import REAL_TRAIN, FieldStop
-from uictest.studies.field.search import Trial
-from uictest.studies.field.single import VARIATIONS, Point, Variation, Varied, one_at_a_time, plainest
-from uictest.studies.field.tables import notes, simplest
+from studies.field import real_train
+from studies.field.families import FAMILIES, Assumptions
+from studies.field.field_rig import FieldRig
+from studies.field.real_train import REAL_TRAIN, FieldStop
+from studies.field.search import Trial
+from studies.field.single import VARIATIONS, Point, Variation, Varied, one_at_a_time, plainest
+from studies.field.tables import notes, simplest
+from studies.stop_runner import StopRunner
 
 PLAIN = Assumptions("constant", 0.17, 0.0, "ep-disc", 0.8)
 

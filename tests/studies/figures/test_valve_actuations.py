@@ -2,8 +2,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from studies.figures.valve_actuations import ActuationPanel, openings
 from uictest.core.recording import Recording
-from uictest.studies.figures.valve_actuations import ActuationPanel, openings
 
 
 def test_an_opening_is_marked_where_the_vent_begins() -> None:

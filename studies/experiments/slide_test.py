@@ -1,0 +1,134 @@
+"""The slide test from 80 km/h against that of the real train."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+
+from studies.figures.slide_test import draw
+from studies.quantity import OwnBand, StudyQuantity, StudyValue, repeats_note, spread
+from studies.replay import CYCLE
+from studies.stop_runner import StopRunner
+from studies.study import Study, StudyFindings, Table, column
+from uictest import rig
+from uictest.core.recording import Recording
+from uictest.core.units import BAR, KILOMETRE_PER_HOUR
+
+SEEDS = range(10)
+WHEELSETS = (1, 2, 3, 4)
+
+REAL_TRAIN_TIME = 17.6
+"""Braking time of the real train, s."""
+
+QUANTITIES = (
+    StudyQuantity(
+        "braking_time",
+        "braking time",
+        "s",
+        "17.6 s, real train",
+        status="calibrated",
+        band=OwnBand(lower=16.5, upper=19.0, reason="ours, about the paper's"),
+    ),
+    StudyQuantity(
+        "braking_distance",
+        "braking distance",
+        "m",
+        "197 m, real train",
+        status="calibrated",
+        band=OwnBand(lower=185.0, upper=215.0, reason="ours, about the paper's"),
+    ),
+    StudyQuantity(
+        "minimum_deceleration",
+        "least deceleration",
+        "m/s2",
+        "0.98 m/s2, real train",
+        status="predicted",
+        digits=2,
+    ),
+    StudyQuantity(
+        "maximum_deceleration",
+        "greatest deceleration",
+        "m/s2",
+        "1.52 m/s2, real train",
+        status="predicted",
+        digits=2,
+    ),
+    StudyQuantity(
+        "likeness",
+        "largest difference between the mean speeds of two wheelsets",
+        "km/h",
+        "the four wheelset speeds look alike",
+        # The height of the traction link was set by hand so that all four wheelsets slide.
+        status="calibrated",
+        band=OwnBand(upper=2.0, reason="ours"),
+        digits=2,
+    ),
+    StudyQuantity("maximum_slide", "largest slide of a wheelset", "%", status="calibrated"),
+)
+
+
+def run(stop_runner: StopRunner) -> StudyFindings:
+    """Simulate the stop from 80 km/h on the rig with one caliper and the paper's full compensation."""
+    case = stop_runner.cases("slide-80")[0]
+    stops = stop_runner.repeated([case], SEEDS)[0].stops
+    recording = stop_runner.recordings([case], CYCLE)[0]
+    return StudyFindings(
+        {
+            name: spread([_measure(stop, name) for stop in stops])
+            for name in (
+                "braking_time",
+                "braking_distance",
+                "minimum_deceleration",
+                "maximum_deceleration",
+            )
+        }
+        | {
+            "likeness": StudyValue(unlikeness(recording) / KILOMETRE_PER_HOUR),
+            "maximum_slide": spread(
+                [100.0 * float(stop.wheelset_measures.maximum_slide.max()) for stop in stops]
+            ),
+        },
+        tables={"stop": _table(recording)},
+        drawings={"slide-test": partial(draw, recording, REAL_TRAIN_TIME)},
+        notes=(
+            f"{repeats_note(len(SEEDS))} The figure shows the first.",
+            (
+                "The filter behind the paper's decelerations is not public; here they are low-pass filtered "
+                "as the measures of the scenario define."
+            ),
+        ),
+    )
+
+
+def _measure(stop: rig.SimulatedStop, name: str) -> float:
+    return float(stop.measures[name])
+
+
+def unlikeness(recording: Recording) -> float:
+    """Return the largest difference between the mean circumferential speeds of two wheelsets, m/s."""
+    means = [float(np.mean(recording[f"wheel_speed_{n}"])) for n in WHEELSETS]
+    return max(means) - min(means)
+
+
+def _table(recording: Recording) -> Table:
+    columns: dict[str, list[float]] = {
+        "time_s": column(recording["time"], 1.0, 3),
+        "distance_m": column(recording["distance"], 1.0, 3),
+        "speed_kmh": column(recording["speed"], KILOMETRE_PER_HOUR, 3),
+    }
+    for n in WHEELSETS:
+        columns[f"wheel_speed_{n}_kmh"] = column(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
+    for n in WHEELSETS:
+        columns[f"tank_pressure_{n}_bar"] = column(recording[f"tank_pressure_{n}"], BAR, 4)
+    return columns
+
+
+STUDY = Study(
+    "slide-test",
+    "Slide test from 80 km/h: speeds of train and wheelsets",
+    "the real train took 17.6 s and 197 m at 0.98-1.52 m/s2; on the rig the four wheelset speeds look alike",
+    QUANTITIES,
+    run,
+    position=70,
+)
