@@ -44,7 +44,8 @@ def test_the_list_of_commands_holds_whole_sentences(
     call: Call, monkeypatch: pytest.MonkeyPatch, columns: str, group: list[str]
 ) -> None:
     monkeypatch.setenv("COLUMNS", columns)
-    _, _, commands = call(*group, "--help").out.partition("Commands:\n")
-    listed = re.split(r"\n  (?=[a-z])", commands.partition("\n\n")[0].rstrip())
+    paragraphs = call(*group, "--help").out.split("\n\n")
+    sections = [each for each in paragraphs if re.match(r"[A-Z][\w ]+:\n  [a-z]", each)]
+    listed = [row for each in sections for row in re.split(r"\n  (?=[a-z])", each.rstrip())[1:]]
     assert listed
     assert [each for each in listed if not each.endswith(".") or each.endswith("...")] == []

@@ -7,6 +7,7 @@ from importlib import import_module
 from typing import Annotated, Any, Final, TypeVar
 
 import typer
+from typer.core import TyperGroup
 
 from uictest import __version__
 from uictest.cli.exit_codes import ExitCode
@@ -35,27 +36,30 @@ _EPILOG = (
     "Exit codes: 0 every case met its expectation, 1 at least one did not, 2 interrupted, "
     "3 simulation or internal error, 4 usage or invalid file, 5 nothing selected."
 )
-_COMMANDS: Final = {
-    "run": "run",
-    "sweep": "sweep",
-    "check": "check",
-    "list": "list_cases",
-    "evaluate": "evaluate",
-    "export": "export",
-    "export-rig": "export_rig",
-    "fit": "fit",
-    "bench": "bench",
-    "report": "report",
-    "open": "open_page",
-    "compare": "compare",
-    "schema": "schema",
-    "init": "init",
-    "selftest": "selftest",
-    "validate": "validate",
+_SECTIONS: Final = {
+    "Run and judge": ("run", "sweep", "check", "list", "compare"),
+    "Your WSP": ("init", "controller"),
+    "Recorded stops": ("evaluate", "validate", "fit", "export"),
+    "Caliper laboratory": ("bench", "identify"),
+    "Files and tools": ("report", "open", "library", "schema", "export-rig", "selftest"),
 }
-"""Name of a command, as `--help` lists them -> the function in the module of this name."""
+"""Heading in `--help` -> the commands below it."""
+_NAMES: Final = tuple(name for names in _SECTIONS.values() for name in names)
+_FUNCTIONS: Final = {"list": "list_cases", "open": "open_page"}
+"""Command -> its function in the module of the command, where that is called otherwise."""
 _GROUPS: Final = ("identify", "library", "controller")
 """Names of commands with commands of their own; each is a `Typer` in the module of this name."""
+
+
+class _Program(TyperGroup):
+    """The program, whose help lists its commands in sections."""
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        limit = formatter.width - 6 - max(map(len, self.commands))
+        for heading, names in _SECTIONS.items():
+            rows = [(name, self.commands[name].get_short_help_str(limit)) for name in names]
+            with formatter.section(heading):
+                formatter.write_dl(rows, col_max=max(map(len, self.commands)))
 
 
 def application(first: str | None = None) -> typer.Typer:
@@ -66,6 +70,7 @@ def application(first: str | None = None) -> typer.Typer:
     # Plain help instead of rich's: it starts faster, and user text is never read as markup.
     app = typer.Typer(
         name="uictest",
+        cls=_Program,
         add_completion=False,
         rich_markup_mode=None,
         pretty_exceptions_enable=False,
@@ -73,11 +78,11 @@ def application(first: str | None = None) -> typer.Typer:
         epilog=_EPILOG,
     )
     app.callback(invoke_without_command=True)(_main)
-    known = (*_COMMANDS, *_GROUPS)
-    for name in (first,) if first in known else known:
-        module = import_module(f"uictest.cli.commands.{name.replace('-', '_')}")
-        if name in _COMMANDS:
-            command(app, name)(getattr(module, _COMMANDS[name]))
+    for name in (first,) if first in _NAMES else _NAMES:
+        own = name.replace("-", "_")
+        module = import_module(f"uictest.cli.commands.{own}")
+        if name not in _GROUPS:
+            command(app, name)(getattr(module, _FUNCTIONS.get(name, own)))
         else:
             group = getattr(module, name)
             group.callback(invoke_without_command=True)(_show_help_alone)

@@ -10,7 +10,7 @@ from uictest.core.document import Column, Document, Lines, Suite, Table, Testcas
 from uictest.report import counted
 from uictest.selftest.finding import SEVERITY, Answer, Examination, Finding
 
-SCHEMA: Final = "uictest/findings/1"
+SCHEMA: Final = "uictest/selftest/2"
 _TAGS: Final[Mapping[str, TestcaseStatus]] = {"fail": "failure", "error": "error", "skipped": "skipped"}
 
 

@@ -120,7 +120,7 @@ def test_numbers_that_differ_in_the_tenth_digit_are_told_apart(call: Call, asks:
 def test_json_has_the_installation_and_every_finding(call: Call, asks: Callable[..., None]) -> None:
     asks(*FOUR)
     document = json.loads(call("selftest", "--format", "json").out)
-    assert (document["schema"], document["status"]) == ("uictest/findings/1", "error")
+    assert (document["schema"], document["status"]) == ("uictest/selftest/2", "error")
     assert {"uictest", "python", "processor", "numpy"} <= set(document["about"])
     assert [each["status"] for each in document["checks"]] == ["pass", "fail", "error", "skipped"]
     assert document["checks"][1] == {
