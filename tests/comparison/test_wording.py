@@ -59,7 +59,7 @@ def test_nothing_is_shown_of_what_is_the_same(make_run: MakeRun) -> None:
 def test_the_json_form_says_whether_they_agree(make_run: MakeRun) -> None:
     found = compare_runs(make_run(), make_run(initial_adhesion_g=0.1), DEFAULT)
     document = json.loads(comparison_json(found))
-    assert (document["schema"], document["agrees"]) == ("uictest/comparison/1", False)
+    assert (document["kind"], document["agrees"]) == ("comparison", False)
     assert document["differences"][0]["quantity"] == "initial_adhesion_g"
 
 

@@ -81,7 +81,7 @@ def test_the_document_is_json_that_any_reader_takes(results) -> None:
         raise AssertionError(f"{constant} is not JSON")
 
     document = json.loads(to_json(result_document(results, seed=7, drift=math.nan)), parse_constant=refuse)
-    assert document["schema"] == "uictest/result/1"
+    assert (document["schema"], document["kind"]) == ("uictest/result/2", "run")
     assert (document["seed"], document["drift"]) == (7, None)
     assert document["cases"][1]["measures"]["initial_adhesion_g"] is None
     assert document["cases"][2]["measures"] is None
@@ -155,7 +155,7 @@ def test_a_document_of_before_parts_were_kept_is_read(results) -> None:
 
 def test_a_case_that_names_a_part_that_is_not_there_is_refused(results) -> None:
     document = result_document([dataclasses.replace(results[0], parts={"controller": PART})])
-    with pytest.raises(ValueError, match="not as schema"):
+    with pytest.raises(ValueError, match="not the results of a run"):
         results_of({**document, "parts": {}})
 
 
@@ -205,11 +205,11 @@ BARE = {
 @pytest.mark.parametrize(
     ("document", "message"),
     [
-        ({}, "expected a result document of schema 'uictest/result/1', found None"),
-        ({"schema": "uictest/result/2"}, "found 'uictest/result/2'"),
+        ({}, "expected schema 'uictest/result/2', kind 'run', found neither"),
+        ({"schema": "uictest/result/2"}, "found schema 'uictest/result/2'"),
         ({"schema": "uictest/result/1"}, "'cases'"),
         ({"schema": "uictest/result/1", "cases": [{"id": "a"}]}, "cases.0: .*'criteria' is missing"),
-        ({"schema": "uictest/result/1", "cases": [None]}, "not as schema"),
+        ({"schema": "uictest/result/1", "cases": [None]}, "not the results of a run"),
         ({"schema": "uictest/result/1", "cases": [BARE | {"met": True}]}, "cases.0.met: Unexpected"),
         ({"schema": "uictest/result/1", "cases": [BARE | {"outcome": "lost"}]}, "cases.0.outcome: Input"),
         ({"schema": "uictest/result/1", "cases": [BARE, BARE]}, "two cases have the id 'a'"),

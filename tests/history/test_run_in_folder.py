@@ -8,19 +8,18 @@ from pathlib import Path
 
 import pytest
 
-from uictest import report
-from uictest.running import chunked
 from uictest.runs.history import ENTRY, ListedRun, Unlisted, read_folder
 from uictest.runs.history.run_in_folder import started_in
 
 from .conftest import Publish, case
 
-SWEEP = {"schema": report.SWEEP_SCHEMA, "name": "study", "cases": 3, "met": 2}
+SWEEP = {"schema": "uictest/result/2", "kind": "sweep", "name": "study", "cases": 3, "met": 2}
 
 
 def sweep(folder: Path, **changes: object) -> Path:
     folder.mkdir(parents=True)
-    manifest = {"schema": chunked.SCHEMA, "sweep": "study", "file": "study.sweep.yaml", "cases": 3}
+    manifest: dict[str, object] = {"schema": "uictest/manifest/2", "kind": "sweep", "sweep": "study"}
+    manifest |= {"file": "study.sweep.yaml", "cases": 3}
     (folder / "manifest.json").write_text(json.dumps(manifest))
     document = SWEEP | {"outcomes": {"pass": 2, "fail": 1}} | changes
     (folder / "sweep.json").write_text(json.dumps(document))

@@ -205,7 +205,8 @@ def _document(text: str) -> dict[str, Any]:
     index = {"value": 0.5, "low": 0.4, "high": 0.6}
     flips = [{"low": text, "high": "0.11", "met_at_low": False}]
     return {
-        "schema": "uictest/sweep-result/1",
+        "schema": "uictest/result/2",
+        "kind": "sweep",
         "name": text,
         "title": text,
         "cases": 4,

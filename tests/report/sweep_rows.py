@@ -36,7 +36,8 @@ def sweep_result(values: Mapping[str, Sequence[str]], cases: int, **changes: Any
     outcomes = dict.fromkeys(("pass", "fail", "invalid", "inconclusive", "error", "skipped"), 0)
     distribution = {"cases": cases, "minimum": 0.0, "mean": 0.5, "maximum": 1.0, "edges": [0.0, 1.0]}
     form = {
-        "schema": "uictest/sweep-result/1",
+        "schema": "uictest/result/2",
+        "kind": "sweep",
         "name": "study",
         "title": "",
         "cases": cases,

@@ -36,7 +36,7 @@ def test_every_format_is_written_and_results_read_back(tmp_path: Path, make_resu
     ]
     assert (tmp_path / "results.json").read_text() == text
     document = json.loads(text)
-    assert document["schema"] == "uictest/result/1"
+    assert document["schema"] == "uictest/result/2"
     assert (document["manifest"]["seed"], document["complete"]) == (None, True)
     assert [result.id for result in results_of(document)] == ["dry-120[command=90]", "other"]
 

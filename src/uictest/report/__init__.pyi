@@ -45,7 +45,6 @@ from .junit import junit_text as junit_text
 from .junit_properties import test_properties as test_properties
 from .manifest import (
     CASES_IN_PYTHON as CASES_IN_PYTHON,
-    RUN_MANIFEST_SCHEMA as RUN_MANIFEST_SCHEMA,
     RunManifest as RunManifest,
     named_parts as named_parts,
     read_manifest as read_manifest,
@@ -87,7 +86,6 @@ from .series.wording import (
 from .sheet_columns import sheet_column as sheet_column
 from .sweep.cases import LARGEST_CSV as LARGEST_CSV, every_case as every_case
 from .sweep.folder import (
-    SWEEP_MANIFEST_SCHEMA as SWEEP_MANIFEST_SCHEMA,
     SWEEP_RESULTS as SWEEP_RESULTS,
     SweepContent as SweepContent,
     read_sweep as read_sweep,
@@ -109,7 +107,6 @@ from .sweep.limits import (
 from .sweep.map_text import map_lines as map_lines
 from .sweep.result import (
     MET as MET,
-    SWEEP_SCHEMA as SWEEP_SCHEMA,
     Flip as Flip,
     Frontier as Frontier,
     FrontierScan as FrontierScan,

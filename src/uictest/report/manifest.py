@@ -13,10 +13,10 @@ from typing import Any, ClassVar, Final
 
 from pydantic import ConfigDict, TypeAdapter
 
+from uictest.core import document
 from uictest.judging import evaluation
 from uictest.report.part_wording import part_sentence
 
-RUN_MANIFEST_SCHEMA: Final = "uictest/manifest/1"
 CASES_IN_PYTHON: Final = "(cases loaded in Python)"
 """In a command, behind `run`: a program gave the cases, and no files of their own name them."""
 _PACKAGES = ("uictest", "numpy", "numba", "pydantic", "pyyaml")
@@ -28,6 +28,7 @@ class RunManifest:
 
     Args:
         schema: version of this form.
+        kind: of the results: `run`.
         command: the program and its arguments as typed, without the folders of the machine.
         seed: the seed given for all cases; None where each scenario has its own.
         cases: how many cases were selected.
@@ -39,7 +40,8 @@ class RunManifest:
 
     __pydantic_config__: ClassVar = ConfigDict(defer_build=True)
 
-    schema: str = RUN_MANIFEST_SCHEMA
+    schema: str = document.MANIFEST
+    kind: str = "run"
     command: tuple[str, ...] = ("uictest",)
     seed: int | None = None
     cases: int = 0
@@ -57,12 +59,12 @@ def manifest_form(manifest: RunManifest) -> dict[str, Any]:
     return asdict(manifest)
 
 
-def read_manifest(document: Mapping[str, Any]) -> RunManifest:
+def read_manifest(content: Mapping[str, Any]) -> RunManifest:
     """Return the manifest in the results of a run; fields that an earlier version did not write are empty.
 
     Raises ValueError where a field holds something else.
     """
-    return evaluation.from_json_form(_MANIFEST, document.get("manifest", {}), place="manifest")
+    return evaluation.from_json_form(_MANIFEST, content.get("manifest", {}), place="manifest")
 
 
 def run_manifest(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from uictest import report
-from uictest.core import files
+from uictest.core import document, files
 from uictest.running import chunked
 
 
@@ -15,7 +15,7 @@ def holds_sweep(folder: Path) -> bool:
         manifest = chunked.ChunkStore(folder).manifest()
     except OSError:
         return False
-    return manifest is not None and manifest.get("schema") == chunked.SCHEMA
+    return document.is_of(manifest, document.MANIFEST, "sweep")
 
 
 def why_no_run(folder: Path) -> str:

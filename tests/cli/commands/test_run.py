@@ -141,7 +141,7 @@ def test_json_is_the_document_and_nothing_else(call: Call, scenario: Write) -> N
     answer = call("run", "--format", "json")
     assert answer.out == Path("reports/latest/results.json").read_text()
     document = json.loads(answer.out)
-    assert (document["schema"], document["complete"]) == ("uictest/result/1", True)
+    assert (document["schema"], document["complete"]) == ("uictest/result/2", True)
 
 
 def test_github_annotates_what_is_not_met(call: Call, scenario: Write) -> None:

@@ -208,7 +208,7 @@ def test_json_is_the_document_that_is_written(validate: Callable[..., Any]) -> N
     answer = validate(f"recordings: [{record('a.csv', SIMULATED)}]", options=("--format", "json"))
     assert answer.out == (newest() / "validation.json").read_text("utf-8")
     document = json.loads(answer.out)
-    assert document["schema"] == "uictest/validation-result/1"
+    assert (document["schema"], document["kind"]) == ("uictest/result/2", "validation")
     assert {"my.validation.yaml", "scenarios/stop.yaml", "map.yaml", "a.csv"} <= set(document["inputs"])
 
 
@@ -280,7 +280,7 @@ def test_results_with_a_domain_are_read_back(call: Call, validated: Path) -> Non
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda document: document.update(schema="uictest/result/1"), "not the result of a validation"),
+        (lambda document: document.update(kind="run"), "not the result of a validation"),
         (lambda document: document.update(domains=[]), "none of its stops is counted"),
         (lambda document: document["domains"][0].update(stops="two"), "domains"),
         (lambda document: document.update(verdict="pass"), "verdict"),

@@ -170,7 +170,7 @@ def test_variants_of_a_run_are_compared_with_the_first(make_repeated: Make) -> N
     assert found[0].not_paired[0].reason == "only controller=a has it"
     assert "first controller=a, second controller=b" in list(document_lines(variants_document(found), None))
     document = json.loads(variants_json("run", found))
-    assert (document["schema"], len(document["variants"])) == ("uictest/variants/1", 2)
+    assert (document["kind"], len(document["variants"])) == ("variants", 2)
     assert "slip[rail.friction=0.07]" in variants_html("run", found)
 
 

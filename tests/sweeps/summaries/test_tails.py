@@ -145,7 +145,7 @@ def test_draws_in_which_a_wheelset_slides_are_counted(load_dry: LoadDry) -> None
 def test_k_dry_goes_to_a_file_of_its_own(load_dry: LoadDry) -> None:
     result, folder = finish(load_dry(SAMPLE % 300 + K_DRY))
     content = yaml.safe_load((folder / "k_dry.yaml").read_text())
-    assert content["schema"] == "uictest/k-dry/1"
+    assert (content["schema"], content["kind"]) == ("uictest/result/2", "k-dry")
     (table,) = content["tables"]
     assert (table["nominal_mps2"], table["draws"], table["confidence"]) == (1.4715, 300, "95 %")
     assert table["levels"][2]["k_dry"] == result.k_dry[0].levels[2].k_dry

@@ -165,7 +165,6 @@ def _with_series(
     stops = {each["case"] for result in kept for each in result["cases"]}
     cases = [case for case in accepted["cases"] if case["id"] in stops]
     return {
-        "schema": accepted["schema"],
         "parts": {**accepted["parts"], **own.get("parts", {})},
         "cases": [*cases, *own.get("cases", ())],
         "series": [*kept, *own.get("series", ())],

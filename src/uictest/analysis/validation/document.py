@@ -14,9 +14,9 @@ from pydantic import ConfigDict, TypeAdapter
 from uictest import __version__
 from uictest.analysis.validation.domain import Conditions, Domain, conditions_of, deviations, domains_of
 from uictest.analysis.validation.stops import Agreement, ComparedStop, agreement_of
+from uictest.core import document
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS, column_unit
 from uictest.judging.evaluation import DomainOfValidity, EffectivePart, from_json_form, to_json_form
-from uictest.plans.scenario import VALIDATION_RESULT
 from uictest.plans.scenario.yaml import display_name
 from uictest.plans.validation import ValidationPlan
 
@@ -86,7 +86,7 @@ _VALIDATIONS: Final = TypeAdapter(list[Validation], config=ConfigDict(extra="for
 def validation_json(validation: Validation) -> str:
     """Return a validation as JSON; NaN is null."""
     [content] = to_json_form(_VALIDATIONS, [validation])
-    form: dict[str, Any] = {"schema": VALIDATION_RESULT, **content}
+    form: dict[str, Any] = {**document.head(document.RESULT, "validation"), **content}
     return json.dumps(form, indent=2, allow_nan=False) + "\n"
 
 
@@ -102,11 +102,12 @@ def read_validation(path: Path) -> ValidationReference:
         form = json.loads(content)
     except RecursionError as error:
         raise ValueError("not the result of a validation: it is nested too deeply") from error
-    if not isinstance(form, dict) or form.pop("schema", None) != VALIDATION_RESULT:
-        raise ValueError(
-            f"not the result of a validation: expected a document with the schema {VALIDATION_RESULT}"
-        )
-    [validation] = from_json_form(_VALIDATIONS, [form])
+    try:
+        document.require(form if isinstance(form, dict) else {}, document.RESULT, "validation")
+    except ValueError as error:
+        raise ValueError(f"not the result of a validation: {error}") from error
+    own = {name: value for name, value in form.items() if name not in ("schema", "kind")}
+    [validation] = from_json_form(_VALIDATIONS, [own])
     if not validation.domains:
         raise ValueError("none of its stops is counted: nothing was validated")
     return ValidationReference(validation, display_name(path), hashlib.sha256(content).hexdigest())

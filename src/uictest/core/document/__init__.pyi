@@ -1,3 +1,11 @@
+from .envelope import (
+    MANIFEST as MANIFEST,
+    RESULT as RESULT,
+    Kind as Kind,
+    head as head,
+    is_of as is_of,
+    require as require,
+)
 from .table import (
     Cell as Cell,
     Column as Column,

@@ -1,4 +1,4 @@
-"""The result document, schema uictest/result/1."""
+"""The results of cases in a document."""
 
 from __future__ import annotations
 
@@ -9,12 +9,10 @@ from typing import Annotated, Any, Final
 
 from pydantic import ConfigDict, SerializerFunctionWrapHandler, TypeAdapter, WrapSerializer
 
+from uictest.core import document
 from uictest.judging.evaluation.json_values import from_json_form, json_form, required, to_json_form
 from uictest.judging.evaluation.parameters import EffectivePart, parts_document, parts_of
 from uictest.judging.evaluation.result import CaseResult
-
-SCHEMA = "uictest/result/1"
-
 
 _OF_SOME: Final = (
     *("response_times", "controller_version", "case_sha256"),
@@ -42,13 +40,13 @@ _CASES: Final = TypeAdapter(list[WrittenCaseResult], config=ConfigDict(extra="fo
 
 
 def result_document(results: Iterable[CaseResult], **header: Any) -> dict[str, Any]:
-    """Return `{"schema": ..., **header, "parts": {...}, "cases": [...]}`, with NaN and infinity as None.
+    """Return the head of results, the header, `parts` and `cases`, with NaN and infinity as None.
 
     Cases name their parts by ids: a part that many cases share is there once.
     """
     results = list(results)
     return {
-        "schema": SCHEMA,
+        **document.head(document.RESULT, "run"),
         **json_form(header),
         "parts": parts_document(result.parts for result in results),
         "cases": cases_document(results),
@@ -70,24 +68,22 @@ def cases_of(content: object, parts: Mapping[str, EffectivePart], place: str = "
     return from_json_form(_CASES, content, place=place, context=parts)
 
 
-def results_of(document: Mapping[str, Any]) -> list[CaseResult]:
+def results_of(content: Mapping[str, Any]) -> list[CaseResult]:
     """Return the results in a document.
 
     Raises:
-        ValueError: the document is not of this schema, or a case in it lacks or adds a field, or two share
-            an id.
+        ValueError: the document is of another schema or kind, or a case in it lacks or adds a field, or two
+            share an id.
 
     """
-    schema = document.get("schema")
-    if schema != SCHEMA:
-        raise ValueError(f"expected a result document of schema {SCHEMA!r}, found {schema!r}")
     try:
-        results = cases_of(document["cases"], parts_of(document))
+        document.require(content, document.RESULT, "run")
+        results = cases_of(content["cases"], parts_of(content))
         _require_distinct(results)
     except KeyError as error:
-        raise ValueError(f"the result document is not as schema {SCHEMA!r} has it: no {error}") from error
+        raise ValueError(f"not the results of a run: no {error}") from error
     except ValueError as error:
-        raise ValueError(f"the result document is not as schema {SCHEMA!r} has it: {error}") from error
+        raise ValueError(f"not the results of a run: {error}") from error
     return results
 
 
@@ -98,11 +94,11 @@ def _require_distinct(results: Iterable[CaseResult]) -> None:
         raise ValueError(f"two cases have the id {repeated[0]!r}")
 
 
-def to_json(document: Mapping[str, Any]) -> str:
+def to_json(content: Mapping[str, Any]) -> str:
     """Return the document as JSON text: two spaces of indentation, newline at the end.
 
     Raises:
         ValueError: a value in it is NaN or infinite.
 
     """
-    return json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"

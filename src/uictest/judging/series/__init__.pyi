@@ -3,7 +3,6 @@ from .counting import (
     observed_stops as observed_stops,
 )
 from .document import (
-    SCHEMA as SCHEMA,
     series_document as series_document,
     series_results_of as series_results_of,
 )

@@ -1,4 +1,4 @@
-"""The series in a results document: schema uictest/series-result/1."""
+"""The series in the results of a run."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ from uictest.core.series_measures import SERIES_MEASURES
 from uictest.judging import evaluation
 from uictest.judging.series.result import SeriesResult
 
-SCHEMA: Final = "uictest/series-result/1"
-_FIELDS: Final = frozenset({"schema", "parts", "cases", "series"})
+_FIELDS: Final = frozenset({"parts", "cases", "series"})
 _WrittenSeries = Annotated[
     SeriesResult, evaluation.absent_if_empty("requirements", "test_case", "bypassed_k_wet")
 ]
@@ -20,13 +19,12 @@ _SERIES: Final = TypeAdapter(list[_WrittenSeries], config=ConfigDict(extra="forb
 
 
 def series_document(results: Sequence[SeriesResult]) -> dict[str, Any]:
-    """Return `{"schema": ..., "parts": {...}, "cases": [...], "series": [...]}`.
+    """Return `{"parts": {...}, "cases": [...], "series": [...]}`.
 
     A series names its cases by their ids; the cases of all series stand once, as in a result document.
     """
     cases = [each.case for result in results for each in result.cases]
     return {
-        "schema": SCHEMA,
         "parts": evaluation.parts_document(case.parts for case in cases),
         "cases": evaluation.cases_document(cases),
         "series": evaluation.to_json_form(_SERIES, list(results)),
@@ -36,13 +34,10 @@ def series_document(results: Sequence[SeriesResult]) -> dict[str, Any]:
 def series_results_of(document: object) -> list[SeriesResult]:
     """Return the series in the form that :func:`series_document` gives.
 
-    Raises ValueError where it is of another schema, lacks or adds a field, holds a value of another type, or
-    names a case that it does not hold.
+    A schema of its own, which 0.2 wrote, is not read. Raises ValueError where it lacks or adds a field, holds
+    a value of another type, or names a case that it does not hold.
     """
-    if not isinstance(document, Mapping) or document.get("schema") != SCHEMA:
-        found = document.get("schema") if isinstance(document, Mapping) else document
-        raise ValueError(f"series: expected schema {SCHEMA!r}, found {found!r}")
-    if set(document) != _FIELDS:
+    if not isinstance(document, Mapping) or document.keys() - {"schema"} != _FIELDS:
         raise ValueError(f"series: expected the fields {', '.join(sorted(_FIELDS))}")
     cases = evaluation.cases_of(document["cases"], evaluation.parts_of(document), "series.cases")
     by_id = {case.id: case for case in cases}

@@ -94,7 +94,6 @@ from .requirement_ids import in_order_of_ids as in_order_of_ids, named_requireme
 from .requirement_list import read_requirement_list as read_requirement_list
 from .resolution import resolve as resolve
 from .sections import SURVEY as SURVEY
-from .validated_file import VALIDATION_RESULT as VALIDATION_RESULT
 from .wheelset_values import (
     DESCRIPTIVE as DESCRIPTIVE,
     WHEELSET_NUMBERS as WHEELSET_NUMBERS,

@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 from typing import Any, Final
 
+from uictest.core.document import RESULT, is_of
 from uictest.plans.scenario.files import Files, nearest_file
 from uictest.plans.scenario.yaml import (
     Map,
@@ -17,7 +18,6 @@ from uictest.plans.scenario.yaml import (
 
 VALIDATED: Final = "validated"
 """The key of a scenario."""
-VALIDATION_RESULT: Final = "uictest/validation-result/1"
 LARGEST: Final = 64 * 1024 * 1024
 """Largest file that is read, bytes: it holds every figure of every recorded stop."""
 _HINT: Final = "name the validation.json that `uictest validate` wrote"
@@ -55,4 +55,4 @@ def _is_validation(path: Path) -> bool:
         form = json.loads(read_document(path, LARGEST, _HINT).text)
     except (ValueError, RecursionError):
         return False
-    return isinstance(form, dict) and form.get("schema") == VALIDATION_RESULT and bool(form.get("domains"))
+    return is_of(form, RESULT, "validation") and bool(form.get("domains"))

@@ -42,7 +42,6 @@ class SweepContent:
 
 
 SWEEP_RESULTS: Final = "sweep.json"
-SWEEP_MANIFEST_SCHEMA: Final = "uictest/sweep-manifest/1"
 _MANIFEST: Final = "manifest.json"
 
 

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 from typing import Any, Final
 
+from uictest.core import document
 from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.tail_tables import probability_text, refusal_text, share_text, sliding_words
 from uictest.report.sweep.tails import KDry, KDryLevel
 
 K_DRY_FILE: Final = "k_dry.yaml"
-K_DRY_SCHEMA: Final = "uictest/k-dry/1"
 
 
 def k_dry_yaml(result: SweepResult) -> str:
     """Return K_dry of a sweep as YAML, all digits kept; levels that the sample does not support are null."""
     import yaml  # heavier than all that other sweeps write
 
-    content = {"schema": K_DRY_SCHEMA, "sweep": result.name, "tables": list(map(_table, result.k_dry))}
+    content = {
+        **document.head(document.RESULT, "k-dry"),
+        "sweep": result.name,
+        "tables": list(map(_table, result.k_dry)),
+    }
     text: str = yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=110)
     return text
 

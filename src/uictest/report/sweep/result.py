@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Final
 
 from pydantic import ConfigDict, Field, TypeAdapter
 
+from uictest.core import document
 from uictest.judging import evaluation
 from uictest.judging.evaluation import NamedParts, Number, WrittenCaseResult, required
 from uictest.report.content import CaseDescription
@@ -15,7 +16,6 @@ from uictest.report.sweep.limits import SurveyStep, SweepDomain
 from uictest.report.sweep.tails import KDry, MeasureQuantiles
 from uictest.report.sweep.values import SweptValue, Written
 
-SWEEP_SCHEMA: Final = "uictest/sweep-result/1"
 MET: Final = "met"
 """Name of the map of cases that met their expectation; the other maps have names of measures."""
 
@@ -236,17 +236,16 @@ _RESULT: Final = TypeAdapter(SweepResult)
 
 
 def sweep_document(result: SweepResult) -> dict[str, Any]:
-    """Return the JSON form of a result, schema uictest/sweep-result/1; parts are there once, by id."""
+    """Return the JSON form of a result; parts are there once, by id."""
     form: dict[str, Any] = evaluation.to_json_form(_RESULT, result)
     names = list(form)
     place = names.index("worst")
     parts = evaluation.parts_document([result.base, *(case.parts for case in result.worst)])
     head, tail = ({name: form[name] for name in some} for some in (names[:place], names[place:]))
-    return {"schema": SWEEP_SCHEMA, **head, "parts": parts, **tail}
+    return {**document.head(document.RESULT, "sweep"), **head, "parts": parts, **tail}
 
 
-def read_sweep_document(document: Mapping[str, Any]) -> SweepResult:
+def read_sweep_document(content: Mapping[str, Any]) -> SweepResult:
     """Return the result in a document. Raises ValueError where it is none."""
-    if document.get("schema") != SWEEP_SCHEMA:
-        raise ValueError(f"expected schema {SWEEP_SCHEMA!r}, found {document.get('schema')!r}")
-    return evaluation.from_json_form(_RESULT, document, context=evaluation.parts_of(document))
+    document.require(content, document.RESULT, "sweep")
+    return evaluation.from_json_form(_RESULT, content, context=evaluation.parts_of(content))

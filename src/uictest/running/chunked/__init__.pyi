@@ -17,7 +17,6 @@ from .cluster import (
     run_on_cluster as run_on_cluster,
 )
 from .manifest import (
-    SCHEMA as SCHEMA,
     sweep_manifest as sweep_manifest,
 )
 from .scenario_function import ScenarioVariants as ScenarioVariants

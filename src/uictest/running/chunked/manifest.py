@@ -11,14 +11,14 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any, Final
 
+from uictest.core import document
 from uictest.judging.evaluation import EffectiveParts
 from uictest.plans import library
 from uictest.plans.scenario import SURVEY
-from uictest.report import SWEEP_MANIFEST_SCHEMA, named_parts
+from uictest.report import named_parts
 from uictest.running.chunked.case_selection import CaseSelection
 from uictest.running.chunked.table import SURVEY_TABLE
 
-SCHEMA: Final = SWEEP_MANIFEST_SCHEMA
 SOURCES: Final = (*("core", "controllers", "plans", "judging", "rig", "running"),)
 """Rooms and modules of the package that determine the result of a case."""
 _PACKAGES: Final = ("uictest", "numpy", "scipy", "numba", "pyarrow")
@@ -43,7 +43,7 @@ def sweep_manifest(
     plan = selection.plan
     folder = Path(plan.file).parent
     return {
-        "schema": SCHEMA,
+        **document.head(document.MANIFEST, "sweep"),
         "sweep": plan.name,
         "title": plan.title,
         "file": plan.file,

@@ -79,7 +79,7 @@ def shown(value: object) -> str:
 
 
 ENTRY: Final = "index-entry.json"
-_SCHEMA: Final = "uictest/index-entry/1"
+_SCHEMA: Final = "uictest/index/1"
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,7 +184,7 @@ class _Head(BaseModel):
 
     model_config = ConfigDict(extra="ignore", strict=True)
 
-    form: Literal["uictest/index-entry/1"] = Field(alias="schema")
+    form: Literal["uictest/index/1", "uictest/index-entry/1"] = Field(alias="schema")
     run: str
     complete: bool
     results_bytes: NonNegativeInt

@@ -12,6 +12,7 @@ from typing import Any, Final, Literal
 from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt, ValidationError
 
 from uictest import report
+from uictest.core import document
 from uictest.runs.history.entry import (
     ENTRY,
     CaseEntry,
@@ -32,12 +33,12 @@ Kind = Literal["run", "evaluate", "sweep", "fit", "validation", "studies"]
 
 MANIFEST: Final = "manifest.json"
 _PAGE: Final = "index.html"
-_OTHERS: Final[Mapping[str, tuple[Kind, str]]] = {
-    "fit.json": ("fit", "uictest/fit/"),
-    "validation.json": ("validation", "uictest/validation-result/"),
-    "studies.json": ("studies", "uictest/studies/"),
+_OTHERS: Final[Mapping[str, tuple[Kind, Callable[[Mapping[str, Any]], bool]]]] = {
+    "fit.json": ("fit", lambda content: str(content.get("schema")).startswith("uictest/fit/")),
+    "validation.json": ("validation", lambda content: document.is_of(content, document.RESULT, "validation")),
+    "studies.json": ("studies", lambda content: str(content.get("schema")).startswith("uictest/studies/")),
 }
-"""File that names what a folder without manifest holds -> its kind, and how its schema begins."""
+"""File that names what a folder without manifest holds -> its kind, and whether its content is of that."""
 _LARGEST_RESULTS: Final = 2 << 20
 """Size of the largest results.json that is read where a run has no entry, bytes."""
 _STARTED: Final = re.compile(r"(?:fit-|validation-)?(\d{8}T\d{6}Z)-[0-9a-f]{8}(?:-\d+)?")
@@ -110,17 +111,16 @@ def _read(folder: Path, *, with_cases: bool) -> ListedRun:
     if not exists(folder / MANIFEST):
         return _other(folder)
     manifest = json_object(folder / MANIFEST)
-    schema = manifest.get("schema")
-    if schema == report.RUN_MANIFEST_SCHEMA:
+    if document.is_of(manifest, document.MANIFEST, "run"):
         return _run(folder, manifest, with_cases=with_cases)
-    if schema == report.SWEEP_MANIFEST_SCHEMA:
+    if document.is_of(manifest, document.MANIFEST, "sweep"):
         return _sweep(folder, manifest)
-    raise UnreadableError(f"not of uictest: {MANIFEST} has schema {shown(schema)}")
+    raise UnreadableError(f"not of uictest: {MANIFEST} has schema {shown(manifest.get('schema'))}")
 
 
-def _run(folder: Path, document: Mapping[str, Any], *, with_cases: bool) -> ListedRun:
+def _run(folder: Path, content: Mapping[str, Any], *, with_cases: bool) -> ListedRun:
     try:
-        manifest = report.read_manifest({"manifest": document})
+        manifest = report.read_manifest({"manifest": content})
     except ValueError as error:
         raise UnreadableError(f"{MANIFEST} is damaged: {error}") from error
     if not exists(folder / report.RESULTS):
@@ -193,6 +193,8 @@ def _sweep(folder: Path, manifest: Mapping[str, Any]) -> ListedRun:
         head = _SweepHead.model_validate_json(bytes_of(folder / report.SWEEP_RESULTS))
     except ValidationError as error:
         raise UnreadableError(f"{report.SWEEP_RESULTS} is damaged: {first_problem(error)}") from error
+    if not document.is_of({"schema": head.form, "kind": head.kind}, document.RESULT, "sweep"):
+        raise UnreadableError(f"{report.SWEEP_RESULTS} is damaged: schema {shown(head.form)}")
     if head.name != manifest.get("sweep") or head.cases != manifest.get("cases"):
         raise UnreadableError(
             f"a sweep that is not finished: {report.SWEEP_RESULTS} is of an earlier run of it"
@@ -216,7 +218,8 @@ class _SweepHead(BaseModel):
 
     model_config = ConfigDict(extra="ignore", strict=True)
 
-    form: Literal["uictest/sweep-result/1"] = Field(alias="schema")
+    form: str = Field(alias="schema")
+    kind: str = ""
     name: str
     cases: NonNegativeInt
     met: NonNegativeInt
@@ -224,12 +227,12 @@ class _SweepHead(BaseModel):
 
 
 def _other(folder: Path) -> ListedRun:
-    for name, (kind, schema) in _OTHERS.items():
+    for name, (kind, is_own) in _OTHERS.items():
         if not exists(folder / name):
             continue
-        found = json_object(folder / name).get("schema")
-        if not str(found).startswith(schema):
-            raise UnreadableError(f"not of uictest: {name} has schema {shown(found)}")
+        content = json_object(folder / name)
+        if not is_own(content):
+            raise UnreadableError(f"not of uictest: {name} has schema {shown(content.get('schema'))}")
         page = _page(folder) or f"{folder.name}/{name}"
         return ListedRun(folder.name, kind, _started(folder, name), page=page)
     raise UnreadableError(f"not of uictest: there is no {MANIFEST}")

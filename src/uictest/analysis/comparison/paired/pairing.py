@@ -6,7 +6,7 @@ import dataclasses
 import json
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any
 
 from uictest.analysis.comparison.paired.difference import (
     FEWEST_PAIRS,
@@ -15,6 +15,7 @@ from uictest.analysis.comparison.paired.difference import (
     paired_group,
 )
 from uictest.analysis.comparison.paired.groups import Group, GroupKey, Side, groups_of
+from uictest.core import document
 from uictest.judging.evaluation import json_form
 from uictest.report import RunContent
 
@@ -75,9 +76,6 @@ def _only(
             yield NotPaired(group.name, f"only {side} has it")
 
 
-SCHEMA: Final = "uictest/variants/1"
-
-
 def paired_form(compared: PairedComparison) -> dict[str, Any]:
     """Return the JSON form; what has no number is null."""
     form: dict[str, Any] = json_form(
@@ -93,7 +91,11 @@ def paired_form(compared: PairedComparison) -> dict[str, Any]:
 
 def variants_json(run: str, compared: Sequence[PairedComparison]) -> str:
     """Return the variants of a run as a JSON document."""
-    form = {"schema": SCHEMA, "run": run, "variants": [paired_form(each) for each in compared]}
+    form = {
+        **document.head(document.RESULT, "variants"),
+        "run": run,
+        "variants": [paired_form(each) for each in compared],
+    }
     return json.dumps(form, indent=2, allow_nan=False)
 
 
