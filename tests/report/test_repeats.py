@@ -12,10 +12,10 @@ from xml.etree import ElementTree
 import openpyxl
 import pytest
 
+from uictest.core.document import Data
 from uictest.judging.evaluation import CaseResult, OverStops, RepeatedStop, Repeats, Verdict
 from uictest.report import (
     RunContent,
-    Table,
     case_annotations,
     case_line,
     csv_text,
@@ -116,7 +116,7 @@ def test_a_case_with_one_stop_says_nothing_of_stops(make_result: MakeResult) -> 
     assert "stops" not in tables.criteria_table([single]).columns
 
 
-def rows(table: Table) -> list[dict[str, str]]:
+def rows(table: Data) -> list[dict[str, str]]:
     return list(csv.DictReader(io.StringIO(csv_text(*table))))
 
 

@@ -85,6 +85,7 @@ from .series.wording import (
 )
 from .sheet_columns import sheet_column as sheet_column
 from .sweep.cases import LARGEST_CSV as LARGEST_CSV, every_case as every_case
+from .sweep.document import numbers_of_sweep as numbers_of_sweep
 from .sweep.folder import (
     SWEEP_RESULTS as SWEEP_RESULTS,
     SweepContent as SweepContent,
@@ -120,7 +121,6 @@ from .sweep.result import (
     SweepResult as SweepResult,
     Trend as Trend,
 )
-from .sweep.tail_tables import tail_lines as tail_lines
 from .sweep.tails import (
     DrawCount as DrawCount,
     KDry as KDry,
@@ -139,7 +139,11 @@ from .sweep.wording import (
     not_judged_words as not_judged_words,
     sweep_tally as sweep_tally,
 )
-from .terminal.document_lines import document_lines as document_lines, table_lines as table_lines
+from .terminal.document_lines import (
+    document_lines as document_lines,
+    table_lines as table_lines,
+    titled_lines as titled_lines,
+)
 from .terminal.fitted_columns import (
     TableColumn as TableColumn,
     aligned as aligned,

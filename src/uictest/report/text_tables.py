@@ -34,7 +34,7 @@ def _cell(value: Cell) -> str:
 
 _LONGEST = 300  # characters of one text in a cell
 _BACKTICKS = re.compile("`+")
-_ACTIVE = re.compile(r"[\\`*_{}\[\]<>#|~&@!:$^]")
+_ACTIVE = re.compile(r"[\\`*_{}\[\]<>#|~&@!$^]|:(?! |$)")
 _RULES = {"l": "---", "r": "--:"}
 _RESERVE = 200  # bytes kept for the line that says what was left out
 
@@ -79,17 +79,35 @@ class MarkdownTable:
         return head + "".join(shown) + (f"\n{left_out} {self.rest}\n" if left_out else "")
 
 
-def document_markdown(document: Document) -> str:
-    """Return a document as a page."""
-    about = "".join(f"\n{prose(each)}\n" for each in document.about)
-    return f"# {prose(document.title)}\n{about}" + "".join(map(_section, document.sections))
+def document_markdown(document: Document, limit: int | None = None, level: int = 1) -> str:
+    """Return a document as a page whose title is a heading of this level; sections without content are none.
+
+    With a limit it has at most so many bytes: rows and sections are left out, and lines say how many.
+    """
+    text = f"{'#' * level} {prose(document.title)}\n" + "".join(
+        f"\n{prose(each)}\n" for each in document.about
+    )
+    left_out = 0
+    for section in document.sections:
+        heading = f"\n{'#' * (level + 1)} {prose(section.title)}\n" if section.title else ""
+        room = None if limit is None else limit - len(f"{text}{heading}\n".encode()) - _RESERVE
+        shown = _section(section, room)
+        text += f"{heading}\n{shown}" if shown else ""
+        left_out += not shown and bool(section.sentences if isinstance(section, Lines) else section.rows)
+    return text + (f"\n{left_out} {document.more}\n" if left_out else "")
 
 
-def _section(section: Table | Lines) -> str:
-    heading = f"\n## {prose(section.title)}\n" if section.title else ""
-    if isinstance(section, Table):
-        return f"{heading}\n{markdown_table(section).all()}"
-    return f"{heading}\n" + "".join(f"- {prose(each)}\n" for each in section.sentences)
+def _section(section: Table | Lines, room: int | None) -> str:
+    """Return a section below its heading in at most so many bytes; empty where it has or fits nothing."""
+    if isinstance(section, Lines):
+        lines = [f"- {prose(each)}\n" for each in section.sentences]
+        return "".join(lines) if room is None or sum(len(each.encode()) for each in lines) <= room else ""
+    if not section.rows:
+        return ""
+    basis = f"{prose(section.basis)}\n\n" if section.basis else ""
+    table = markdown_table(section)
+    shown = table.all() if room is None else table.within(room - len(basis.encode()))
+    return f"{basis}{shown}" if shown else ""
 
 
 def markdown_table(table: Table, most: int | None = None, rest: str = "") -> MarkdownTable:

@@ -102,7 +102,7 @@ def test_the_frontier_of_a_parameter_is_found(call: Call, study: Any) -> None:
     scenario.write_text(f"{text}criteria: [uictest-stop]\nsimulation: {{maximum_duration: 15 s}}\n")
     answer = call("sweep", file, "--frontier", "controller.parameters.share", "--tolerance", "0.1")
     assert answer.code == 1
-    assert "frontier along controller.parameters.share" in answer.out
+    assert "Frontier along controller.parameters.share" in answer.out
     with Path("reports/study/frontier.csv").open() as lines:
         (flip,) = csv.DictReader(lines)
     assert 0.0 < float(flip["from"]) < float(flip["to"]) <= 1.0

@@ -88,7 +88,7 @@ def test_github_gets_annotations_below_the_findings(call: Call, pads: Path) -> N
         lines[-1]
         == "::notice file=pads.sweep.yaml,title=uictest sweep pads::4 cases: 4 pass; 4 not as expected"
     )
-    assert any("cases met" in line for line in lines)
+    assert any("Cases met" in line for line in lines)
 
 
 def test_annotations_are_shown_when_nothing_else_is(call: Call, pads: Path) -> None:

@@ -4,8 +4,9 @@ import csv
 import io
 from collections.abc import Callable
 
+from uictest.core.document import Data
 from uictest.judging.evaluation import CaseResult, Verdict
-from uictest.report import RunContent, Table, csv_text
+from uictest.report import RunContent, csv_text
 from uictest.report.formats.csv import (
     FORMAT,
     criteria_table,
@@ -18,7 +19,7 @@ MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]
 
 
-def _rows(table: Table) -> list[dict[str, str]]:
+def _rows(table: Data) -> list[dict[str, str]]:
     return list(csv.DictReader(io.StringIO(csv_text(*table))))
 
 

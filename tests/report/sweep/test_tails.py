@@ -12,13 +12,14 @@ import pyarrow.parquet as pq
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.report import tail_lines
+from uictest.report import titled_lines
 from uictest.report.page import sweep_page_html
 from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.formats.md import sweep_markdown
 from uictest.report.sweep.formats.xlsx import sweep_workbook_bytes
 from uictest.report.sweep.k_dry_file import k_dry_yaml
-from uictest.report.sweep.tail_tables import MOST_TABLES, k_dry_rows, k_dry_text
+from uictest.report.sweep.result import SweepResult
+from uictest.report.sweep.tail_tables import MOST_TABLES, k_dry_rows, k_dry_text, tables_left_out, tail_tables
 
 from ..test_page import Page
 
@@ -27,6 +28,10 @@ openpyxl = pytest.importorskip("openpyxl")
 MakeSweep = Callable[..., SweepContent]
 BASIS = "95 % confidence, 200 draws; nominal 1.2 m/s2, stated in the sweep file"
 REFUSAL = "needs 299 draws, has 200"
+
+
+def tail_lines(result: SweepResult) -> list[str]:
+    return [*titled_lines(tail_tables(result), None), *tables_left_out(result)]
 
 
 def tails(at: dict[str, str], without_value: int = 0) -> dict[str, Any]:

@@ -53,6 +53,7 @@ class Table:
         columns: from left to right.
         rows: anything that the columns know.
         title: what the table shows.
+        basis: what it rests on, in one sentence.
         more: where the columns and rows are that a format has no room for.
         grouped_by: column whose texts stand above the rows that share them where a terminal is too narrow.
     """
@@ -60,6 +61,7 @@ class Table:
     columns: Sequence[Column[Any]]
     rows: Sequence[Any]
     title: str = ""
+    basis: str = ""
     more: str = ""
     grouped_by: Column[Any] | None = None
 
@@ -80,8 +82,12 @@ class Lines:
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """What a result says: its sections in their order; title and `about` stand on a page of its own only."""
+    """What a result says: its sections in their order; title and `about` stand on a page of its own only.
+
+    `more` says where the sections are that a format has no room for.
+    """
 
     title: str
     sections: Sequence[Table | Lines]
     about: Sequence[str] = ()
+    more: str = ""

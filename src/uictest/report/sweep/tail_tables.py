@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Final
 
-from uictest.core.document import Cell
+from uictest.core.document import Cell, Column, Table
 from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.tails import DrawCount, KDry, KDryLevel, MeasureQuantiles, Quantile
 from uictest.report.sweep.wording import circumstances_words
-from uictest.report.terminal.fitted_columns import aligned_rows
 from uictest.report.text_tables import csv_text
 from uictest.report.wording import counted, number, quantity
 
@@ -95,23 +93,10 @@ MOST_TABLES: Final = 10
 
 _QUANTILES: Final = ("level", "draws needed", "estimate", "bound")
 _K_DRY: Final = ("EBCL", "probability", "draws needed", "m/s2", "K_dry")
+_Texts = Sequence[str]
 
 
-@dataclass(frozen=True, slots=True)
-class TailTable:
-    """A table of texts: title, what it is based on, headings, and rows whose first text names the level.
-
-    `file` is the CSV file that holds all tables of its kind.
-    """
-
-    title: str
-    basis: str
-    columns: Sequence[str]
-    rows: Sequence[Sequence[str]]
-    file: str
-
-
-def tail_tables(result: SweepResult) -> Iterator[TailTable]:
+def tail_tables(result: SweepResult) -> Iterator[Table]:
     """Yield the first tables of quantiles, then those of K_dry."""
     yield from map(_quantiles, result.quantiles[:MOST_TABLES])
     yield from map(_k_dry, result.k_dry[:MOST_TABLES])
@@ -127,24 +112,33 @@ def tables_left_out(result: SweepResult) -> list[str]:
     ]
 
 
-def _quantiles(table: MeasureQuantiles) -> TailTable:
+def _table(headings: Sequence[str], rows: Sequence[_Texts], title: str, basis: str, file: str) -> Table:
+    columns = [_column(place, heading) for place, heading in enumerate(headings)]
+    return Table(columns, rows, title, basis, f"more levels are in `{file}`.")
+
+
+def _column(place: int, heading: str) -> Column[_Texts]:
+    return Column(heading=heading, text=lambda texts: texts[place], right=place > 0)
+
+
+def _quantiles(table: MeasureQuantiles) -> Table:
     rows = [_quantile(each, table.sample) for each in table.quantiles]
     basis = _basis(table.confidence, table.sample)
-    return TailTable(quantiles_title(table), basis, _QUANTILES, rows, "quantiles.csv")
+    return _table(_QUANTILES, rows, quantiles_title(table), basis, "quantiles.csv")
 
 
-def _quantile(each: Quantile, sample: DrawCount) -> Sequence[str]:
+def _quantile(each: Quantile, sample: DrawCount) -> _Texts:
     bound = bound_text(each) if each.is_supported else refusal_text(each.draws_needed, sample)
     return share_text(each.level), str(each.draws_needed), number(each.estimate), bound
 
 
-def _k_dry(table: KDry) -> TailTable:
+def _k_dry(table: KDry) -> Table:
     rows = [_level(each, table.sample) for each in table.levels]
     words = _basis(table.confidence, table.sample), nominal_words(table), sliding_words(table)
-    return TailTable(k_dry_title(table), "; ".join(filter(None, words)), _K_DRY, rows, "k_dry.csv")
+    return _table(_K_DRY, rows, k_dry_title(table), "; ".join(filter(None, words)), "k_dry.csv")
 
 
-def _level(each: KDryLevel, sample: DrawCount) -> Sequence[str]:
+def _level(each: KDryLevel, sample: DrawCount) -> _Texts:
     factor = "-" if each.k_dry is None else k_dry_text(each.k_dry)
     if each.deceleration is None:
         factor = refusal_text(each.draws_needed, sample)
@@ -153,17 +147,6 @@ def _level(each: KDryLevel, sample: DrawCount) -> Sequence[str]:
 
 def _basis(confidence: float, sample: DrawCount) -> str:
     return f"{share_text(confidence)} confidence, {sample_words(sample)}"
-
-
-def tail_lines(result: SweepResult) -> Iterator[str]:
-    """Yield the quantiles and K_dry of a sweep, a blank line behind each table."""
-    for table in tail_tables(result):
-        yield f"{table.title}: {table.basis}"
-        yield from (f"  {line}" for line in aligned_rows([table.columns, *table.rows]))
-        yield ""
-    for sentence in tables_left_out(result):
-        yield sentence
-        yield ""
 
 
 Row = dict[str, Cell]

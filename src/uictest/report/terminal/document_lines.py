@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import groupby
 
 from uictest.core.document import Document, Lines, Table
@@ -25,6 +25,19 @@ def document_lines(document: Document, width: int | None) -> Iterator[str]:
             yield from map(printable, section.sentences)
         elif section.rows:
             yield from table_lines(section, width)
+
+
+def titled_lines(sections: Iterable[Table | Lines], width: int | None) -> Iterator[str]:
+    """Yield sections under their titles, a blank line behind each."""
+    for section in sections:
+        if isinstance(section, Lines):
+            yield from map(printable, section.sentences)
+        elif section.rows:
+            yield printable(": ".join(filter(None, (section.title, section.basis))))
+            yield from (f"  {line}" for line in table_lines(section, None if width is None else width - 2))
+        else:
+            continue
+        yield ""
 
 
 def table_lines(table: Table, width: int | None) -> Iterator[str]:
