@@ -53,6 +53,7 @@ _TESTS = {
     "running": ("campaign", "sweeps/running"),
     "runs": ("runs", "history", "api"),
     "selftest": ("selftest", "conformance"),
+    "units": ("test_units.py",),
 }
 """Room -> where its tests are, nearest first, if not only in the folder called as the room."""
 _FOLDERS = {

@@ -5,16 +5,19 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import Field
+import yaml
+from pydantic import BaseModel, ConfigDict, Field
 
 from studies.stop_runner import StopRunner, seeded
-from uictest.plans.scenario import Case, yaml
+from uictest import Case
 
 _FILE = Path(__file__).parent / "conditions" / "judgement.yaml"
 
 
-class JudgedConditions(yaml.Model):
+class JudgedConditions(BaseModel):
     """Every combination of a friction, a position, a wheelset and a seed is judged."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
     frictions: tuple[Annotated[float, Field(gt=0.0, le=1.0)], ...] = Field(
         min_length=1, description="Initial friction coefficients of the rail."
@@ -30,9 +33,7 @@ class JudgedConditions(yaml.Model):
 
 def judged_conditions() -> JudgedConditions:
     """Return the conditions of the file."""
-    tree = yaml.read_file(_FILE)
-    conditions: JudgedConditions = yaml.validated(JudgedConditions, yaml.plain(tree), tree)
-    return conditions
+    return JudgedConditions.model_validate(yaml.safe_load(_FILE.read_text("utf-8")))
 
 
 def judged_cases(stop_runner: StopRunner, conditions: JudgedConditions) -> list[Case]:
@@ -40,9 +41,6 @@ def judged_cases(stop_runner: StopRunner, conditions: JudgedConditions) -> list[
 
     Every module has a caliper, so that the valve commands do not depend on a compensation.
     """
-    frictions = ",".join(map(str, conditions.frictions))
-    positions = ",".join(conditions.positions)
-    cases = stop_runner.cases(
-        "slide-80-four-caliper", f"rail.friction={frictions}", f"brake.position={positions}"
-    )
+    varied = {"rail.friction": conditions.frictions, "brake.position": conditions.positions}
+    cases = stop_runner.cases("slide-80-four-caliper", varied)
     return [seeded(case, seed) for case in cases for seed in conditions.seeds]

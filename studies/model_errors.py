@@ -8,12 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from studies.neighbourhood import SETTINGS
-from studies.replay import CYCLE, maximum_pressure, replayed
+from studies.replay import VENT, maximum_pressure, replayed
 from studies.stop_runner import StopRunner
-from uictest.core.physics import VENT
-from uictest.core.recording import Recording
-from uictest.core.units import PERCENT
-from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
+from uictest import Case, Recording
+from uictest.units import PERCENT
 
 UNITS_OF_ERRORS = {"pressure_error": "% of maximum pressure", "force_error": "% of largest force"}
 FILTER_MISSES = (
@@ -22,17 +20,14 @@ FILTER_MISSES = (
     "its own stop."
 )
 """Why the filter of the paper misses the paper's band, as studies declare it."""
-_PRESSURES = {
-    "tank": "measured_pressure_2",
-    "filter": "cylinder_pressure_2",
-    "air": "cylinder_pressure_thermal_2",
+PRESSURE_CHANNELS = {
+    "none": "measured_pressure_2",
+    "hysteresis": "measured_pressure_2",
+    "cylinder": "cylinder_pressure_2",
+    "full": "cylinder_pressure_2",
+    "thermal": "cylinder_pressure_thermal_2",
 }
-"""Channel of the bench for each origin of the cylinder pressure."""
-
-
-def pressure_channel(setting: str) -> str:
-    """Return the channel of the bench that holds the cylinder pressure of a setting."""
-    return _PRESSURES[COMPENSATION_SETTINGS[setting].pressure]
+"""Channel of the bench that holds the cylinder pressure of module 2 under each setting."""
 
 
 def force_channel(setting: str) -> str:
@@ -48,7 +43,7 @@ def pressure_error(
     By default both are readings of sensors, as in the paper: what the sensors share cancels. The `cylinder`
     channel `tank_pressure_1` holds the true pressure.
     """
-    difference = recording[pressure_channel(setting)] - recording[cylinder]
+    difference = recording[PRESSURE_CHANNELS[setting]] - recording[cylinder]
     return float(np.abs(difference).max()) / top / PERCENT
 
 
@@ -90,7 +85,7 @@ def replay_errors(
     stop_runner: StopRunner, cases: Sequence[Case], wheelsets: Sequence[int]
 ) -> list[ReplayErrors]:
     """Replay the commands of wheelsets (1..4) in the stop of every case; return the errors, case by case."""
-    stops = stop_runner.recordings(cases, CYCLE)
+    stops = stop_runner.recordings(cases)
     work = [(case, stop, n) for case, stop in zip(cases, stops, strict=True) for n in wheelsets]
     return stop_runner.map(lambda arguments: _replay_errors(*arguments), work)
 

@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studies.stop_runner import StopRunner, constant_friction
-from uictest import rig
-from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
+from uictest import Case, CaseResult
 
-SETTINGS = tuple(COMPENSATION_SETTINGS)
+SETTINGS = ("none", "hysteresis", "cylinder", "full", "thermal")
 """Settings of the compensation."""
 FOUR_CALIPER = "four-caliper"
 SEEDS = range(10)
@@ -37,7 +36,7 @@ class Point:
     friction: str
     command: str
     case: Case
-    stops: dict[str, Sequence[rig.SimulatedStop]]
+    stops: dict[str, Sequence[CaseResult]]
 
     @property
     def title(self) -> str:
@@ -59,9 +58,11 @@ def _points(
     stop_runner: StopRunner, steps: Sequence[float], commands: Sequence[str], settings: Sequence[str]
 ) -> list[Point]:
     """Return a point for each step of friction from the calibrated one, and each command."""
-    changes = (_frictions(stop_runner, steps), f"brake.command={','.join(commands)}")
-    rigs = {name: stop_runner.cases("slide-80", *changes, f"rig.compensation={name}") for name in settings}
-    rigs[FOUR_CALIPER] = stop_runner.cases("slide-80-four-caliper", *changes)
+    calibrated = constant_friction(stop_runner.cases("slide-80")[0])
+    frictions = [f"{calibrated + step:.4g}" for step in steps]
+    changes = {"rail.friction": frictions, "brake.command": commands}
+    rigs = {name: stop_runner.cases("slide-80", {**changes, "rig.compensation": name}) for name in settings}
+    rigs[FOUR_CALIPER] = stop_runner.cases("slide-80-four-caliper", changes)
     repeats = {name: stop_runner.repeated(cases, SEEDS) for name, cases in rigs.items()}
     return [
         Point(
@@ -72,11 +73,6 @@ def _points(
         )
         for k, case in enumerate(rigs[FOUR_CALIPER])
     ]
-
-
-def _frictions(stop_runner: StopRunner, steps: Sequence[float]) -> str:
-    calibrated = constant_friction(stop_runner.cases("slide-80")[0])
-    return "rail.friction=" + ",".join(f"{calibrated + step:.4g}" for step in steps)
 
 
 Counts = NDArray[np.float64]
@@ -100,12 +96,12 @@ APART: Final = 1.3
 """Ratio above which the actuations without compensation are clearly more than those with it; chosen."""
 
 
-def counts(stops: Mapping[str, Sequence[rig.SimulatedStop]]) -> dict[str, Counts]:
+def counts(stops: Mapping[str, Sequence[CaseResult]]) -> dict[str, Counts]:
     """Return every count of :data:`COUNTED` in the repeats of a stop on every rig."""
     return {key: _of_module(stops[name], module) for key, (name, module) in COUNTED.items()}
 
 
-def mean_counts(stops: Sequence[rig.SimulatedStop]) -> Counts:
+def mean_counts(stops: Sequence[CaseResult]) -> Counts:
     """Return the actuations per wheelset in repeats of a stop, mean of modules 2 to 4."""
     return np.asarray(np.mean([_of_module(stops, module) for module in WITHOUT_CALIPER], axis=0))
 
@@ -121,5 +117,5 @@ def in_bands(counts: Mapping[str, Counts]) -> NDArray[np.bool_]:
     return np.asarray(np.all(within, axis=0))
 
 
-def _of_module(stops: Sequence[rig.SimulatedStop], module: int) -> Counts:
-    return np.array([float(stop.wheelset_measures[module - 1].valve_actuations) for stop in stops])
+def _of_module(stops: Sequence[CaseResult], module: int) -> Counts:
+    return np.array([float(stop.wheelsets[module - 1]["valve_actuations"]) for stop in stops])

@@ -10,14 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studies.judged_conditions import JudgedConditions, judged_cases
-from studies.replay import CYCLE, replayed
+from studies.replay import replayed
 from studies.stop_runner import StopRunner
 from studies.study import Table
-from uictest.core.recording import Recording
-from uictest.core.units import KILONEWTON, KILONEWTON_PER_BAR, PERCENT
-from uictest.plans import scenario
-from uictest.plans.scenario import Case
+from uictest import Case, Recording
 from uictest.rig import identification
+from uictest.units import KILONEWTON, KILONEWTON_PER_BAR, PERCENT
 
 TITLES = {
     "bc_squeezing": "BC squeezing",
@@ -65,13 +63,13 @@ class Loop:
     lines: identification.HysteresisResult
 
 
-def loops(stop_runner: StopRunner, cases: Sequence[scenario.Case]) -> list[Loop]:
+def loops(stop_runner: StopRunner, cases: Sequence[Case]) -> list[Loop]:
     """Return the loop of module 1 in the stop of every case, the brake released after the standstill."""
-    stops = stop_runner.recordings(cases, CYCLE)
+    stops = stop_runner.recordings(cases)
     return stop_runner.map(lambda pair: _loop(*pair), list(zip(cases, stops, strict=True)))
 
 
-def _loop(case: scenario.Case, stop: Recording) -> Loop:
+def _loop(case: Case, stop: Recording) -> Loop:
     recording = replayed(case, stop, 1, release=True)
     return Loop(" ".join(case.parameters.values()), recording, identified_lines(recording))
 
@@ -116,7 +114,7 @@ def held_out_errors(stop_runner: StopRunner, conditions: JudgedConditions) -> di
     Every wheelset of the conditions is replayed, under the first of their seeds.
     """
     cases = judged_cases(stop_runner, conditions.model_copy(update={"seeds": conditions.seeds[:1]}))
-    stops = stop_runner.recordings(cases, CYCLE)
+    stops = stop_runner.recordings(cases)
     work = [(case, stop, n) for case, stop in zip(cases, stops, strict=True) for n in conditions.wheelsets]
     return {
         "four": stop_runner.map(lambda each: _errors(*each), work),

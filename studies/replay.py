@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from uictest.core import recording
-from uictest.plans import scenario
+from uictest import Case, Recording
 from uictest.rig import bench
 
 CYCLE = 0.01
 """Time between two samples of a stop to be replayed, s: one controller cycle."""
+VENT = 2
+"""Of the channels `valve_command_*`."""
 _RELEASE = 4.0
 """Time for the brake to release, s."""
 
 
-def replayed(
-    case: scenario.Case, stop: recording.Recording, wheelset: int, *, release: bool = False
-) -> recording.Recording:
+def replayed(case: Case, stop: Recording, wheelset: int, *, release: bool = False) -> Recording:
     """Return the bench recording of both modules under the demand and the commands of one wheelset (1..4).
 
     In the stop each module obeys the commands of its own wheelset, so the two cannot be compared there.
@@ -30,9 +29,7 @@ def replayed(
     return replayed_in_turn(case, stop, [wheelset], release=release)
 
 
-def replayed_in_turn(
-    case: scenario.Case, stop: recording.Recording, wheelsets: Sequence[int], *, release: bool
-) -> recording.Recording:
+def replayed_in_turn(case: Case, stop: Recording, wheelsets: Sequence[int], *, release: bool) -> Recording:
     """Return one bench recording under the commands of several wheelsets, one after the other.
 
     Arguments are those of :func:`replayed`.
@@ -47,14 +44,14 @@ def replayed_in_turn(
     return bench.run_bench(case, bench.joined_inputs(parts))
 
 
-def _releasing(case: scenario.Case, pressure: float, clock: bench.Clock) -> bench.BenchInput:
+def _releasing(case: Case, pressure: float, clock: bench.Clock) -> bench.BenchInput:
     """Return pressures that hold until the WSP no longer counts as acting, then release."""
     stand = float(case.scenario.rig.compensation_model.hysteresis.wsp_acting_time) + CYCLE
     times = (0.0, stand, stand + clock.step, stand + _RELEASE)
     return bench.bypassed_input(times, (pressure, pressure, 0.0, 0.0), clock)
 
 
-def maximum_pressure(case: scenario.Case) -> float:
+def maximum_pressure(case: Case) -> float:
     """Return the gauge pressure of a full service application in the brake position of a case, Pa."""
     brake = case.scenario.brake
     return float(brake.system.positions[brake.position].maximum_pressure)

@@ -6,11 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
-from studies.stop_runner import StopRunner, Stops, seeded
-from uictest import rig
-from uictest.core.units import NORMAL_DENSITY, PERCENT, SIZES
-from uictest.judging import evaluation
-from uictest.plans import scenario
+from studies.stop_runner import StopRunner, measured, verdict_value
+from uictest import Case, CaseResult
+from uictest.units import PERCENT
 
 FRICTIONS = (0.03, 0.04, 0.05, 0.06, 0.08, 0.10)
 CLEANED = "5.3 kJ/m"
@@ -63,12 +61,13 @@ Map = Mapping[tuple[str, str, float], SlipTest]
 
 def slip_tests(stop_runner: StopRunner) -> Map:
     """Return the test at every point of the map, in order of controller, energy and friction."""
-    dry = stop_runner.repeated(stop_runner.cases("dry-120"), [0])[0].stops[0].measures.braking_distance
+    (dry,) = stop_runner.repeated(stop_runner.cases("dry-120"), [0])
+    dry_distance = measured(dry.stops[0], "braking_distance_m")
     points = [(name, energy) for name in CONTROLLERS for energy in ENERGIES]
     cases = [case for point in points for case in slip_cases(stop_runner, *point, FRICTIONS)]
     repeats = iter(stop_runner.repeated(cases, SEEDS))
     return {
-        (*point, friction): _test(*point, friction, next(repeats), float(dry))
+        (*point, friction): _test(*point, friction, next(repeats).stops, dry_distance)
         for point in points
         for friction in FRICTIONS
     }
@@ -76,47 +75,40 @@ def slip_tests(stop_runner: StopRunner) -> Map:
 
 def slip_cases(
     stop_runner: StopRunner, controller: str, energy: str, frictions: Sequence[float]
-) -> list[scenario.Case]:
+) -> Sequence[Case]:
     """Return the slip-brake test at several frictions, with a controller and a rail of the map."""
     condition = "wet" if energy == "none" else f"{{extends: wet-cleaning, cleaning: {{energy: {energy}}}}}"
-    return stop_runner.cases(
-        "slip-120",
-        f"rail.friction={','.join(f'{friction:g}' for friction in frictions)}",
-        f"rail.condition={condition}",
-        f"controller={CONTROLLERS[controller]}",
-    )
+    changes = {"rail.condition": condition, "controller": CONTROLLERS[controller]}
+    return stop_runner.cases("slip-120", {"rail.friction": frictions, **changes})
 
 
-def _test(controller: str, energy: str, friction: float, repeats: Stops, dry: float) -> SlipTest:
-    verdicts = [_verdicts(repeats.case, seed, stop) for seed, stop in zip(SEEDS, repeats.stops, strict=True)]
-    distance = median(float(stop.measures.braking_distance) for stop in repeats.stops)
+def _test(controller: str, energy: str, friction: float, stops: Sequence[CaseResult], dry: float) -> SlipTest:
+    distance = median(measured(stop, "braking_distance_m") for stop in stops)
     return SlipTest(
         controller,
         energy,
         friction,
-        median(_value(each["initial-adhesion"]) for each in verdicts),
-        median(_value(each["minimum-slide"]) for each in verdicts),
-        median(_read_as("depth", each["minimum-slide"]) for each in verdicts),
+        median(verdict_value(stop, "initial-adhesion") for stop in stops),
+        median(verdict_value(stop, "minimum-slide") for stop in stops),
+        median(_depth(stop) for stop in stops),
         distance,
         (distance / dry - 1.0) / PERCENT,
-        median(float(stop.measures.air_consumed) for stop in repeats.stops) / NORMAL_DENSITY / SIZES["NL"],
-        median(float(stop.wheelset_measures.valve_actuations.sum()) for stop in repeats.stops),
-        median(float(stop.wheelset_measures.longest_lock.max()) for stop in repeats.stops),
-        median(all(verdict.status == "pass" for verdict in each.values()) for each in verdicts) > 0.5,
+        median(measured(stop, "air_consumed_nl") for stop in stops),
+        median(float(sum(each["valve_actuations"] for each in stop.wheelsets)) for stop in stops),
+        median(verdict_value(stop, "locked-wheels") for stop in stops),
+        median(all(_passes(stop, name) for name in ("initial-adhesion", "minimum-slide")) for stop in stops)
+        > 0.5,
     )
 
 
-def _verdicts(case: scenario.Case, seed: int, stop: rig.SimulatedStop) -> dict[str, evaluation.Verdict]:
-    """Return the verdicts of the two limits of Appendix B for a wet rail."""
-    judged = evaluation.judge(seeded(case, seed).scenario, stop.measures, stop.wheelset_measures)
-    return {each.id: each for each in judged if each.id in ("initial-adhesion", "minimum-slide")}
-
-
-def _value(verdict: evaluation.Verdict) -> float:
-    return float("nan") if verdict.value is None else verdict.value
-
-
-def _read_as(reading: str, verdict: evaluation.Verdict) -> float:
-    """Return the value that a verdict has by another reading, NaN where it has none."""
-    value = next((each.value for each in verdict.readings if each.id == reading), None)
+def _depth(stop: CaseResult) -> float:
+    """Return the minimum slide read as a depth; NaN where it has none."""
+    readings = [
+        each for verdict in stop.criteria if verdict.id == "minimum-slide" for each in verdict.readings
+    ]
+    value = next((each.value for each in readings if each.id == "depth"), None)
     return float("nan") if value is None else value
+
+
+def _passes(stop: CaseResult, criterion: str) -> bool:
+    return any(verdict.id == criterion and verdict.status == "pass" for verdict in stop.criteria)

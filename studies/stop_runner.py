@@ -1,24 +1,17 @@
-"""Run the stops and bench tests of studies on threads; each stop is run once."""
+"""Run and judge the stops of studies; each stop is run once."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from hashlib import sha256
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
-import numpy as np
-
-from uictest import rig
-from uictest.core.recording import Recording
-from uictest.plans.scenario import Case, load
-from uictest.running import campaign
+import uictest
+from uictest import Case, CaseResult, Recording
 
 _SCENARIOS = Path(__file__).parent / "scenarios"
-
-_BATCH = 128
-"""Stops that a thread runs in lanes at a time."""
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
@@ -26,14 +19,14 @@ Result = TypeVar("Result")
 
 @dataclass(frozen=True, slots=True)
 class Stops:
-    """The stops of one case, one per seed."""
+    """The judged stops of one case, one per seed."""
 
     case: Case
-    stops: Sequence[rig.SimulatedStop]
+    stops: Sequence[CaseResult]
 
 
 class StopRunner:
-    """Runs the stops of studies, and caches them.
+    """Runs the stops of studies, and keeps their results.
 
     Args:
         jobs: threads to simulate on.
@@ -41,41 +34,37 @@ class StopRunner:
 
     def __init__(self, jobs: int = 1) -> None:
         self._jobs = jobs
-        self._stops: dict[tuple[str, str], rig.SimulatedStop] = {}
+        self._results: dict[str, CaseResult] = {}
         self.inputs: dict[str, str] = {}
         """Every file that the cases of the study were loaded from -> its SHA-256."""
 
-    def cases(self, scenario: str, *changes: str) -> list[Case]:
-        """Return the cases of a scenario of the studies, changed by `key=value` texts as of `--set`."""
-        cases = load([_SCENARIOS / f"{scenario}.yaml"], changes)
+    def cases(self, scenario: str, changes: Mapping[str, Any] | None = None) -> tuple[Case, ...]:
+        """Return the cases of a scenario of the studies, changed as by `set` of :func:`uictest.load`."""
+        cases = uictest.load(_SCENARIOS / f"{scenario}.yaml", set=changes)
         for case in cases:
             self.inputs.update(case.inputs)
         return cases
 
     def repeated(self, cases: Sequence[Case], seeds: Sequence[int]) -> list[Stops]:
         """Return the stops, without recording, of every case under every seed of the sensors' noise."""
-        seeded_cases = [seeded(case, seed) for case in cases for seed in seeds]
-        new_cases = {_key(case): case for case in seeded_cases if _key(case) not in self._stops}
-        self._stops.update(zip(new_cases, self.map(_stop, list(new_cases.values())), strict=True))
-        return [Stops(case, [self._stops[_key(seeded(case, seed))] for seed in seeds]) for case in cases]
+        repeats = [[seeded(case, seed) for seed in seeds] for case in cases]
+        keyed = {_key(each): each for of_case in repeats for each in of_case}
+        missing = {key: each for key, each in keyed.items() if key not in self._results}
+        for batch in _batches(missing):
+            self._results.update(zip(batch, _judged(list(batch.values()), self._jobs), strict=True))
+        return [
+            Stops(case, [self._results[_key(each)] for each in of_case])
+            for case, of_case in zip(cases, repeats, strict=True)
+        ]
 
-    def in_lanes(self, cases: Sequence[Case]) -> list[rig.SimulatedStop]:
-        """Return the stop, without recording, of every case: for many cases that are run once.
-
-        Stops run side by side in the lanes of a register and have the bits of :func:`uictest.rig.simulate`.
-        """
-        batches = [cases[start : start + _BATCH] for start in range(0, len(cases), _BATCH)]
-        # The first compiles what the threads then share.
-        stops = [*map(_side_by_side, batches[:1]), *self.map(_side_by_side, batches[1:])]
-        return [stop for batch in stops for stop in batch]
-
-    def recordings(self, cases: Sequence[Case], every: float) -> list[Recording]:
-        """Return a recording of the stop of every case, a sample every so many seconds."""
-        return self.map(lambda case: _recording(case, every), cases)
+    def recordings(self, cases: Sequence[Case]) -> list[Recording]:
+        """Return a recording of the stop of every case, a sample in each cycle of the controller."""
+        return self.map(uictest.simulate, cases)
 
     def map(self, work: Callable[[Argument], Result], arguments: Sequence[Argument]) -> list[Result]:
         """Return the result of `work` for each argument, in order; the compiled rig releases the GIL."""
-        return list(campaign.map_on_threads(work, arguments, jobs=self._jobs))
+        with ThreadPoolExecutor(self._jobs) as threads:
+            return list(threads.map(work, arguments))
 
 
 def seeded(case: Case, seed: int) -> Case:
@@ -90,28 +79,36 @@ def constant_friction(case: Case) -> float:
     return friction
 
 
-def _key(case: Case) -> tuple[str, str]:
+def _key(case: Case) -> str:
     """Return what identifies a stop: its id, which seeds the noise, and all of its scenario."""
-    return case.id, sha256(case.scenario.model_dump_json().encode()).hexdigest()
+    return f"{case.id} {case.scenario.model_dump_json()}"
 
 
-def _stop(case: Case) -> rig.SimulatedStop:
-    return rig.simulate(case)
+def _batches(cases: Mapping[str, Case]) -> Iterator[dict[str, Case]]:
+    """Divide cases among batches in which every id stands once, as `uictest.run` asks for."""
+    left = dict(cases)
+    while left:
+        by_id = {case.id: key for key, case in reversed(left.items())}
+        batch = {key: case for key, case in left.items() if by_id[case.id] == key}
+        yield batch
+        left = {key: case for key, case in left.items() if key not in batch}
 
 
-def _side_by_side(cases: Sequence[Case]) -> list[rig.SimulatedStop]:
-    inputs = [rig.assemble(case) for case in cases]
-    points = max(each.rail.shape[1] for each in inputs)
-    batch = rig.run_in_lanes(
-        np.array([each.parameters for each in inputs]),
-        np.array([each.wheelset_parameters for each in inputs]),
-        np.array([np.pad(each.rail, ((0, 0), (0, points - each.rail.shape[1]))) for each in inputs]),
-    )
-    trains, wheelsets = batch.measures.view(np.recarray), batch.wheelset_measures.view(np.recarray)
-    return [rig.SimulatedStop(*stop) for stop in zip(trains, wheelsets, strict=True)]
+def _judged(cases: Sequence[Case], jobs: int) -> list[CaseResult]:
+    results = list(uictest.run(cases, record="none", jobs=jobs))
+    for result in results:
+        if result.outcome == "error":
+            raise RuntimeError(f"{result.id}: {result.reason}")
+    return results
 
 
-def _recording(case: Case, every: float) -> Recording:
-    recording = rig.simulate(case, record_every=every).recording
-    assert recording is not None
-    return recording
+def measured(stop: CaseResult, name: str) -> float:
+    """Return a measure of a stop by its name in results, such as `braking_distance_m`; NaN: not reached."""
+    assert stop.measures is not None  # only a stop that failed has none
+    return stop.measures[name]
+
+
+def verdict_value(stop: CaseResult, criterion: str) -> float:
+    """Return the value that a criterion found, in its own unit; NaN where it does not apply."""
+    value = next(verdict.value for verdict in stop.criteria if verdict.id == criterion)
+    return float("nan") if value is None else value

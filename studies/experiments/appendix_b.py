@@ -6,13 +6,10 @@ from functools import partial
 
 from studies.figures.appendix_b import draw
 from studies.quantity import NOT_ASKED, OwnBand, SourceBand, StudyQuantity, StudyValue, spread
-from studies.replay import CYCLE
-from studies.stop_runner import StopRunner, seeded
+from studies.stop_runner import StopRunner, verdict_value
 from studies.study import Study, StudyFindings, Table, column
-from uictest.core.recording import Recording
-from uictest.core.units import KILOMETRE_PER_HOUR
-from uictest.judging import evaluation
-from uictest.plans import scenario
+from uictest import Recording
+from uictest.units import KILOMETRE_PER_HOUR
 
 SEEDS = range(5)
 
@@ -60,14 +57,22 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     """Judge both stops with the shipped profile of Appendix B."""
     (dry,) = stop_runner.cases("dry-120")
     (slip,) = stop_runner.cases("slip-120")
-    distance = _values(stop_runner, dry, "braking-distance", [0])[0]
-    dry_stop, slip_stop = stop_runner.recordings([dry, slip], CYCLE)
+    (dry_repeats,), (slip_repeats,) = (
+        stop_runner.repeated([dry], [0]),
+        stop_runner.repeated([slip], SEEDS),
+    )
+    distance = verdict_value(dry_repeats.stops[0], "braking-distance")
+    adhesion, slide = (
+        spread([verdict_value(stop, criterion) for stop in slip_repeats.stops])
+        for criterion in ("initial-adhesion", "minimum-slide")
+    )
+    dry_stop, slip_stop = stop_runner.recordings([dry, slip])
     return StudyFindings(
         {
             "braking_distance": StudyValue(distance),
             "off_the_middle": StudyValue(abs(distance - sum(DISTANCES) / 2.0)),
-            "initial_adhesion": spread(_values(stop_runner, slip, "initial-adhesion", SEEDS)),
-            "minimum_slide": spread(_values(stop_runner, slip, "minimum-slide", SEEDS)),
+            "initial_adhesion": adhesion,
+            "minimum_slide": slide,
         },
         tables={"dry-stop": _table(dry_stop), "slip-brake-test": _table(slip_stop)},
         drawings={"appendix-b": partial(draw, dry_stop, slip_stop, DISTANCES)},
@@ -81,23 +86,6 @@ def run(stop_runner: StopRunner) -> StudyFindings:
             f"Slip-brake test: {len(SEEDS)} stops that differ in the noise of the sensors, median and range.",
         ),
     )
-
-
-def _values(
-    stop_runner: StopRunner, case: scenario.Case, criterion: str, seeds: range | list[int]
-) -> list[float]:
-    """Return the value of a criterion for every seed, in its own unit; NaN where it does not apply."""
-    (repeats,) = stop_runner.repeated([case], seeds)
-    values = []
-    for seed, stop in zip(seeds, repeats.stops, strict=True):
-        verdicts = evaluation.judge(seeded(case, seed).scenario, stop.measures, stop.wheelset_measures)
-        values.append(_value(verdicts, criterion))
-    return values
-
-
-def _value(verdicts: list[evaluation.Verdict], criterion: str) -> float:
-    value = next(verdict.value for verdict in verdicts if verdict.id == criterion)
-    return float("nan") if value is None else value
 
 
 def _table(recording: Recording) -> Table:

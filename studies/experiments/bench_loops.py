@@ -9,9 +9,9 @@ from studies.phases import identified_lines
 from studies.quantity import OwnBand, StudyQuantity, StudyValue
 from studies.stop_runner import StopRunner
 from studies.study import Study, StudyFindings, Table, column
-from uictest.core.recording import Recording
-from uictest.core.units import BAR, KILONEWTON
+from uictest import Recording
 from uictest.rig import bench
+from uictest.units import BAR, KILONEWTON
 
 TESTS = ("stepwise", "triangular", "random")
 """Bench recipes of the library. The kinds of pressure are the paper's; levels, rates and times are ours."""

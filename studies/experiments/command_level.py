@@ -9,7 +9,7 @@ from studies.phases import loops, slope_spread, slopes_table
 from studies.quantity import OwnBand, StudyQuantity, StudyValue
 from studies.stop_runner import StopRunner
 from studies.study import Study, StudyFindings
-from uictest.core.units import KILONEWTON, PERCENT
+from uictest.units import KILONEWTON, PERCENT
 
 QUANTITIES = (
     StudyQuantity(

@@ -9,12 +9,12 @@ import numpy as np
 from studies.figures.cylinder_dynamics import draw
 from studies.model_errors import FILTER_MISSES, pressure_error
 from studies.quantity import OwnBand, SourceBand, StudyQuantity, repeats_note, spread
-from studies.replay import CYCLE, maximum_pressure, replayed
+from studies.replay import maximum_pressure, replayed
 from studies.stop_runner import StopRunner, seeded
 from studies.study import Study, StudyFindings, Table, column
-from uictest.core.recording import Recording
-from uictest.core.units import BAR, PERCENT
+from uictest import Recording
 from uictest.rig import bench, identification
+from uictest.units import BAR, PERCENT
 
 SEEDS = range(5)
 _EVERY = 20
@@ -93,7 +93,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     """Replay the commands of module 1 in the slide test to both modules."""
     case = stop_runner.cases("slide-80")[0]
     cases = [seeded(case, seed) for seed in SEEDS]
-    stops = stop_runner.recordings(cases, CYCLE)
+    stops = stop_runner.recordings(cases)
     replays = stop_runner.map(lambda pair: replayed(*pair, 1), list(zip(cases, stops, strict=True)))
     top = maximum_pressure(case)
     errors = {

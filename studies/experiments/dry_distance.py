@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from studies.neighbourhood import FOUR_CALIPER, SETTINGS
 from studies.quantity import NOT_ASKED, OwnBand, StudyQuantity, StudyValue
-from studies.stop_runner import StopRunner, seeded
+from studies.stop_runner import StopRunner, measured, seeded
 from studies.study import Study, StudyFindings, Table
-from uictest.core.units import KILOMETRE_PER_HOUR, PERCENT
-from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
+from uictest import Case
+from uictest.units import KILOMETRE_PER_HOUR, PERCENT
 
 SPEEDS = ("30 km/h", "60 km/h", "100 km/h", "120 km/h", "145 km/h")
 COMMANDS = ("30 %", "70 %", "100 %")
@@ -20,11 +20,12 @@ LEAST_COMMAND = 70.0 * PERCENT
 SEEDS = range(2)
 _ROUNDING = 1e-9
 RIGS = {
-    FOUR_CALIPER: f"rig.topology={FOUR_CALIPER}",
-    **{setting: f"rig.compensation={setting}" for setting in SETTINGS},
+    FOUR_CALIPER: {"rig.topology": FOUR_CALIPER},
+    **{setting: {"rig.compensation": setting} for setting in SETTINGS},
 }
 """Change of the scenario for each rig."""
 
+WITH_HYSTERESIS = ("hysteresis", "full", "thermal")
 WITHIN = 0.2
 """Difference from four calipers that a setting with hysteresis may have in the stops that have a band, %."""
 
@@ -55,8 +56,8 @@ class DryStop:
 
 
 def _quantities() -> Iterator[StudyQuantity]:
-    for name, setting in COMPENSATION_SETTINGS.items():
-        band = OwnBand(lower=-WITHIN, upper=WITHIN, reason="ours") if setting.hysteresis else None
+    for name in SETTINGS:
+        band = OwnBand(lower=-WITHIN, upper=WITHIN, reason="ours") if name in WITH_HYSTERESIS else None
         yield StudyQuantity(
             name,
             f"difference, {name}, worst from 100 km/h at 70 %",
@@ -108,13 +109,12 @@ def dry_stops(stop_runner: StopRunner) -> list[DryStop]:
     ]
 
 
-def _distances(stop_runner: StopRunner, change: str) -> Iterator[tuple[Case, float]]:
-    """Yield every stop on the rig of a change, and its distance in m."""
-    speeds, commands = f"initial_speed={','.join(SPEEDS)}", f"brake.command={','.join(COMMANDS)}"
-    cases = stop_runner.cases("dry-120", speeds, commands, change)
+def _distances(stop_runner: StopRunner, rig: Mapping[str, str]) -> Iterator[tuple[Case, float]]:
+    """Yield every stop on a rig, and its distance in m."""
+    cases = stop_runner.cases("dry-120", {"initial_speed": SPEEDS, "brake.command": COMMANDS, **rig})
     for repeats in stop_runner.repeated(cases, SEEDS):
         for seed, stop in zip(SEEDS, repeats.stops, strict=True):
-            yield seeded(repeats.case, seed), float(stop.measures.braking_distance)
+            yield seeded(repeats.case, seed), measured(stop, "braking_distance_m")
 
 
 def worst_stop(stops: Sequence[DryStop], rig: str) -> DryStop:

@@ -8,11 +8,11 @@ from studies.figures.force_accuracy import draw
 from studies.model_errors import force_channel, force_error
 from studies.neighbourhood import SETTINGS
 from studies.quantity import OwnBand, SourceBand, StudyQuantity, repeats_note, spread
-from studies.replay import CYCLE, replayed
+from studies.replay import replayed
 from studies.stop_runner import StopRunner, seeded
 from studies.study import Study, StudyFindings, Table, column
-from uictest.core.recording import Recording
-from uictest.core.units import KILONEWTON
+from uictest import Recording
+from uictest.units import KILONEWTON
 
 SEEDS = range(5)
 _EVERY = 20
@@ -64,7 +64,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     """Replay the commands of module 1 in the slide test, and compute its force with each setting."""
     case = stop_runner.cases("slide-80")[0]
     cases = [seeded(case, seed) for seed in SEEDS]
-    stops = stop_runner.recordings(cases, CYCLE)
+    stops = stop_runner.recordings(cases)
     replays = stop_runner.map(lambda pair: replayed(*pair, 1), list(zip(cases, stops, strict=True)))
     return StudyFindings(
         {

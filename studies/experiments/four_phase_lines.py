@@ -13,12 +13,12 @@ from studies.judged_conditions import judged_conditions
 from studies.model_errors import UNITS_OF_ERRORS
 from studies.phases import TITLES, LineErrors, held_out_errors, identified_lines, on_phases
 from studies.quantity import NOT_ASKED, OwnBand, Status, StudyQuantity, StudyValue, spread
-from studies.replay import CYCLE, replayed_in_turn
+from studies.replay import replayed_in_turn
 from studies.stop_runner import StopRunner
 from studies.study import Study, StudyFindings, Table, column
-from uictest.core.recording import Recording
-from uictest.core.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
+from uictest import Recording
 from uictest.rig import identification
+from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
 
 _NAN = float("nan")
 _EVERY = 20
@@ -56,7 +56,7 @@ def _quantities() -> Iterator[StudyQuantity]:
 def run(stop_runner: StopRunner) -> StudyFindings:
     """Identify the four lines in a slide test, released after standstill; judge those of the compensation."""
     case = stop_runner.cases("slide-80")[0]
-    stop = stop_runner.recordings([case], CYCLE)[0]
+    stop = stop_runner.recordings([case])[0]
     recording = replayed_in_turn(case, stop, WHEELSETS, release=True)
     hysteresis = identified_lines(recording)
     errors = held_out_errors(stop_runner, judged_conditions())

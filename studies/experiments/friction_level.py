@@ -7,9 +7,9 @@ from functools import partial
 from studies.figures.levels import draw
 from studies.phases import loops, slope_spread, slopes_table
 from studies.quantity import OwnBand, StudyQuantity, StudyValue
-from studies.stop_runner import StopRunner
+from studies.stop_runner import StopRunner, measured
 from studies.study import Study, StudyFindings
-from uictest.core.units import PERCENT
+from uictest.units import PERCENT
 
 _LEVELS = ("009", "010", "011", "012")
 
@@ -36,7 +36,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     cases = stop_runner.cases("wet-80-friction")
     stop_loops = loops(stop_runner, cases)
     stops = stop_runner.repeated(cases, [0])
-    distances = [StudyValue(float(repeats.stops[0].measures.braking_distance)) for repeats in stops]
+    distances = [StudyValue(measured(repeats.stops[0], "braking_distance_m")) for repeats in stops]
     return StudyFindings(
         {
             "slope_spread": StudyValue(slope_spread(stop_loops) / PERCENT),

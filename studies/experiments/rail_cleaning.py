@@ -10,7 +10,6 @@ import numpy as np
 
 from studies.figures.rail_cleaning import draw_maps, draw_stops
 from studies.quantity import NOT_ASKED, OwnBand, StudyQuantity, StudyValue, spread
-from studies.replay import CYCLE
 from studies.slip_brake_tests import (
     CLEANED,
     CONTROLLERS,
@@ -22,7 +21,7 @@ from studies.slip_brake_tests import (
 )
 from studies.stop_runner import StopRunner
 from studies.study import Study, StudyFindings, Table
-from uictest.core.recording import Recording
+from uictest import Recording
 
 _RAILS = {"found": "none", "cleaned": CLEANED}
 SHOWN_FRICTION = 0.05
@@ -119,7 +118,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
 def _recorded(stop_runner: StopRunner) -> dict[str, Recording]:
     """Return a stop on the cleaned rail with each controller."""
     cases = [slip_cases(stop_runner, name, CLEANED, [SHOWN_FRICTION])[0] for name in CONTROLLERS]
-    return dict(zip(CONTROLLERS, stop_runner.recordings(cases, CYCLE), strict=True))
+    return dict(zip(CONTROLLERS, stop_runner.recordings(cases), strict=True))
 
 
 def _trailing_share(stop: Recording) -> float:

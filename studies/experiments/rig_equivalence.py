@@ -19,10 +19,10 @@ from studies.neighbourhood import (
     neighbourhood,
 )
 from studies.quantity import NOT_ASKED, Status, StudyQuantity, StudyValue, spread
-from studies.stop_runner import StopRunner, seeded
+from studies.stop_runner import StopRunner, measured, seeded
 from studies.study import Study, StudyFindings, Table
-from uictest import rig
-from uictest.core.units import PERCENT, in_unit, normal_volume
+from uictest import CaseResult
+from uictest.units import PERCENT
 
 RIGS = (*SETTINGS, FOUR_CALIPER)
 """The settings of the rig with one caliper, and the rig with four, whose spread is that of chance."""
@@ -50,6 +50,8 @@ COMPARED_MEASURES = (
     ComparedMeasure("maximum_slide", "largest slide", "percentage points", of_wheelsets=True),
     ComparedMeasure("valve_actuations", "valve actuations", "", of_wheelsets=True),
 )
+_SUFFIXES = {"braking_distance": "m", "braking_time": "s", "air_consumed": "nl"}
+"""Unit in the name of a measure of the train in results."""
 ERRORS = (
     ComparedMeasure("pressure_error", "pressure error", UNITS_OF_ERRORS["pressure_error"], of_wheelsets=True),
     ComparedMeasure("force_error", "force error", UNITS_OF_ERRORS["force_error"], of_wheelsets=True),
@@ -166,16 +168,15 @@ def overall(rig_differences: Sequence[RigDifference], measure: str, rig_name: st
     )
 
 
-def _values(stops: Sequence[rig.SimulatedStop], measure: ComparedMeasure, wheelset: int) -> list[float]:
+def _values(stops: Sequence[CaseResult], measure: ComparedMeasure, wheelset: int) -> list[float]:
     return [_value(stop, measure.key, wheelset) for stop in stops]
 
 
-def _value(stop: rig.SimulatedStop, key: str, wheelset: int) -> float:
+def _value(stop: CaseResult, key: str, wheelset: int) -> float:
     if wheelset != TRAIN:
-        value = float(stop.wheelset_measures[wheelset - 1][key])
+        value = float(stop.wheelsets[wheelset - 1][key])
         return value / PERCENT if key == "maximum_slide" else value
-    value = float(stop.measures[key])
-    return in_unit(normal_volume(value), "NL") if key == "air_consumed" else value
+    return measured(stop, f"{key}_{_SUFFIXES[key]}")
 
 
 def _table(rig_differences: Sequence[RigDifference]) -> Table:

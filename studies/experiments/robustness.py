@@ -27,7 +27,7 @@ from studies.neighbourhood import (
 from studies.quantity import NOT_ASKED, OwnBand, StudyQuantity, StudyValue, spread
 from studies.stop_runner import StopRunner
 from studies.study import Study, StudyFindings, Table
-from uictest.core.units import PERCENT
+from uictest.units import PERCENT
 
 SHOWN = (FOUR_CALIPER, "full", "none")
 
@@ -191,7 +191,7 @@ def _table(points: list[Point]) -> Table:
         "seed": [row[3] for row in rows],
     }
     for n in (1, 2, 3, 4):
-        columns[f"actuations_{n}"] = [int(row[4].wheelset_measures[n - 1].valve_actuations) for row in rows]
+        columns[f"actuations_{n}"] = [row[4].wheelsets[n - 1]["valve_actuations"] for row in rows]
     return columns
 
 

@@ -8,18 +8,23 @@ import numpy as np
 
 from studies.figures.slide_test import draw
 from studies.quantity import OwnBand, StudyQuantity, StudyValue, repeats_note, spread
-from studies.replay import CYCLE
-from studies.stop_runner import StopRunner
+from studies.stop_runner import StopRunner, measured
 from studies.study import Study, StudyFindings, Table, column
-from uictest import rig
-from uictest.core.recording import Recording
-from uictest.core.units import BAR, KILOMETRE_PER_HOUR
+from uictest import Recording
+from uictest.units import BAR, KILOMETRE_PER_HOUR
 
 SEEDS = range(10)
 WHEELSETS = (1, 2, 3, 4)
 
 REAL_TRAIN_TIME = 17.6
 """Braking time of the real train, s."""
+_MEASURED = {
+    "braking_time": "s",
+    "braking_distance": "m",
+    "minimum_deceleration": "mps2",
+    "maximum_deceleration": "mps2",
+}
+"""Measures that are quantities, with the unit in their names in results."""
 
 QUANTITIES = (
     StudyQuantity(
@@ -72,21 +77,16 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     """Simulate the stop from 80 km/h on the rig with one caliper and the paper's full compensation."""
     case = stop_runner.cases("slide-80")[0]
     stops = stop_runner.repeated([case], SEEDS)[0].stops
-    recording = stop_runner.recordings([case], CYCLE)[0]
+    recording = stop_runner.recordings([case])[0]
     return StudyFindings(
         {
-            name: spread([_measure(stop, name) for stop in stops])
-            for name in (
-                "braking_time",
-                "braking_distance",
-                "minimum_deceleration",
-                "maximum_deceleration",
-            )
+            name: spread([measured(stop, f"{name}_{unit}") for stop in stops])
+            for name, unit in _MEASURED.items()
         }
         | {
             "likeness": StudyValue(unlikeness(recording) / KILOMETRE_PER_HOUR),
             "maximum_slide": spread(
-                [100.0 * float(stop.wheelset_measures.maximum_slide.max()) for stop in stops]
+                [100.0 * max(each["maximum_slide"] for each in stop.wheelsets) for stop in stops]
             ),
         },
         tables={"stop": _table(recording)},
@@ -99,10 +99,6 @@ def run(stop_runner: StopRunner) -> StudyFindings:
             ),
         ),
     )
-
-
-def _measure(stop: rig.SimulatedStop, name: str) -> float:
-    return float(stop.measures[name])
 
 
 def unlikeness(recording: Recording) -> float:

@@ -8,7 +8,6 @@ from functools import partial
 from studies.figures.valve_actuations import ActuationPanel, draw
 from studies.neighbourhood import BANDS, COUNTED, FOUR_CALIPER, PAPER, counts
 from studies.quantity import NOT_ASKED, OwnBand, Status, StudyQuantity, repeats_note, spread
-from studies.replay import CYCLE
 from studies.stop_runner import StopRunner
 from studies.study import Study, StudyFindings
 
@@ -38,11 +37,11 @@ def _quantities() -> Iterator[StudyQuantity]:
 def run(stop_runner: StopRunner) -> StudyFindings:
     """Count the openings of the vent in repeats of the slide test, with one caliper and with four."""
     settings = ("none", "full", "thermal")
-    cases = {name: stop_runner.cases("slide-80", f"rig.compensation={name}")[0] for name in settings}
+    cases = {name: stop_runner.cases("slide-80", {"rig.compensation": name})[0] for name in settings}
     cases[FOUR_CALIPER] = stop_runner.cases("slide-80-four-caliper")[0]
     repeats = stop_runner.repeated(list(cases.values()), SEEDS)
     counted = counts({name: each.stops for name, each in zip(cases, repeats, strict=True)})
-    recordings = dict(zip(cases, stop_runner.recordings(list(cases.values()), CYCLE), strict=True))
+    recordings = dict(zip(cases, stop_runner.recordings(list(cases.values())), strict=True))
     panels = [
         ActuationPanel(TITLES[key], recordings[COUNTED[key][0]], COUNTED[key][1], colour)
         for key, colour in _DRAWN.items()

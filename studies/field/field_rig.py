@@ -8,17 +8,19 @@ from typing import Any, get_args
 
 import numpy as np
 
+import uictest
 from studies.field.families import DRY, Assumptions, Brake
 from studies.field.real_train import INITIAL_SPEED, REAL_TRAIN, FieldStop
 from studies.replay import CYCLE
 from studies.stop_runner import StopRunner, seeded
-from uictest import rig
-from uictest.core.recording import Recording
-from uictest.plans.scenario import Case, FrictionProfile
+from uictest import Case, Recording, rig
+from uictest.plans.scenario import FrictionProfile
 
 _SCENARIO = "slide-80"
-_SLIPPERY = "rail.friction=0.1"
+_SLIPPERY = {"rail.friction": "0.1"}
 """Of a case from which the cleaning alone is taken: a rail of another condition needs a friction."""
+_BATCH = 128
+"""Stops that a thread runs in lanes at a time."""
 _LONGER = 1.1
 """Duration of what is simulated to find the start of the clock, over the lead."""
 
@@ -42,10 +44,10 @@ class FieldRig:
         self._runner = stop_runner
         self._base = stop_runner.cases(_SCENARIO)[0]
         self._systems = {
-            brake: stop_runner.cases(_SCENARIO, f"brake.system={brake}")[0].scenario.brake.system
+            brake: stop_runner.cases(_SCENARIO, {"brake.system": brake})[0].scenario.brake.system
             for brake in get_args(Brake)
         }
-        cleaned = stop_runner.cases(_SCENARIO, "rail.condition=wet-cleaning", _SLIPPERY)[0]
+        cleaned = stop_runner.cases(_SCENARIO, {"rail.condition": "wet-cleaning", **_SLIPPERY})[0]
         self._cleaning = cleaned.scenario.rail.condition.cleaning
 
     def build_up(self, brake: Brake) -> float:
@@ -56,12 +58,19 @@ class FieldRig:
         """Return what each stop gives, counted from the start of the clock at 80 km/h."""
         cases = [seeded(self.case(each), seed) for each in assumptions]
         starts = self._runner.map(_clock_start, list(zip(cases, assumptions, strict=True)))
-        stops = self._runner.in_lanes([start.case for start in starts])
+        stops = self.in_lanes([start.case for start in starts])
         return [field_stop(stop, start.before) for stop, start in zip(stops, starts, strict=True)]
+
+    def in_lanes(self, cases: Sequence[Case]) -> list[rig.SimulatedStop]:
+        """Return the stop of every case; they run side by side in the lanes of a register."""
+        batches = [cases[start : start + _BATCH] for start in range(0, len(cases), _BATCH)]
+        # The first compiles what the threads then share.
+        stops = [*map(_side_by_side, batches[:1]), *self._runner.map(_side_by_side, batches[1:])]
+        return [stop for batch in stops for stop in batch]
 
     def recording(self, assumptions: Assumptions) -> Recording:
         """Return the recording of a stop, from the brake command on."""
-        return self._runner.recordings([self.case(assumptions)], CYCLE)[0]
+        return self._runner.recordings([self.case(assumptions)])[0]
 
     def case(self, assumptions: Assumptions) -> Case:
         """Return the case of the stop whose clock starts with the command."""
@@ -101,6 +110,18 @@ class FieldRig:
         )
         later = own.dead_time + assumptions.fill_time - library.dead_time - library.fill_time
         return float(self._base.scenario.measures.developed_time + later)
+
+
+def _side_by_side(cases: Sequence[Case]) -> list[rig.SimulatedStop]:
+    inputs = [rig.assemble(case) for case in cases]
+    points = max(each.rail.shape[1] for each in inputs)
+    batch = rig.run_in_lanes(
+        np.array([each.parameters for each in inputs]),
+        np.array([each.wheelset_parameters for each in inputs]),
+        np.array([np.pad(each.rail, ((0, 0), (0, points - each.rail.shape[1]))) for each in inputs]),
+    )
+    trains, wheelsets = batch.measures.view(np.recarray), batch.wheelset_measures.view(np.recarray)
+    return [rig.SimulatedStop(*stop) for stop in zip(trains, wheelsets, strict=True)]
 
 
 def _changed(model: Any, **numbers: float) -> Any:
@@ -153,8 +174,7 @@ def _begun(case: Case, lead: float) -> tuple[Any, Any, Any]:
     """Return time, speed and distance of the beginning of a stop, for somewhat longer than the lead."""
     duration = _LONGER * lead + CYCLE
     begun = _with(case, simulation=_changed(case.scenario.simulation, maximum_duration=duration))
-    recording = rig.simulate(begun, record_every=CYCLE).recording
-    assert recording is not None
+    recording = uictest.simulate(begun)
     return recording["time"], recording["speed"], recording["distance"]
 
 

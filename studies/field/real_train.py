@@ -8,7 +8,7 @@ from math import inf, isfinite
 from types import MappingProxyType
 from typing import Final
 
-from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.units import KILOMETRE_PER_HOUR
 
 REAL_TRAIN: Final = MappingProxyType(
     {

@@ -10,8 +10,8 @@ from studies.field.real_train import REAL_TRAIN, FieldStop, even_braking_delay
 from studies.field.search import Trial, closest
 from studies.field.single import Point, Varied
 from studies.study import Table, column
-from uictest.core.recording import Recording
-from uictest.core.units import KILOMETRE_PER_HOUR, PERCENT
+from uictest import Recording
+from uictest.units import KILOMETRE_PER_HOUR, PERCENT
 
 _UNITS = {"braking_time": "s", "braking_distance": "m"}
 _WHEELSETS = (1, 2, 3, 4)

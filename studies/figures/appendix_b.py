@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from studies.figures.style import BAND, INK, MUTED, WHEELSETS, WIDTH, from_zero, title_and_legend
-from uictest.core import recording
-from uictest.core.units import KILOMETRE_PER_HOUR, PERCENT
+from uictest import Recording
+from uictest.units import KILOMETRE_PER_HOUR, PERCENT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,8 +20,8 @@ _SLIDES = 10.0
 
 
 def draw(
-    dry: recording.Recording,
-    slip: recording.Recording,
+    dry: Recording,
+    slip: Recording,
     distances: tuple[float, float],
     figure: Figure,
 ) -> None:
@@ -33,7 +33,7 @@ def draw(
     _draw_slip(speeds, slides, slip)
 
 
-def _draw_dry(axes: Axes, dry: recording.Recording, distances: tuple[float, float]) -> None:
+def _draw_dry(axes: Axes, dry: Recording, distances: tuple[float, float]) -> None:
     axes.axvspan(*distances, color=BAND, zorder=0)
     axes.plot(dry["distance"], dry["speed"] / KILOMETRE_PER_HOUR, color=INK, linewidth=1.5)
     stop = float(dry["distance"][-1])
@@ -58,7 +58,7 @@ def _draw_dry(axes: Axes, dry: recording.Recording, distances: tuple[float, floa
     from_zero(axes)
 
 
-def _draw_slip(speeds: Axes, slides: Axes, slip: recording.Recording) -> None:
+def _draw_slip(speeds: Axes, slides: Axes, slip: Recording) -> None:
     time = slip["time"]
     counted = slip["speed"] > _END_SPEED
     for n, colour in WHEELSETS.items():

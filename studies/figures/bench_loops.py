@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from studies.figures.style import BLUE, INK, MUTED, WIDTH, from_zero
-from uictest.core.recording import Recording
-from uictest.core.units import BAR, KILONEWTON
+from uictest import Recording
 from uictest.rig import identification
+from uictest.units import BAR, KILONEWTON
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

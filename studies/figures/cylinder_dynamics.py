@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from studies.figures.style import BAND, INK, SETTINGS, WIDTH, from_zero, title_and_legend
-from studies.model_errors import pressure_channel
-from uictest.core.recording import Recording
-from uictest.core.units import BAR, PERCENT
+from studies.model_errors import PRESSURE_CHANNELS
+from uictest import Recording
+from uictest.units import BAR, PERCENT
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -34,7 +34,7 @@ def draw(recording: Recording, top: float, limit: float, figure: Figure) -> None
     above.plot(time, cylinder / BAR, color=INK, linewidth=1.6, label="cylinder 1")
     below.axhspan(-limit, limit, color=BAND, zorder=0)
     for setting, (label, dashes) in _CURVES.items():
-        pressure, colour = recording[pressure_channel(setting)], SETTINGS[setting]
+        pressure, colour = recording[PRESSURE_CHANNELS[setting]], SETTINGS[setting]
         difference = (pressure - cylinder) / top / PERCENT
         above.plot(time, pressure / BAR, dashes, color=colour, label=label)
         below.plot(time, difference, color=colour, label=f"{label}: at most {np.abs(difference).max():.1f} %")

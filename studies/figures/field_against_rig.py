@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from studies.field.real_train import REAL_TRAIN, TOLERANCES, FieldStop
 from studies.figures.style import BAND, BLUE, INK, MUTED, ORANGE, WHEELSETS, WIDTH, from_zero
-from uictest.core.recording import Recording
-from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest import Recording
+from uictest.units import KILOMETRE_PER_HOUR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from studies.figures.style import BAND, INK, SETTINGS, WIDTH, from_zero, title_and_legend
 from studies.model_errors import force_channel
-from uictest.core.recording import Recording
-from uictest.core.units import KILONEWTON, PERCENT
+from uictest import Recording
+from uictest.units import KILONEWTON, PERCENT
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

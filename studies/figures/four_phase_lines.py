@@ -8,9 +8,9 @@ import numpy as np
 
 from studies.figures.style import MUTED, PHASES, WIDTH, from_zero
 from studies.phases import TITLES, on_phases
-from uictest.core.recording import Recording
-from uictest.core.units import BAR, KILONEWTON
+from uictest import Recording
 from uictest.rig import identification
+from uictest.units import BAR, KILONEWTON
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,7 +9,7 @@ import numpy as np
 
 from studies.figures.style import MUTED, PHASES, WIDTH, from_zero
 from studies.phases import TITLES, Loop
-from uictest.core.units import BAR, KILONEWTON
+from uictest.units import BAR, KILONEWTON
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

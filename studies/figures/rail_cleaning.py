@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studies.figures.style import INK, MUTED, ORANGE, WHEELSETS, WIDTH, from_zero
-from uictest.core.recording import Recording
-from uictest.core.units import PERCENT
+from uictest import Recording
+from uictest.units import PERCENT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from studies.figures.style import INK, MUTED, WHEELSETS, WIDTH, from_zero, title_and_legend
-from uictest.core.recording import Recording
-from uictest.core.units import BAR, KILOMETRE_PER_HOUR
+from uictest import Recording
+from uictest.units import BAR, KILOMETRE_PER_HOUR
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from studies.figures.style import SETTINGS, WIDTH, from_zero
-from uictest.core.recording import Recording
-from uictest.core.units import BAR
+from studies.replay import VENT
+from uictest import Recording
+from uictest.units import BAR
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-_VENT = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,5 +45,5 @@ def draw(panels: Sequence[ActuationPanel], figure: Figure) -> None:
 
 def openings(panel: ActuationPanel) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     """Return the samples at which the module is commanded to open its vent."""
-    venting = panel.recording[f"valve_command_{panel.module}"] == _VENT
+    venting = panel.recording[f"valve_command_{panel.module}"] == VENT
     return np.flatnonzero(venting[1:] & ~venting[:-1]) + 1

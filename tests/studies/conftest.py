@@ -10,7 +10,9 @@ import pytest
 from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
 from studies.stop_runner import StopRunner
 from studies.study import STUDIES, Study, StudyFindings, StudyResult, run_study
+from uictest import CaseResult
 
+MakeStop = Callable[..., CaseResult]
 RunStudy = Callable[[str], StudyResult]
 
 
@@ -23,6 +25,18 @@ def stop_runner() -> StopRunner:
 def result(stop_runner: StopRunner) -> RunStudy:
     """Run a study of the catalogue, or return its earlier result."""
     return cache(lambda name: run_study(STUDIES[name], stop_runner))
+
+
+@pytest.fixture(scope="session")
+def stop() -> MakeStop:
+    """Make a stop of which only the actuations of the four valves, and some measures, are known."""
+
+    def make(*vents: int, **measures: float) -> CaseResult:
+        wheelsets = tuple({"valve_actuations": count, "maximum_slide": 0.0} for count in vents)
+        known = {"braking_distance_m": 0.0, "braking_time_s": 0.0, "air_consumed_nl": 0.0, **measures}
+        return CaseResult("stop", "", {}, "pass", "pass", measures=known, wheelsets=wheelsets)
+
+    return make
 
 
 @pytest.fixture

@@ -1,25 +1,21 @@
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
 from studies.neighbourhood import BANDS, PAPER, counts, in_bands, in_order, mean_counts
-from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig import SimulatedStop
+from uictest import CaseResult
 
-
-def stop(*vents: int) -> SimulatedStop:
-    """A stop of which only the actuations of the four valves are known."""
-    wheelsets = np.zeros(4, WHEELSET_MEASURES).view(np.recarray)
-    wheelsets.valve_actuations = vents
-    return SimulatedStop(np.zeros(1, STOP_MEASURES)[0], wheelsets)
+MakeStop = Callable[..., CaseResult]
 
 
 def array(*values: float) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     return np.array(values, dtype=float)
 
 
-def test_the_caliper_is_counted_on_the_rig_with_both_models() -> None:
+def test_the_caliper_is_counted_on_the_rig_with_both_models(stop: MakeStop) -> None:
     stops = {
         "none": [stop(9, 21, 20, 22)],
         "full": [stop(11, 12, 10, 14)],
@@ -30,7 +26,7 @@ def test_the_caliper_is_counted_on_the_rig_with_both_models() -> None:
     assert counted == {"caliper": [11], "none": [21], "full": [12], "thermal": [13], "reference": [11]}
 
 
-def test_module_1_has_a_caliper_on_every_rig_and_does_not_count_in_the_mean() -> None:
+def test_module_1_has_a_caliper_on_every_rig_and_does_not_count_in_the_mean(stop: MakeStop) -> None:
     assert mean_counts([stop(99, 10, 11, 12), stop(99, 20, 20, 20)]).tolist() == [11.0, 20.0]
 
 

@@ -12,7 +12,7 @@ import yaml
 from studies import judged_conditions as module
 from studies.judged_conditions import JudgedConditions, judged_cases, judged_conditions
 from studies.stop_runner import StopRunner
-from uictest.plans.scenario import ScenarioErrors, load
+from uictest.plans.scenario import load
 from uictest.rig import bench
 from uictest.rig.bench.recipe import StopReplay
 
@@ -61,5 +61,5 @@ def test_an_error_in_the_file_names_its_place(tmp_path: Path, monkeypatch: pytes
     path = tmp_path / "judgement.yaml"
     path.write_text("frictions: [0.08]\npositions: [R]\nwheelsets: [5]\nseeds: [31]\n")
     monkeypatch.setattr(module, "_FILE", path)
-    with pytest.raises(ScenarioErrors, match=r"wheelsets"):
+    with pytest.raises(ValueError, match=r"wheelsets.0\n.*less than or equal to 4"):
         judged_conditions()

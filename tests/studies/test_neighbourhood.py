@@ -1,11 +1,12 @@
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import pytest
 
 from studies import stop_runner
-from studies.neighbourhood import SEEDS, friction_sweep, neighbourhood
+from studies.neighbourhood import SEEDS, SETTINGS, friction_sweep, neighbourhood
 from studies.stop_runner import StopRunner, constant_friction
 from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
 
@@ -14,10 +15,14 @@ from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
 def cases_as_stops(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let every stop come out as its case."""
 
-    def stop(case: Case) -> Any:
-        return case
+    def judged(cases: Sequence[Case], jobs: int) -> Any:
+        return cases
 
-    monkeypatch.setattr(stop_runner, "_stop", stop)
+    monkeypatch.setattr(stop_runner, "_judged", judged)
+
+
+def test_every_setting_of_the_compensation_is_compared() -> None:
+    assert tuple(COMPENSATION_SETTINGS) == SETTINGS
 
 
 def test_nine_points_hold_the_repeats_on_every_rig() -> None:

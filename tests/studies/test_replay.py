@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from studies.replay import CYCLE, maximum_pressure, replayed, replayed_in_turn
+from studies.replay import maximum_pressure, replayed, replayed_in_turn
 from studies.stop_runner import StopRunner
 from uictest.core.recording import Recording
 from uictest.plans.scenario import Case
@@ -11,12 +11,12 @@ from uictest.plans.scenario import Case
 
 @pytest.fixture(scope="module")
 def case(stop_runner: StopRunner) -> Case:
-    return stop_runner.cases("wet-80-friction", "rail.friction=0.10")[0]
+    return stop_runner.cases("wet-80-friction", {"rail.friction": "0.10"})[0]
 
 
 @pytest.fixture(scope="module")
 def stop(stop_runner: StopRunner, case: Case) -> Recording:
-    return stop_runner.recordings([case], CYCLE)[0]
+    return stop_runner.recordings([case])[0]
 
 
 def test_its_own_commands_give_module_1_its_own_pressure(case: Case, stop: Recording) -> None:

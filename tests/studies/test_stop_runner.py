@@ -1,14 +1,16 @@
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+import uictest
 from studies import stop_runner
 from studies.stop_runner import StopRunner, seeded
-from uictest import rig
-from uictest.plans.scenario import Case, load
+from uictest import Case, CaseResult
+from uictest.plans.scenario import load
 
 SHIPPED = Path(__file__).parents[2] / "scenarios"
 
@@ -18,11 +20,12 @@ def runs(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
     """Let stops come out as their seed; the stops that were run, as id and seed."""
     done: list[tuple[str, int]] = []
 
-    def stop(case: Case) -> int:
-        done.append((case.id, case.scenario.seed))
-        return case.scenario.seed
+    def judged(cases: Sequence[Case], jobs: int) -> list[int]:
+        assert len({case.id for case in cases}) == len(cases)
+        done.extend((case.id, case.scenario.seed) for case in cases)
+        return [case.scenario.seed for case in cases]
 
-    monkeypatch.setattr(stop_runner, "_stop", stop)
+    monkeypatch.setattr(stop_runner, "_judged", judged)
     return done
 
 
@@ -38,10 +41,18 @@ def test_a_stop_is_run_once(runs: list[tuple[str, int]]) -> None:
 
 def test_cases_of_the_same_id_are_different_stops(runs: list[tuple[str, int]]) -> None:
     bench = StopRunner()
-    cases = [bench.cases("slide-80", f"rig.compensation={setting}")[0] for setting in ("none", "full")]
+    cases = [bench.cases("slide-80", {"rig.compensation": setting})[0] for setting in ("none", "full")]
     assert cases[0].id == cases[1].id
     bench.repeated(cases, [0])
     assert len(runs) == 2
+
+
+def test_a_stop_that_fails_is_no_result(monkeypatch: pytest.MonkeyPatch) -> None:
+    failed = CaseResult("slide-80", "", {}, "pass", "error", "the controller failed")
+    monkeypatch.setattr(uictest, "run", lambda cases, **_: [failed])
+    bench = StopRunner()
+    with pytest.raises(RuntimeError, match="slide-80: the controller failed"):
+        bench.repeated(bench.cases("slide-80"), [0])
 
 
 def test_the_id_seeds_the_noise_so_that_another_id_is_another_stop(runs: list[tuple[str, int]]) -> None:
@@ -71,20 +82,3 @@ def test_studies_stop_on_the_rail_of_the_shipped_scenario(name: str) -> None:
     for mine, theirs in zip(own, shipped, strict=True):
         for part in ("initial_speed", "brake", "rail", "rig", "vehicle"):
             assert getattr(mine.scenario, part) == getattr(theirs.scenario, part)
-
-
-def test_stops_in_lanes_have_the_bits_of_stops_alone(stop_runner: StopRunner) -> None:
-    """Rails with one point and with several, side by side."""
-    step = "{interpolation: steps, points: [{position: 0 m, friction: 0.3}, {position: 90 m, friction: 0.1}]}"
-    cases = [
-        *stop_runner.cases("slide-80", "rail.friction=0.14,0.17"),
-        *stop_runner.cases("slide-80", f"rail.friction={step}"),
-    ]
-    for case, stop in zip(cases, stop_runner.in_lanes(cases), strict=True):
-        alone = rig.simulate(case)
-        assert stop.measures.tobytes() == alone.measures.tobytes()
-        assert stop.wheelset_measures.tobytes() == alone.wheelset_measures.tobytes()
-
-
-def test_no_stops_in_lanes_are_none(stop_runner: StopRunner) -> None:
-    assert stop_runner.in_lanes([]) == []

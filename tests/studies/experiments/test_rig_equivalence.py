@@ -2,31 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
-import numpy as np
 import pytest
 
 from studies.experiments.rig_equivalence import RIGS, TRAIN, differences_at, overall
 from studies.neighbourhood import FOUR_CALIPER, SETTINGS, Point, mean_counts
-from uictest.core.measures import STOP_MEASURES as STOP, WHEELSET_MEASURES
-from uictest.rig import SimulatedStop
-
-
-def stop(distance: float, *vents: int) -> SimulatedStop:
-    """A stop of which only the distance and the actuations of the four valves are known."""
-    measures, wheelsets = np.zeros(1, STOP)[0], np.zeros(4, WHEELSET_MEASURES).view(np.recarray)
-    measures.braking_distance = distance
-    wheelsets.valve_actuations = vents
-    return SimulatedStop(measures, wheelsets)
+from uictest import CaseResult
 
 
 @pytest.fixture
-def point() -> Point:
+def point(stop: Callable[..., CaseResult]) -> Point:
     """A point at which the rig with four calipers scatters by a metre, and `none` runs 5 m shorter."""
-    four = [stop(distance, 11, 11, 11, 11) for distance in (199.0, 200.0, 201.0)]
+    four = [stop(11, 11, 11, 11, braking_distance_m=distance) for distance in (199.0, 200.0, 201.0)]
     stops: dict[str, Any] = dict.fromkeys(SETTINGS, four)
-    stops["none"] = [stop(195.0, 11, 21, 20, 22)] * 3
+    stops["none"] = [stop(11, 21, 20, 22, braking_distance_m=195.0)] * 3
     nothing: Any = None
     return Point("0.146", "100 %", nothing, {**stops, FOUR_CALIPER: four})
 

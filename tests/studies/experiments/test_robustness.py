@@ -1,9 +1,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
-import numpy as np
 import pytest
 
 from studies.experiments.robustness import (
@@ -15,19 +15,11 @@ from studies.experiments.robustness import (
 )
 from studies.figures.robustness import draw_sweep
 from studies.neighbourhood import Point
-from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig import SimulatedStop
-
-
-def stop(*vents: int) -> SimulatedStop:
-    """A stop of which only the actuations of the four valves are known."""
-    wheelsets = np.zeros(4, WHEELSET_MEASURES).view(np.recarray)
-    wheelsets.valve_actuations = vents
-    return SimulatedStop(np.zeros(1, STOP_MEASURES)[0], wheelsets)
+from uictest import CaseResult
 
 
 @pytest.fixture
-def sweep() -> list[SweptFriction]:
+def sweep(stop: Callable[..., CaseResult]) -> list[SweptFriction]:
     """One friction, two seeds: the paper's counts, then a stop in which both models act like none."""
     four, none = [stop(11, 11, 11, 11)] * 2, [stop(11, 21, 21, 21)] * 2
     modelled = [stop(11, 11, 11, 11), stop(11, 21, 21, 21)]

@@ -89,3 +89,20 @@ def test_the_distributor_has_the_longer_dead_time(field_rig: FieldRig) -> None:
         _run(field_rig, replace(DRY_STOP, brake=brake)) for brake in ("ep-disc", "distributor")
     )
     assert distributor[0] - ep_disc[0] == pytest.approx(0.3, abs=0.02)
+
+
+def test_stops_in_lanes_have_the_bits_of_stops_alone(field_rig: FieldRig, stop_runner: StopRunner) -> None:
+    """Rails with one point and with several, side by side."""
+    step = "{interpolation: steps, points: [{position: 0 m, friction: 0.3}, {position: 90 m, friction: 0.1}]}"
+    cases = [
+        *stop_runner.cases("slide-80", {"rail.friction": [0.14, 0.17]}),
+        *stop_runner.cases("slide-80", {"rail.friction": step}),
+    ]
+    for case, stop in zip(cases, field_rig.in_lanes(cases), strict=True):
+        alone = rig.simulate(case)
+        assert stop.measures.tobytes() == alone.measures.tobytes()
+        assert stop.wheelset_measures.tobytes() == alone.wheelset_measures.tobytes()
+
+
+def test_no_stops_in_lanes_are_none(field_rig: FieldRig) -> None:
+    assert field_rig.in_lanes([]) == []
