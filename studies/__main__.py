@@ -12,12 +12,10 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Final, NoReturn
 
-from studies.comparison import claims, lines, misses, tally
-from studies.page import write_pages
+from studies.comparison import claims, document, lines, misses, study_table, tally
 from studies.stop_runner import StopRunner
 from studies.study import STUDIES, Study, StudyResult, run_study
-from studies.table import document, study_table
-from studies.writing import write_comparison, write_figures, write_tables
+from studies.writing import write_comparison, write_figures, write_pages, write_tables
 from uictest import report, rig
 
 HOLDS, MISSES, INTERRUPTED, ERROR, USAGE = range(5)

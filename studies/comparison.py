@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import json
+import math
 from collections import Counter
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 from studies.quantity import RESULTS, STATUSES, PaperComparison, SourceBand, StudyQuantity
 from studies.study import Study, StudyResult, Table
 from uictest.report import aligned_rows, counted
+
+if TYPE_CHECKING:
+    from rich.console import Group
 
 
 def ours_text(comparison: PaperComparison) -> str:
@@ -148,3 +154,81 @@ def _number(value: float, quantity: StudyQuantity) -> str:
 
 def _with_unit(text: str, quantity: StudyQuantity) -> str:
     return f"{text} {quantity.unit}" if quantity.unit else text
+
+
+_STYLES = {"holds": "green", "misses": "yellow", "shown": "dim"}
+
+
+def study_table(result: StudyResult) -> Group:
+    """Return title, what the paper says, a row for every quantity, and the notes."""
+    from rich.console import Group
+    from rich.padding import Padding
+    from rich.table import Table
+    from rich.text import Text
+
+    study = result.study
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("quantity", overflow="fold", ratio=5)
+    table.add_column("paper", overflow="fold", ratio=3)
+    table.add_column("ours", overflow="fold", ratio=4)
+    table.add_column("band", overflow="fold", ratio=3)
+    table.add_column("status", no_wrap=True)
+    table.add_column("result", no_wrap=True)
+    for comparison in result.comparisons:
+        quantity = comparison.quantity
+        cells = (quantity.title, quantity.paper, ours_text(comparison), band_text(quantity), quantity.status)
+        style = "bold red" if comparison.fails else _STYLES[comparison.result]
+        table.add_row(*map(Text, cells), Text(result_text(comparison), style=style))
+    heading = Text(f"{study.name}  ", style="bold").append(study.title, style="not bold")
+    paper = Text(paper_text(study), style="dim")
+    notes = [Text(note, style="dim") for note in (*declared_misses(result), *result.findings.notes)]
+    return Group(heading, paper, Padding(table, (1, 0, 1, 2)), *notes, Text())
+
+
+SCHEMA = "uictest/studies/2"
+
+
+def document(results: Sequence[StudyResult]) -> str:
+    """Return the document as JSON; a value that is not finite is null."""
+    studies = [
+        {
+            "name": each.study.name,
+            "title": each.study.title,
+            "source": each.study.paper,
+            "result": each.result,
+            "fails": each.fails,
+            "quantities": [_quantity(comparison) for comparison in each.comparisons],
+            "notes": list(each.findings.notes),
+        }
+        for each in results
+    ]
+    return json.dumps({"schema": SCHEMA, "studies": studies}, indent=2)
+
+
+def _quantity(comparison: PaperComparison) -> dict[str, Any]:
+    quantity, ours, band = comparison.quantity, comparison.ours, comparison.quantity.band
+    return {
+        "key": quantity.key,
+        "title": quantity.title,
+        "unit": quantity.unit,
+        "source": quantity.paper,
+        "value": _finite(ours.value),
+        "low": _finite(ours.low),
+        "high": _finite(ours.high),
+        "status": quantity.status,
+        "result": comparison.result,
+        "band": band
+        and {
+            "of": band_origin(quantity),
+            "lower": band.lower,
+            "upper": band.upper,
+            "upper_excluded": band.below,
+            "reason": band.reason,
+        },
+        "declared_miss": quantity.declared_miss,
+        "fails": comparison.fails,
+    }
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and math.isfinite(value) else None

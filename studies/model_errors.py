@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+import yaml
 
 from studies.neighbourhood import SETTINGS
 from studies.replay import VENT, maximum_pressure, replayed
-from studies.stop_runner import StopRunner
+from studies.stop_runner import StopRunner, seeded
 from uictest import Case, Recording
 from uictest.units import PERCENT
 
@@ -81,6 +83,14 @@ class ReplayErrors:
     errors: Mapping[str, SettingErrors]
 
 
+def slide_replays(stop_runner: StopRunner, seeds: Sequence[int]) -> tuple[Case, list[Recording]]:
+    """Return the slide test, and the replays of the commands of its module 1 under several seeds."""
+    (case,) = stop_runner.cases("slide-80")
+    cases = [seeded(case, seed) for seed in seeds]
+    pairs = list(zip(cases, stop_runner.recordings(cases), strict=True))
+    return case, stop_runner.map(lambda pair: replayed(*pair, 1), pairs)
+
+
 def replay_errors(
     stop_runner: StopRunner, cases: Sequence[Case], wheelsets: Sequence[int]
 ) -> list[ReplayErrors]:
@@ -101,3 +111,31 @@ def _replay_errors(case: Case, stop: Recording, wheelset: int) -> ReplayErrors:
         for setting in SETTINGS
     }
     return ReplayErrors(case, wheelset, bool(np.any(stop[f"valve_command_{wheelset}"] == VENT)), errors)
+
+
+_FILE = Path(__file__).parent / "conditions" / "judgement.yaml"
+
+
+@dataclass(frozen=True, slots=True)
+class JudgedConditions:
+    """Every combination of a friction, a brake position, a wheelset and a seed is judged."""
+
+    frictions: Sequence[float]
+    positions: Sequence[str]
+    wheelsets: Sequence[int]
+    seeds: Sequence[int]
+
+
+def judged_conditions() -> JudgedConditions:
+    """Return the conditions of the file, which neither training nor calibration uses."""
+    return JudgedConditions(**yaml.safe_load(_FILE.read_text("utf-8")))
+
+
+def judged_cases(stop_runner: StopRunner, conditions: JudgedConditions) -> list[Case]:
+    """Return the slide test at every friction and in every position, under every seed.
+
+    Every module has a caliper, so that the valve commands do not depend on a compensation.
+    """
+    varied = {"rail.friction": conditions.frictions, "brake.position": conditions.positions}
+    cases = stop_runner.cases("slide-80-four-caliper", varied)
+    return [seeded(case, seed) for case in cases for seed in conditions.seeds]

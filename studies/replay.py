@@ -1,11 +1,14 @@
-"""Replay the valve commands of a stop on the bench: to a module with a caliper, and to one without."""
+"""Replay the valve commands of a stop on the bench, and identify lines of force against pressure there."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from uictest import Case, Recording
-from uictest.rig import bench
+from uictest.rig import bench, identification
 
 CYCLE = 0.01
 """Time between two samples of a stop to be replayed, s: one controller cycle."""
@@ -55,3 +58,37 @@ def maximum_pressure(case: Case) -> float:
     """Return the gauge pressure of a full service application in the brake position of a case, Pa."""
     brake = case.scenario.brake
     return float(brake.system.positions[brake.position].maximum_pressure)
+
+
+PHASES = {
+    "bc_squeezing": "BC squeezing",
+    "bc_releasing": "BC releasing",
+    "wsp_squeezing": "WSP squeezing",
+    "wsp_releasing": "WSP releasing",
+}
+"""The phases of the paper's hysteresis model in its order, with their titles."""
+
+
+def identified_lines(recording: Recording) -> identification.HysteresisResult:
+    """Return the lines of the caliper's force, identified as by `uictest identify hysteresis`."""
+    return identification.identify_hysteresis(
+        recording["time"],
+        recording["measured_pressure_1"],
+        recording["clamping_force_1"],
+        recording["wsp_acting"] > 0.0,
+    )
+
+
+def on_phases(recording: Recording) -> dict[str, NDArray[np.bool_]]:
+    """Return which samples lie on the line of each phase; those inside the loop lie on none."""
+    step = float(recording["time"][1] - recording["time"][0])
+    squeezing, releasing = identification.on_lines(
+        recording["measured_pressure_1"], recording["clamping_force_1"], step
+    )
+    acting = recording["wsp_acting"] > 0.0
+    return {
+        "bc_squeezing": squeezing & ~acting,
+        "bc_releasing": releasing & ~acting,
+        "wsp_squeezing": squeezing & acting,
+        "wsp_releasing": releasing & acting,
+    }

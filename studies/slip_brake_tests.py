@@ -15,10 +15,7 @@ CLEANED = "5.3 kJ/m"
 """The energy of the library's rail `wet-cleaning`."""
 ENERGIES = ("none", "20 kJ/m", "10 kJ/m", CLEANED)
 """Energy per metre that cleans 63 % of the rail; none: sliding does not clean it."""
-CONTROLLERS = {
-    "small slides": "threshold",
-    "deep slides": "{extends: threshold, slip_threshold: 6 m/s}",
-}
+CONTROLLERS = {"small slides": "threshold", "deep slides": "{extends: threshold, slip_threshold: 6 m/s}"}
 """The default controller, and the same one with a higher threshold of slip; chosen."""
 SEEDS = range(3)
 

@@ -9,11 +9,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from studies import experiments
 from studies.quantity import PaperComparison, Result, StudyQuantity, StudyValue
 from studies.stop_runner import StopRunner
+from uictest import Recording
+from uictest.units import BAR, KILOMETRE_PER_HOUR, KILONEWTON
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -101,10 +102,29 @@ def run_study(study: Study, stop_runner: StopRunner) -> StudyResult:
     return StudyResult(study, findings, dict(stop_runner.inputs))
 
 
-def column(samples: NDArray[Any], unit: float, digits: int) -> list[float]:
-    """Return samples, SI, in a unit of this size, rounded for a column of a table."""
-    rounded: list[float] = np.round(samples / unit, digits).tolist()
-    return rounded
+_UNITS = {
+    "s": (1.0, 3),
+    "m": (1.0, 3),
+    "kmh": (KILOMETRE_PER_HOUR, 3),
+    "bar": (BAR, 4),
+    "kn": (KILONEWTON, 4),
+}
+"""End of the name of a column -> size of the unit in SI, and digits."""
+
+
+def samples(recording: Recording, *columns: str, every: int = 1) -> dict[str, list[Any]]:
+    """Return channels as columns, a row for every so many samples.
+
+    A column is named as its channel and its unit, as `speed_kmh`; `NAME=CHANNEL_UNIT` gives it another name.
+    """
+    table = {}
+    for column in columns:
+        name, _, source = column.rpartition("=")
+        channel, _, unit = source.rpartition("_")
+        size, digits = _UNITS.get(unit, (1.0, 4))
+        values = recording[channel if unit in _UNITS else source][::every]
+        table[name or source] = np.round(values / size, digits).tolist()
+    return table
 
 
 def find_studies() -> dict[str, Study]:
@@ -113,8 +133,8 @@ def find_studies() -> dict[str, Study]:
         import_module(f"{experiments.__name__}.{module.name}")
         for module in pkgutil.iter_modules(experiments.__path__)
     )
-    studies: list[Study] = sorted((module.STUDY for module in modules), key=lambda study: study.position)
-    return {study.name: study for study in studies}
+    studies = [each for module in modules for each in vars(module).values() if isinstance(each, Study)]
+    return {study.name: study for study in sorted(studies, key=lambda study: study.position)}
 
 
 STUDIES: dict[str, Study] = find_studies()

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import TYPE_CHECKING, Any
 
-from studies.figures.appendix_b import draw
+from studies.drawing import BAND, INK, MUTED, WHEELSET_COLOURS, WIDTH, from_zero, title_and_legend
 from studies.quantity import NOT_ASKED, OwnBand, SourceBand, StudyQuantity, StudyValue, spread
 from studies.stop_runner import StopRunner, verdict_value
-from studies.study import Study, StudyFindings, Table, column
+from studies.study import Study, StudyFindings, Table, samples
 from uictest import Recording
-from uictest.units import KILOMETRE_PER_HOUR
+from uictest.units import KILOMETRE_PER_HOUR, PERCENT
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 SEEDS = range(5)
 
@@ -57,13 +62,11 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     """Judge both stops with the shipped profile of Appendix B."""
     (dry,) = stop_runner.cases("dry-120")
     (slip,) = stop_runner.cases("slip-120")
-    (dry_repeats,), (slip_repeats,) = (
-        stop_runner.repeated([dry], [0]),
-        stop_runner.repeated([slip], SEEDS),
-    )
-    distance = verdict_value(dry_repeats.stops[0], "braking-distance")
+    (once,) = stop_runner.repeated([dry], [0])
+    (repeats,) = stop_runner.repeated([slip], SEEDS)
+    distance = verdict_value(once.stops[0], "braking-distance")
     adhesion, slide = (
-        spread([verdict_value(stop, criterion) for stop in slip_repeats.stops])
+        spread([verdict_value(stop, criterion) for stop in repeats.stops])
         for criterion in ("initial-adhesion", "minimum-slide")
     )
     dry_stop, slip_stop = stop_runner.recordings([dry, slip])
@@ -89,15 +92,74 @@ def run(stop_runner: StopRunner) -> StudyFindings:
 
 
 def _table(recording: Recording) -> Table:
-    columns: dict[str, list[float]] = {
-        "time_s": column(recording["time"], 1.0, 3),
-        "distance_m": column(recording["distance"], 1.0, 3),
-        "speed_kmh": column(recording["speed"], KILOMETRE_PER_HOUR, 3),
-    }
-    for n in (1, 2, 3, 4):
-        columns[f"wheel_speed_{n}_kmh"] = column(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
-        columns[f"slide_{n}"] = column(recording[f"slide_{n}"], 1.0, 4)
-    return columns
+    of_wheelsets = (name for n in (1, 2, 3, 4) for name in (f"wheel_speed_{n}_kmh", f"slide_{n}"))
+    return samples(recording, "time_s", "distance_m", "speed_kmh", *of_wheelsets)
+
+
+_END_SPEED = 60.0 * KILOMETRE_PER_HOUR
+"""Train speed down to which sliding counts for the minimum slide; slides below it are not drawn."""
+_SLIDING = 10.0
+"""%: slide above which a wheelset counts as sliding; both are definitions of the profile."""
+
+
+def draw(dry: Recording, slip: Recording, distances: tuple[float, float], figure: Figure) -> None:
+    """Draw both stops with the limits of Appendix B for the distance, m."""
+    figure.set_size_inches(WIDTH, 4.8)
+    halves: Any = figure.subfigures(2, 1, height_ratios=(1.0, 1.9))
+    _draw_dry(halves[0].subplots(), dry, distances)
+    speeds, slides = halves[1].subplots(2, 1, sharex=True)
+    _draw_slip(speeds, slides, slip)
+
+
+def _draw_dry(axes: Axes, dry: Recording, distances: tuple[float, float]) -> None:
+    axes.axvspan(*distances, color=BAND, zorder=0)
+    axes.plot(dry["distance"], dry["speed"] / KILOMETRE_PER_HOUR, color=INK, linewidth=1.5)
+    stop = float(dry["distance"][-1])
+    axes.annotate(f"{stop:.0f} m", (stop, 0.0), (5.0, 9.0), textcoords="offset points", fontweight="bold")
+    axes.annotate(
+        f"{distances[0]:g}\N{EN DASH}{distances[1]:g} m",
+        (sum(distances) / 2.0, 0.97),
+        xycoords=("data", "axes fraction"),
+        ha="center",
+        va="top",
+        color=MUTED,
+        fontsize=7.0,
+    )
+    axes.set(title="Dry stop, brake position R", xlabel="distance, m", ylabel="speed, km/h")
+    axes.set_xlim(0.0, 520.0)
+    from_zero(axes)
+
+
+def _draw_slip(speeds: Axes, slides: Axes, slip: Recording) -> None:
+    time = slip["time"]
+    counted = slip["speed"] > _END_SPEED
+    for n, colour in WHEELSET_COLOURS.items():
+        speed = slip[f"wheel_speed_{n}"] / KILOMETRE_PER_HOUR
+        speeds.plot(time, speed, color=colour, linewidth=0.7, label=f"wheelset {n}")
+        slide = slip[f"slide_{n}"][counted] / PERCENT
+        slides.plot(time[counted], slide, color=colour, linewidth=0.7)
+    speeds.plot(time, slip["speed"] / KILOMETRE_PER_HOUR, color=INK, linewidth=1.5, label="train")
+    slides.axhline(_SLIDING, color=MUTED, linewidth=0.9, linestyle=(0, (4, 2)))
+    slides.annotate(
+        f"{_SLIDING:g} %",
+        (1.0, _SLIDING),
+        (2.0, 0.0),
+        xycoords=("axes fraction", "data"),
+        textcoords="offset points",
+        va="center",
+        color=MUTED,
+        fontsize=7.0,
+        annotation_clip=False,
+    )
+    speeds.set(ylabel="speed, km/h")
+    slides.set(
+        title="Slide down to 60 km/h; above the line a wheelset counts as sliding",
+        xlabel="time, s",
+        ylabel="slide, %",
+    )
+    title_and_legend(speeds, "Slip-brake test", 5)
+    from_zero(speeds)
+    from_zero(slides)
 
 
 STUDY = Study(

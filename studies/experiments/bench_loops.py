@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
+from typing import TYPE_CHECKING
 
-from studies.figures.bench_loops import draw
-from studies.phases import identified_lines
+from studies.drawing import BLUE, INK, MUTED, WIDTH, from_zero
 from studies.quantity import OwnBand, StudyQuantity, StudyValue
+from studies.replay import identified_lines
 from studies.stop_runner import StopRunner
-from studies.study import Study, StudyFindings, Table, column
+from studies.study import Study, StudyFindings, Table, samples
 from uictest import Recording
-from uictest.rig import bench
+from uictest.rig import bench, identification
 from uictest.units import BAR, KILONEWTON
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 TESTS = ("stepwise", "triangular", "random")
 """Bench recipes of the library. The kinds of pressure are the paper's; levels, rates and times are ours."""
@@ -54,13 +60,57 @@ def run(stop_runner: StopRunner) -> StudyFindings:
 
 
 def _table(recording: Recording) -> Table:
-    shown_samples = slice(None, None, _EVERY)
-    return {
-        "time_s": column(recording["time"][shown_samples], 1.0, 3),
-        "demanded_pressure_bar": column(recording["demanded_pressure"][shown_samples], BAR, 4),
-        "measured_pressure_1_bar": column(recording["measured_pressure_1"][shown_samples], BAR, 4),
-        "clamping_force_1_kn": column(recording["clamping_force_1"][shown_samples], KILONEWTON, 4),
-    }
+    channels = ("demanded_pressure_bar", "measured_pressure_1_bar", "clamping_force_1_kn")
+    return samples(recording, "time_s", *channels, every=_EVERY)
+
+
+def draw(tests: Mapping[str, Recording], hysteresis: identification.HysteresisResult, figure: Figure) -> None:
+    """Draw the bench tests, and the identified lines over the loop of triangular pressure."""
+    figure.set_size_inches(WIDTH, 4.3)
+    axes = figure.subplots(
+        2, len(tests), squeeze=False, height_ratios=(1.0, 2.4), sharey="row", sharex="none"
+    )
+    for (name, recording), over_time, over_pressure in zip(tests.items(), *axes, strict=True):
+        pressure = recording["measured_pressure_1"] / BAR
+        over_time.plot(recording["time"], pressure, color=INK, linewidth=0.9)
+        over_time.set(title=name, xlabel="time, s")
+        over_pressure.plot(pressure, recording["clamping_force_1"] / KILONEWTON, color=BLUE, linewidth=0.8)
+        over_pressure.set(xlabel="cylinder pressure, bar")
+    for panel in axes.flat:
+        from_zero(panel)
+    axes[0][0].set_ylabel("pressure, bar")
+    axes[1][0].set_ylabel("clamping force, kN")
+    if "triangular" in tests:
+        _mark_width(axes[1][list(tests).index("triangular")], hysteresis)
+
+
+def _mark_width(axes: Axes, hysteresis: identification.HysteresisResult) -> None:
+    force = hysteresis.high_force
+    left, right = (
+        hysteresis.lines[phase].pressure(force) / BAR for phase in ("bc_releasing", "bc_squeezing")
+    )
+    up = force / KILONEWTON
+    axes.annotate("", (left, up), (right, up), arrowprops={"arrowstyle": "<->", "color": INK, "lw": 0.8})
+    axes.annotate(
+        f"{right - left:.2f} bar",
+        (left, up),
+        (-5.0, 0.0),
+        textcoords="offset points",
+        ha="right",
+        va="center",
+        color=INK,
+        fontweight="bold",
+    )
+    axes.annotate(
+        "paper: about 0.5 bar",
+        (left, up),
+        (-5.0, 10.0),
+        textcoords="offset points",
+        ha="right",
+        va="center",
+        color=MUTED,
+        fontsize=7.0,
+    )
 
 
 STUDY = Study(

@@ -3,18 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import asdict, replace
 from functools import partial
 from itertools import product
 from statistics import median
+from typing import TYPE_CHECKING, Any
 
-from studies.figures.compensation_domain import draw
-from studies.judged_conditions import JudgedConditions, judged_cases, judged_conditions
-from studies.model_errors import FILTER_MISSES, ReplayErrors, replay_errors
+import numpy as np
+from numpy.typing import NDArray
+
+from studies.drawing import WIDTH, heading, heat_map
+from studies.model_errors import (
+    FILTER_MISSES,
+    UNITS_OF_ERRORS,
+    JudgedConditions,
+    ReplayErrors,
+    judged_cases,
+    judged_conditions,
+    replay_errors,
+)
 from studies.neighbourhood import SETTINGS
 from studies.quantity import NOT_ASKED, OwnBand, SourceBand, Status, StudyQuantity, StudyValue, spread
 from studies.stop_runner import StopRunner, constant_friction
 from studies.study import Study, StudyFindings, Table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 TITLES = {
     "pressure_error": "pressure error",
@@ -101,7 +115,7 @@ def errors_of(replays: Sequence[ReplayErrors], error: str, setting: str) -> list
 
 
 def _notes(conditions: JudgedConditions, replays: Sequence[ReplayErrors]) -> Iterator[str]:
-    counts = [f"{len(values)} {name}" for name, values in conditions]
+    counts = [f"{len(values)} {name}" for name, values in asdict(conditions).items()]
     yield (
         f"{len(replays)} replays: {', '.join(counts)}. Neither training nor calibration has used them. Each "
         "gives its largest error, of pressure in % of the position's maximum pressure, of force in % of the "
@@ -133,6 +147,58 @@ def _table(replays: Sequence[ReplayErrors]) -> Table:
         ],
         "force_error_percent": [replay.errors[setting].force_error for replay, setting in rows],
     }
+
+
+_MAP_TITLES = {
+    "pressure_error": "Pressure error, worst of wheelsets and seeds",
+    "force_error": "Force error, worst of wheelsets and seeds",
+}
+
+
+def draw(replays: Sequence[ReplayErrors], figure: Figure) -> None:
+    """Draw a row of maps for each error; a cell holds the worst of its wheelsets and seeds."""
+    figure.set_size_inches(WIDTH, 5.2)
+    rows: Any = figure.subfigures(2, 1)
+    for row, error in zip(rows, UNITS_OF_ERRORS, strict=True):
+        _draw_error(row, replays, error)
+
+
+def _draw_error(figure: Any, replays: Sequence[ReplayErrors], error: str) -> None:
+    settings = list(replays[0].errors)
+    maps = [worst_by_cell(replays, error, setting) for setting in settings]
+    most = max(float(values.max()) for values in maps)
+    panels = figure.subplots(1, len(maps), sharex=True, sharey=True)
+    for axes, setting, values in zip(panels, settings, maps, strict=True):
+        image = heat_map(axes, values, 1, most)
+        axes.set_title(setting)
+        axes.tick_params(axis="x", rotation=90.0)
+    frictions, positions = cells(replays)
+    panels[0].set_xticks(range(len(positions)), positions)
+    panels[0].set_yticks(range(len(frictions)), [f"{friction:.2f}" for friction in frictions])
+    panels[0].set_ylabel("friction coefficient")
+    figure.colorbar(image, ax=panels, pad=0.01, label=UNITS_OF_ERRORS[error])
+    heading(figure, _MAP_TITLES[error])
+
+
+def cells(replays: Sequence[ReplayErrors]) -> tuple[list[float], list[str]]:
+    """Return the frictions and the brake positions of replays, each once, in their order."""
+    places = [_place(each) for each in replays]
+    return list(dict.fromkeys(mu for mu, _ in places)), list(dict.fromkeys(name for _, name in places))
+
+
+def worst_by_cell(replays: Sequence[ReplayErrors], error: str, setting: str) -> NDArray[np.float64]:
+    """Return the worst error of a setting, %, in a row for each friction and a column for each position."""
+    frictions, positions = cells(replays)
+    values = np.zeros((len(frictions), len(positions)))
+    for replay in replays:
+        friction, position = _place(replay)
+        cell = frictions.index(friction), positions.index(position)
+        values[cell] = max(values[cell], getattr(replay.errors[setting], error))
+    return values
+
+
+def _place(replay: ReplayErrors) -> tuple[float, str]:
+    return constant_friction(replay.case), replay.case.scenario.brake.position
 
 
 STUDY = Study(

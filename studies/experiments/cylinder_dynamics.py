@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from studies.figures.cylinder_dynamics import draw
-from studies.model_errors import FILTER_MISSES, pressure_error
+from studies.drawing import BAND, INK, SETTING_COLOURS, WIDTH, from_zero, title_and_legend
+from studies.model_errors import FILTER_MISSES, PRESSURE_CHANNELS, pressure_error, slide_replays
 from studies.quantity import OwnBand, SourceBand, StudyQuantity, repeats_note, spread
-from studies.replay import maximum_pressure, replayed
-from studies.stop_runner import StopRunner, seeded
-from studies.study import Study, StudyFindings, Table, column
+from studies.replay import maximum_pressure
+from studies.stop_runner import StopRunner
+from studies.study import Study, StudyFindings, Table, samples
 from uictest import Recording
 from uictest.rig import bench, identification
 from uictest.units import BAR, PERCENT
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SEEDS = range(5)
 _EVERY = 20
@@ -91,10 +95,7 @@ _SETTINGS = {"before": "none", "after_full": "full", "after_thermal": "thermal"}
 
 def run(stop_runner: StopRunner) -> StudyFindings:
     """Replay the commands of module 1 in the slide test to both modules."""
-    case = stop_runner.cases("slide-80")[0]
-    cases = [seeded(case, seed) for seed in SEEDS]
-    stops = stop_runner.recordings(cases)
-    replays = stop_runner.map(lambda pair: replayed(*pair, 1), list(zip(cases, stops, strict=True)))
+    case, replays = slide_replays(stop_runner, SEEDS)
     top = maximum_pressure(case)
     errors = {
         key: [pressure_error(recording, setting, top) for recording in replays]
@@ -133,14 +134,45 @@ def filter_error(recording: Recording, filtering: identification.TransferFunctio
 
 
 def _table(recording: Recording) -> Table:
-    shown_samples = slice(None, None, _EVERY)
-    return {
-        "time_s": column(recording["time"][shown_samples], 1.0, 3),
-        "cylinder_pressure_1_bar": column(recording["cylinder_pressure_1"][shown_samples], BAR, 4),
-        "tank_pressure_2_bar": column(recording["tank_pressure_2"][shown_samples], BAR, 4),
-        "filtered_pressure_2_bar": column(recording["cylinder_pressure_2"][shown_samples], BAR, 4),
-        "modelled_pressure_2_bar": column(recording["cylinder_pressure_thermal_2"][shown_samples], BAR, 4),
-    }
+    return samples(
+        recording,
+        "time_s",
+        "cylinder_pressure_1_bar",
+        "tank_pressure_2_bar",
+        "filtered_pressure_2_bar=cylinder_pressure_2_bar",
+        "modelled_pressure_2_bar=cylinder_pressure_thermal_2_bar",
+        every=_EVERY,
+    )
+
+
+_CURVES = {
+    "none": ("tank 2", "-"),
+    "full": ("behind the cylinder dynamics", "--"),
+    "thermal": ("modelled air", "-"),
+}
+"""Label and dashes of the pressure under each setting."""
+
+
+def draw(recording: Recording, top: float, limit: float, figure: Figure) -> None:
+    """Draw tank 2, as it is and compensated in two ways, and cylinder 1.
+
+    Differences are shown in % of `top`, Pa; `limit` is the bound on them, %.
+    """
+    figure.set_size_inches(WIDTH, 4.4)
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.3, 1.0))
+    time, cylinder = recording["time"], recording["cylinder_pressure_1"]
+    above.plot(time, cylinder / BAR, color=INK, linewidth=1.6, label="cylinder 1")
+    below.axhspan(-limit, limit, color=BAND, zorder=0)
+    for setting, (label, dashes) in _CURVES.items():
+        pressure, colour = recording[PRESSURE_CHANNELS[setting]], SETTING_COLOURS[setting]
+        difference = (pressure - cylinder) / top / PERCENT
+        above.plot(time, pressure / BAR, dashes, color=colour, label=label)
+        below.plot(time, difference, color=colour, label=f"{label}: at most {np.abs(difference).max():.1f} %")
+    above.set(ylabel="pressure, bar")
+    below.set(xlabel="time, s", ylabel="% of maximum pressure")
+    title_and_legend(above, "Same valve commands on both modules", 4)
+    title_and_legend(below, f"Difference from cylinder 1 (paper: below {limit:g} %)", 3)
+    from_zero(above)
 
 
 STUDY = Study(

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import TYPE_CHECKING
 
-from studies.figures.force_accuracy import draw
-from studies.model_errors import force_channel, force_error
+from studies.drawing import BAND, INK, SETTING_COLOURS, WIDTH, from_zero, title_and_legend
+from studies.model_errors import force_channel, force_error, slide_replays
 from studies.neighbourhood import SETTINGS
 from studies.quantity import OwnBand, SourceBand, StudyQuantity, repeats_note, spread
-from studies.replay import replayed
-from studies.stop_runner import StopRunner, seeded
-from studies.study import Study, StudyFindings, Table, column
+from studies.stop_runner import StopRunner
+from studies.study import Study, StudyFindings, Table, samples
 from uictest import Recording
-from uictest.units import KILONEWTON
+from uictest.units import KILONEWTON, PERCENT
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SEEDS = range(5)
 _EVERY = 20
@@ -62,10 +65,7 @@ CHANNELS = {"module_1": "computed_force_1"} | {setting: force_channel(setting) f
 
 def run(stop_runner: StopRunner) -> StudyFindings:
     """Replay the commands of module 1 in the slide test, and compute its force with each setting."""
-    case = stop_runner.cases("slide-80")[0]
-    cases = [seeded(case, seed) for seed in SEEDS]
-    stops = stop_runner.recordings(cases)
-    replays = stop_runner.map(lambda pair: replayed(*pair, 1), list(zip(cases, stops, strict=True)))
+    _, replays = slide_replays(stop_runner, SEEDS)
     return StudyFindings(
         {
             key: spread([force_error(recording, channel) for recording in replays])
@@ -81,12 +81,33 @@ def run(stop_runner: StopRunner) -> StudyFindings:
 
 
 def _table(recording: Recording) -> Table:
-    shown_samples = slice(None, None, _EVERY)
-    columns = {"clamping_force_1": "clamping_force_1"} | {name: name for name in CHANNELS.values()}
-    return {"time_s": column(recording["time"][shown_samples], 1.0, 3)} | {
-        f"{name}_kn": column(recording[channel][shown_samples], KILONEWTON, 4)
-        for name, channel in columns.items()
-    }
+    forces = (f"{channel}_kn" for channel in ("clamping_force_1", *CHANNELS.values()))
+    return samples(recording, "time_s", *forces, every=_EVERY)
+
+
+_CURVES = {"none": ("straight line", "-"), "full": ("both models", "--"), "thermal": ("modelled air", "-")}
+"""Label and dashes of the force under each setting."""
+
+
+def draw(recording: Recording, limit: float, figure: Figure) -> None:
+    """Draw the force of the loadcells, and those computed from tank 2; `limit` is in % of the largest."""
+    figure.set_size_inches(WIDTH, 4.4)
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.3, 1.0))
+    time, measured = recording["time"], recording["clamping_force_1"]
+    above.plot(time, measured / KILONEWTON, color=INK, linewidth=1.6, label="measured")
+    below.axhspan(-limit, limit, color=BAND, zorder=0)
+    for setting, (label, dashes) in _CURVES.items():
+        force, colour = recording[force_channel(setting)], SETTING_COLOURS[setting]
+        above.plot(time, force / KILONEWTON, dashes, color=colour, linewidth=0.9, label=label)
+        below.plot(time, (force - measured) / measured.max() / PERCENT, color=colour, linewidth=0.9)
+    above.set(ylabel="clamping force, kN")
+    below.set(
+        title=f"Computed less measured (paper: within \N{PLUS-MINUS SIGN}{limit:g} %)",
+        xlabel="time, s",
+        ylabel="% of largest force",
+    )
+    title_and_legend(above, "Clamping force under the same valve commands", 4)
+    from_zero(above)
 
 
 STUDY = Study(

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from studies.figures.four_phase_lines import draw
-from studies.judged_conditions import judged_conditions
-from studies.model_errors import UNITS_OF_ERRORS
-from studies.phases import TITLES, LineErrors, held_out_errors, identified_lines, on_phases
+from studies.drawing import MUTED, PHASE_COLOURS, WIDTH, from_zero
+from studies.model_errors import UNITS_OF_ERRORS, JudgedConditions, judged_cases, judged_conditions
 from studies.quantity import NOT_ASKED, OwnBand, Status, StudyQuantity, StudyValue, spread
-from studies.replay import replayed_in_turn
+from studies.replay import PHASES, identified_lines, on_phases, replayed, replayed_in_turn
 from studies.stop_runner import StopRunner
-from studies.study import Study, StudyFindings, Table, column
-from uictest import Recording
+from studies.study import Study, StudyFindings, Table, samples
+from uictest import Case, Recording
 from uictest.rig import identification
-from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR
+from uictest.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, PERCENT
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _NAN = float("nan")
 _EVERY = 20
@@ -29,7 +33,7 @@ _ERROR = UNITS_OF_ERRORS["force_error"]
 
 
 def _quantities() -> Iterator[StudyQuantity]:
-    for phase, title in TITLES.items():
+    for phase, title in PHASES.items():
         for name, unit in (("slope", "kN/bar"), ("intercept", "kN")):
             yield StudyQuantity(
                 f"{phase}_{name}", f"{title}, {name}", unit, status="by construction", digits=3
@@ -74,6 +78,45 @@ def run(stop_runner: StopRunner) -> StudyFindings:
     )
 
 
+@dataclass(frozen=True, slots=True)
+class LineErrors:
+    """Errors of the force that lines compute from the pressure of module 1, % of the largest force."""
+
+    largest: float
+    rms: float
+
+
+def held_out_errors(stop_runner: StopRunner, conditions: JudgedConditions) -> dict[str, list[LineErrors]]:
+    """Return the errors of the compensation's `four` lines, and of its `two` BC lines, along judged stops.
+
+    Every wheelset of the conditions is replayed, under the first of their seeds.
+    """
+    cases = judged_cases(stop_runner, replace(conditions, seeds=conditions.seeds[:1]))
+    stops = stop_runner.recordings(cases)
+    work = [(case, stop, n) for case, stop in zip(cases, stops, strict=True) for n in conditions.wheelsets]
+    return {
+        "four": stop_runner.map(lambda each: _errors(*each), work),
+        "two": stop_runner.map(lambda each: _errors(with_bc_lines(each[0]), *each[1:]), work),
+    }
+
+
+def with_bc_lines(case: Case) -> Case:
+    """Return a case whose compensation has the lines of the BC in the phases of the WSP as well."""
+    rig = case.scenario.rig
+    model, lines = rig.compensation_model, rig.compensation_model.hysteresis
+    two = {"wsp_squeezing": lines.bc_squeezing, "wsp_releasing": lines.bc_releasing}
+    changed = model.model_copy(update={"hysteresis": lines.model_copy(update=two)})
+    changed_rig = rig.model_copy(update={"compensation_model": changed})
+    return replace(case, scenario=case.scenario.model_copy(update={"rig": changed_rig}))
+
+
+def _errors(case: Case, stop: Recording, wheelset: int) -> LineErrors:
+    recording = replayed(case, stop, wheelset)
+    measured = recording["clamping_force_1"]
+    error = (recording["computed_force_1"] - measured) / measured.max() / PERCENT
+    return LineErrors(float(np.abs(error).max()), float(np.sqrt(np.mean(error**2))))
+
+
 def apart(hysteresis: identification.HysteresisResult, motion: str) -> float:
     """Return how far the BC and the WSP line of a motion are apart: slope or intercept, over its confidence.
 
@@ -104,7 +147,7 @@ def _gain(errors: Mapping[str, Sequence[LineErrors]]) -> str:
 
 def _values(hysteresis: identification.HysteresisResult) -> list[tuple[str, StudyValue]]:
     values = []
-    for phase in TITLES:
+    for phase in PHASES:
         line = hysteresis.lines.get(phase)
         slope = line.slope / KILONEWTON_PER_BAR if line else _NAN
         intercept = line.intercept / KILONEWTON if line else _NAN
@@ -128,9 +171,9 @@ def _order(hysteresis: identification.HysteresisResult) -> str:
 
 
 def _lines_table(hysteresis: identification.HysteresisResult) -> Table:
-    lines = [hysteresis.lines.get(phase) for phase in TITLES]
+    lines = [hysteresis.lines.get(phase) for phase in PHASES]
     return {
-        "phase": list(TITLES),
+        "phase": list(PHASES),
         "slope_kn_per_bar": [line.slope / KILONEWTON_PER_BAR if line else _NAN for line in lines],
         "slope_confidence_kn_per_bar": [
             line.slope_confidence / KILONEWTON_PER_BAR if line else _NAN for line in lines
@@ -144,16 +187,50 @@ def _lines_table(hysteresis: identification.HysteresisResult) -> Table:
 
 
 def _samples_table(recording: Recording) -> Table:
-    shown_samples = slice(None, None, _EVERY)
-    names = np.full(len(recording), "inside the loop", dtype=object)
+    phases = np.full(len(recording), "inside the loop", dtype=object)
     for phase, mask in on_phases(recording).items():
-        names[mask] = phase
-    return {
-        "time_s": column(recording["time"][shown_samples], 1.0, 3),
-        "measured_pressure_1_bar": column(recording["measured_pressure_1"][shown_samples], BAR, 4),
-        "clamping_force_1_kn": column(recording["clamping_force_1"][shown_samples], KILONEWTON, 4),
-        "phase": names[shown_samples].tolist(),
-    }
+        phases[mask] = phase
+    channels = ("time_s", "measured_pressure_1_bar", "clamping_force_1_kn")
+    return samples(recording, *channels, every=_EVERY) | {"phase": phases[::_EVERY].tolist()}
+
+
+_DRAWN_EVERY = 10
+_HEADROOM = 1.15
+"""Height of the axes over the largest force: room for the legend."""
+
+
+def draw(recording: Recording, hysteresis: identification.HysteresisResult, figure: Figure) -> None:
+    """Draw the BC phases on the left and the WSP phases on the right."""
+    figure.set_size_inches(WIDTH, 3.5)
+    left, right = figure.subplots(1, 2, sharex=True, sharey=True)
+    _draw_pair(left, recording, hysteresis, "bc")
+    _draw_pair(right, recording, hysteresis, "wsp")
+    left.set(title="Ordinary braking (BC)", xlabel="cylinder pressure, bar", ylabel="clamping force, kN")
+    right.set(title="While the WSP acts", xlabel="cylinder pressure, bar")
+    from_zero(left)
+    left.set_ylim(top=_HEADROOM * hysteresis.largest_force / KILONEWTON)
+
+
+def _draw_pair(
+    axes: Axes, recording: Recording, hysteresis: identification.HysteresisResult, pair: str
+) -> None:
+    pressure, force = recording["measured_pressure_1"] / BAR, recording["clamping_force_1"] / KILONEWTON
+    axes.plot(pressure[::_DRAWN_EVERY], force[::_DRAWN_EVERY], color=MUTED, alpha=0.35, linewidth=0.7)
+    for phase, mask in on_phases(recording).items():
+        if phase.startswith(pair):
+            points = np.flatnonzero(mask)[::_DRAWN_EVERY]
+            axes.plot(pressure[points], force[points], ".", color=PHASE_COLOURS[phase], markersize=2.5)
+    for phase, line in hysteresis.lines.items():
+        if phase.startswith(pair):
+            ends = np.array([line.pressure(1e-9), line.pressure(hysteresis.largest_force)])
+            slope = line.slope * BAR / KILONEWTON
+            intercept = line.intercept / KILONEWTON
+            label = f"{PHASES[phase]}: {slope:.2f} kN/bar, {intercept:.2f} kN".replace("-", "\N{MINUS SIGN}")
+            axes.plot(ends / BAR, line.force(ends) / KILONEWTON, color=PHASE_COLOURS[phase], label=label)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="upper left")
+    else:
+        axes.text(0.05, 0.95, "not in this stop", transform=axes.transAxes, va="top", color=MUTED)
 
 
 STUDY = Study(

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from studies.figures.rail_cleaning import draw_maps, draw_stops
+from studies.drawing import MUTED, ORANGE, WHEELSET_COLOURS, WIDTH, from_zero, heading, heat_map
 from studies.quantity import NOT_ASKED, OwnBand, StudyQuantity, StudyValue, spread
 from studies.slip_brake_tests import (
     CLEANED,
@@ -16,12 +18,18 @@ from studies.slip_brake_tests import (
     FRICTIONS,
     SEEDS,
     Map,
+    SlipTest,
     slip_cases,
     slip_tests,
 )
 from studies.stop_runner import StopRunner
 from studies.study import Study, StudyFindings, Table
 from uictest import Recording
+from uictest.units import PERCENT
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _RAILS = {"found": "none", "cleaned": CLEANED}
 SHOWN_FRICTION = 0.05
@@ -196,6 +204,68 @@ def _table(tests: Map) -> Table:
         "actuations": [row.actuations for row in rows],
         "longest_lock_s": [round(row.lock, 3) for row in rows],
     }
+
+
+_MAPS = {
+    "sliding": "Time in which half of the wheelsets slide, % (framed: the slip-brake test counts)",
+    "extension": "Extension over the dry stop, %",
+}
+
+
+def draw_maps(tests: Sequence[SlipTest], figure: Figure) -> None:
+    """Draw a column of maps for each controller; a frame marks where the test counts."""
+    figure.set_size_inches(WIDTH, 5.0)
+    controllers = list(dict.fromkeys(test.controller for test in tests))
+    rows: Any = figure.subfigures(len(_MAPS), 1)
+    for row, (quantity, title) in zip(rows, _MAPS.items(), strict=True):
+        panels = row.subplots(1, len(controllers), sharex=True, sharey=True)
+        most = max(getattr(test, quantity) for test in tests)
+        for axes, controller in zip(panels, controllers, strict=True):
+            own = [test for test in tests if test.controller == controller]
+            image = _draw_map(axes, own, quantity, most)
+            axes.set_title(controller)
+        panels[0].set_ylabel("energy that cleans")
+        row.colorbar(image, ax=panels, pad=0.01)
+        heading(row, title)
+    for axes in panels:
+        axes.set_xlabel("friction coefficient of the rail as found")
+
+
+def _draw_map(axes: Axes, tests: Sequence[SlipTest], quantity: str, most: float) -> Any:
+    frictions = list(dict.fromkeys(test.friction for test in tests))
+    energies = list(dict.fromkeys(test.energy for test in tests))
+    values: NDArray[np.float64] = np.full((len(energies), len(frictions)), np.nan)
+    for test in tests:
+        row, column = energies.index(test.energy), frictions.index(test.friction)
+        values[row, column] = getattr(test, quantity)
+        if test.counts:
+            left, right, top, bottom = column - 0.42, column + 0.42, row - 0.4, row + 0.4
+            frame = [left, right, right, left, left], [top, top, bottom, bottom, top]
+            axes.plot(*frame, color=ORANGE, linewidth=1.3, solid_joinstyle="miter")
+    axes.set_xticks(range(len(frictions)), [f"{friction:.2f}" for friction in frictions])
+    axes.set_yticks(range(len(energies)), energies)
+    return heat_map(axes, values, 0, most)
+
+
+def draw_stops(stops: Mapping[str, Recording], figure: Figure) -> None:
+    """Draw cleaned share and friction under each wheelset over its distance, a column for each stop."""
+    figure.set_size_inches(WIDTH, 3.6)
+    panels = figure.subplots(2, len(stops), sharex=True, sharey="row", squeeze=False)
+    for column, (name, stop) in enumerate(stops.items()):
+        shares, frictions = panels[0][column], panels[1][column]
+        for n, colour in WHEELSET_COLOURS.items():
+            share = stop[f"cleaned_share_{n}"] / PERCENT
+            shares.plot(stop["distance"], share, color=colour, linewidth=0.7, label=f"wheelset {n}")
+            frictions.plot(stop["distance"], stop[f"friction_{n}"], color=colour, linewidth=0.7)
+        frictions.axhline(float(stop["friction_1"][0]), color=MUTED, linewidth=0.9, linestyle=(0, (4, 2)))
+        frictions.set_xlabel("distance of the train, m")
+        shares.set_title(name)
+    for axes in panels.flat:
+        from_zero(axes)
+    handles, labels = panels[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(WHEELSET_COLOURS))
+    panels[0][0].set_ylabel("cleaned share, %")
+    panels[1][0].set_ylabel("friction met")
 
 
 STUDY = Study(

@@ -7,22 +7,22 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import product
 from statistics import median
+from typing import TYPE_CHECKING, Any
 
-from studies.figures.rig_equivalence import draw_train, draw_wheelsets
+import numpy as np
+
+from studies.drawing import MUTED, SETTING_COLOURS, WIDTH
 from studies.model_errors import UNITS_OF_ERRORS, replay_errors
-from studies.neighbourhood import (
-    FOUR_CALIPER,
-    SEEDS,
-    SETTINGS,
-    WITHOUT_CALIPER,
-    Point,
-    neighbourhood,
-)
+from studies.neighbourhood import FOUR_CALIPER, SEEDS, SETTINGS, WITHOUT_CALIPER, Point, neighbourhood
 from studies.quantity import NOT_ASKED, Status, StudyQuantity, StudyValue, spread
 from studies.stop_runner import StopRunner, measured, seeded
 from studies.study import Study, StudyFindings, Table
 from uictest import CaseResult
 from uictest.units import PERCENT
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 RIGS = (*SETTINGS, FOUR_CALIPER)
 """The settings of the rig with one caliper, and the rig with four, whose spread is that of chance."""
@@ -193,6 +193,95 @@ def _table(rig_differences: Sequence[RigDifference]) -> Table:
         "difference_high": [each.high for each in spreads],
         "repeats": [len(each.values) for each in rig_differences],
     }
+
+
+_COLUMNS = 4
+_RIG_TITLES = {"four-caliper": "four calipers"}
+_EXPLANATION = """Difference from the rig with
+four calipers; last line:
+that rig against itself.
+
+Tick: median of all
+Dot: median of one point
+Bar: eight tenths of all
+Line: least to greatest
+
+Pressure and force:
+largest error of a stop"""
+_ROW = 0.14
+_MOST = (0.1, 0.9)
+"""Quantiles between which the bar is thick; it is thin from the minimum to the maximum."""
+_NOTE: Any = {"ha": "center", "color": MUTED, "fontsize": 7.0}
+
+
+def draw_train(
+    differences: Sequence[RigDifference], measures: Sequence[ComparedMeasure], figure: Figure
+) -> None:
+    """Draw a panel for each measure; repeats and wheelsets of all points together."""
+    figure.set_size_inches(WIDTH, 4.3)
+    rows = -(-len(measures) // _COLUMNS)
+    panels = figure.subplots(rows, _COLUMNS, sharey=True, squeeze=False)
+    for axes, measure in zip(panels.flat, measures, strict=False):
+        _draw_measure(axes, [each for each in differences if each.measure == measure.key], measure)
+    for axes in list(panels.flat)[len(measures) :]:
+        axes.set_axis_off()
+    panels[-1][-1].text(0.0, 1.0, _EXPLANATION, transform=panels[-1][-1].transAxes, va="top", color=MUTED)
+    first = panels[0][0]
+    first.set_yticks(range(len(SETTING_COLOURS)), [_RIG_TITLES.get(name, name) for name in SETTING_COLOURS])
+    first.invert_yaxis()
+
+
+def _draw_measure(axes: Axes, differences: Sequence[RigDifference], measure: ComparedMeasure) -> None:
+    axes.axvline(0.0, color=MUTED, linewidth=0.8)
+    for row, (rig, colour) in enumerate(SETTING_COLOURS.items()):
+        of_rig = [each for each in differences if each.rig == rig]
+        values = [value for each in of_rig for value in each.values]
+        if not values:
+            continue
+        axes.plot([min(values), max(values)], [row, row], color=colour, alpha=0.4, linewidth=1.0)
+        axes.plot(np.quantile(values, _MOST), [row, row], color=colour, alpha=0.3, linewidth=4.5)
+        medians = [median(each.values) for each in of_rig]
+        axes.plot(medians, [row] * len(medians), "o", color=colour, alpha=0.4, markersize=2.8, mew=0.0)
+        axes.plot([median(values)] * 2, [row - 0.32, row + 0.32], color=colour, linewidth=2.0)
+    axes.grid(visible=False, axis="y")
+    axes.set(title=measure.title, xlabel=measure.unit or "number")
+    axes.tick_params(axis="y", length=0)
+
+
+def draw_wheelsets(
+    differences: Sequence[RigDifference], measures: Sequence[ComparedMeasure], figure: Figure
+) -> None:
+    """Draw a panel for each measure of wheelsets: a group of settings for each wheelset."""
+    figure.set_size_inches(WIDTH, 4.6)
+    panels = figure.subplots(2, 2, squeeze=False)
+    for axes, measure in zip(panels.flat, measures, strict=True):
+        of = [each for each in differences if each.measure == measure.key]
+        axes.axhline(0.0, color=MUTED, linewidth=0.8)
+        for k, (rig, colour) in enumerate(SETTING_COLOURS.items()):
+            shift = (k - (len(SETTING_COLOURS) - 1) / 2.0) * _ROW
+            _draw_rig(axes, [each for each in of if each.rig == rig], shift, colour)
+        axes.set_xticks(range(1, 5), [f"wheelset {n}" for n in range(1, 5)])
+        axes.set_xlim(0.5, 4.5)
+        axes.grid(visible=False, axis="x")
+        axes.set(title=measure.title, ylabel=measure.unit or "number")
+    for axes in panels[1]:
+        axes.set_ylim(bottom=0.0)
+        axes.annotate("has the\ncaliper", (1.0, 0.05), xycoords=("data", "axes fraction"), **_NOTE)
+    handles = [
+        panels[0][0].plot([], [], color=colour, linewidth=3.0, label=_RIG_TITLES.get(rig, rig))[0]
+        for rig, colour in SETTING_COLOURS.items()
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+
+
+def _draw_rig(axes: Axes, differences: Sequence[RigDifference], shift: float, colour: str) -> None:
+    for wheelset in sorted({each.wheelset for each in differences}):
+        values = [value for each in differences if each.wheelset == wheelset for value in each.values]
+        across = wheelset + shift
+        axes.plot([across, across], [min(values), max(values)], color=colour, alpha=0.4, linewidth=1.0)
+        axes.plot([across, across], np.quantile(values, _MOST), color=colour, alpha=0.35, linewidth=3.5)
+        middle = median(values)
+        axes.plot([across - 0.05, across + 0.05], [middle, middle], color=colour, linewidth=2.0)
 
 
 STUDY = Study(

@@ -6,14 +6,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from statistics import median
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from studies.figures.robustness import draw_points, draw_sweep
+from studies.drawing import BAND, INK, MUTED, SETTING_COLOURS, WIDTH, from_zero, title_and_legend
 from studies.neighbourhood import (
     APART,
+    BANDS,
     FOUR_CALIPER,
+    PAPER,
     SEEDS,
     Counts,
     Point,
@@ -28,6 +31,9 @@ from studies.quantity import NOT_ASKED, OwnBand, StudyQuantity, StudyValue, spre
 from studies.stop_runner import StopRunner
 from studies.study import Study, StudyFindings, Table
 from uictest.units import PERCENT
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SHOWN = (FOUR_CALIPER, "full", "none")
 
@@ -68,11 +74,7 @@ QUANTITIES = (
         band=OwnBand(lower=95.0, reason="ours"),
     ),
     StudyQuantity(
-        "sweep_in_order_thermal",
-        "the same with thermal in place of full",
-        "%",
-        NOT_ASKED,
-        status="predicted",
+        "sweep_in_order_thermal", "the same with thermal in place of full", "%", NOT_ASKED, status="predicted"
     ),
     StudyQuantity(
         "sweep_in_bands",
@@ -205,6 +207,65 @@ def _sweep_table(sweep: Sequence[SweptFriction]) -> Table:
         "in_order_thermal": [bool(each.in_order["thermal"][k]) for each, k in rows],
         "in_bands": [bool(each.in_bands[k]) for each, k in rows],
     }
+
+
+_RIG_TITLES = {
+    "four-caliper": "caliper in every module",
+    "full": "full compensation",
+    "none": "no compensation",
+}
+_APART = 0.24
+"""Distance between the columns of a point, in steps of points."""
+_SWEPT = {
+    "caliper": ("module 1, caliper", INK, "o"),
+    "none": ("module 2, no model", SETTING_COLOURS["none"], "s"),
+    "full": ("module 2, both models", SETTING_COLOURS["full"], "^"),
+}
+"""Label, colour and mark of the counts that the paper gives."""
+_ABREAST = 0.2
+"""Distance between the marks of one friction, in steps of friction."""
+
+
+def draw_points(counts: Mapping[str, Mapping[str, Sequence[float]]], figure: Figure) -> None:
+    """Draw three columns of dots for each point, a stop a dot, the median a bar; counts by point and rig."""
+    figure.set_size_inches(WIDTH, 3.3)
+    axes = figure.subplots()
+    for place, of in enumerate(counts.values()):
+        for k, (name, values) in enumerate(of.items()):
+            across, colour = place + (k - 1) * _APART, SETTING_COLOURS[name]
+            axes.plot([across] * len(values), values, "o", color=colour, alpha=0.3, markersize=3.5, mew=0.0)
+            label = _RIG_TITLES[name] if place == 0 else None
+            axes.plot(
+                [across - 0.09, across + 0.09], [median(values)] * 2, color=colour, linewidth=2.4, label=label
+            )
+    axes.set_xticks(range(len(counts)), [title.replace(", ", "\n") for title in counts])
+    axes.grid(visible=False, axis="x")
+    axes.set(xlabel="friction coefficient and command", ylabel="actuations, mean of modules 2-4")
+    title_and_legend(axes, "Valve actuations per wheelset", 3)
+    from_zero(axes, across=False)
+
+
+def draw_sweep(sweep: Sequence[SweptFriction], figure: Figure) -> None:
+    """Draw the median and the range of the paper's three counts over friction, and the paper's counts."""
+    figure.set_size_inches(WIDTH, 3.3)
+    axes = figure.subplots()
+    for low, high in set(BANDS.values()):
+        axes.axhspan(low, high, color=BAND, zorder=0)
+    for count in set(PAPER.values()):
+        axes.axhline(count, color=MUTED, linewidth=0.9, linestyle=(0, (4, 2)))
+        axes.text(len(sweep) + 0.4, count + 0.2, f"paper: {count}", ha="right", color=MUTED, fontsize=7.0)
+    for k, (key, (label, colour, mark)) in enumerate(_SWEPT.items()):
+        values = np.array([each.counts[key] for each in sweep])
+        middle, across = np.median(values, axis=1), np.arange(len(sweep)) + (k - 1) * _ABREAST
+        axes.vlines(across, values.min(axis=1), values.max(axis=1), color=colour, alpha=0.5, linewidth=1.4)
+        axes.plot(across, middle, mark, color=colour, markersize=3.5, label=label)
+    titles = [f"{each.friction}\n{np.sum(each.in_bands)}/{len(each.in_bands)}" for each in sweep]
+    axes.set_xticks(range(len(sweep)), titles)
+    axes.set_xlim(-0.6, len(sweep) + 0.4)
+    axes.grid(visible=False, axis="x")
+    axes.set(xlabel="friction coefficient, and stops with all three counts in the bands", ylabel="actuations")
+    title_and_legend(axes, "Valve actuations in one stop: median and range over seeds", 3)
+    from_zero(axes, across=False)
 
 
 STUDY = Study(

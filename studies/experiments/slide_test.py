@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from studies.figures.slide_test import draw
+from studies.drawing import INK, MUTED, WHEELSET_COLOURS, WIDTH, from_zero, title_and_legend
 from studies.quantity import OwnBand, StudyQuantity, StudyValue, repeats_note, spread
 from studies.stop_runner import StopRunner, measured
-from studies.study import Study, StudyFindings, Table, column
+from studies.study import Study, StudyFindings, Table, samples
 from uictest import Recording
 from uictest.units import BAR, KILOMETRE_PER_HOUR
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SEEDS = range(10)
 WHEELSETS = (1, 2, 3, 4)
@@ -108,16 +112,28 @@ def unlikeness(recording: Recording) -> float:
 
 
 def _table(recording: Recording) -> Table:
-    columns: dict[str, list[float]] = {
-        "time_s": column(recording["time"], 1.0, 3),
-        "distance_m": column(recording["distance"], 1.0, 3),
-        "speed_kmh": column(recording["speed"], KILOMETRE_PER_HOUR, 3),
-    }
-    for n in WHEELSETS:
-        columns[f"wheel_speed_{n}_kmh"] = column(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
-    for n in WHEELSETS:
-        columns[f"tank_pressure_{n}_bar"] = column(recording[f"tank_pressure_{n}"], BAR, 4)
-    return columns
+    speeds = (f"wheel_speed_{n}_kmh" for n in WHEELSETS)
+    pressures = (f"tank_pressure_{n}_bar" for n in WHEELSETS)
+    return samples(recording, "time_s", "distance_m", "speed_kmh", *speeds, *pressures)
+
+
+def draw(recording: Recording, real_train: float, figure: Figure) -> None:
+    """Draw one stop, and a mark at the braking time of the real train, s."""
+    figure.set_size_inches(WIDTH, 4.6)
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.5, 1.0))
+    time = recording["time"]
+    for n, colour in WHEELSET_COLOURS.items():
+        speed = recording[f"wheel_speed_{n}"] / KILOMETRE_PER_HOUR
+        above.plot(time, speed, color=colour, linewidth=0.9, label=f"wheelset {n}")
+        below.plot(time, recording[f"tank_pressure_{n}"] / BAR, color=colour, linewidth=0.9)
+    above.plot(time, recording["speed"] / KILOMETRE_PER_HOUR, color=INK, linewidth=1.5, label="train")
+    above.plot([real_train] * 2, [0.0, 30.0], color=MUTED, linewidth=0.9, linestyle=(0, (2, 2)))
+    above.text(real_train, 31.5, f"real train: {real_train:g} s", ha="center", color=MUTED, fontsize=7.0)
+    above.set(ylabel="speed, km/h")
+    below.set(title="Pressure of the four modules", xlabel="time, s", ylabel="pressure, bar")
+    title_and_legend(above, "Speed of train and wheelsets", 5)
+    from_zero(above)
+    from_zero(below)
 
 
 STUDY = Study(

@@ -9,8 +9,7 @@ from typing import Any, get_args
 import numpy as np
 
 import uictest
-from studies.field.families import DRY, Assumptions, Brake
-from studies.field.real_train import INITIAL_SPEED, REAL_TRAIN, FieldStop
+from studies.field.assumptions import DRY, INITIAL_SPEED, REAL_TRAIN, Assumptions, Brake, FieldStop
 from studies.replay import CYCLE
 from studies.stop_runner import StopRunner, seeded
 from uictest import Case, Recording, rig

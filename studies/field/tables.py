@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import nan
 
-from studies.field.families import SHAPES, Assumptions
-from studies.field.real_train import REAL_TRAIN, FieldStop, even_braking_delay
-from studies.field.search import Trial, closest
-from studies.field.single import Point, Varied
-from studies.study import Table, column
+from studies.field.assumptions import REAL_TRAIN, SHAPES, Assumptions, FieldStop, even_braking_delay
+from studies.field.search import Point, Trial, Varied, closest
+from studies.study import Table, samples
 from uictest import Recording
-from uictest.units import KILOMETRE_PER_HOUR, PERCENT
+from uictest.units import PERCENT
 
 _UNITS = {"braking_time": "s", "braking_distance": "m"}
 _WHEELSETS = (1, 2, 3, 4)
@@ -57,15 +55,8 @@ def singles_table(base: Point, singles: Sequence[Varied]) -> Table:
 
 def stop_table(recording: Recording) -> Table:
     """Return speeds of train and wheelsets over time."""
-    return {
-        "time_s": column(recording["time"], 1.0, 3),
-        "distance_m": column(recording["distance"], 1.0, 3),
-        "speed_kmh": column(recording["speed"], KILOMETRE_PER_HOUR, 3),
-        **{
-            f"wheel_speed_{n}_kmh": column(recording[f"wheel_speed_{n}"], KILOMETRE_PER_HOUR, 3)
-            for n in _WHEELSETS
-        },
-    }
+    speeds = (f"wheel_speed_{n}_kmh" for n in _WHEELSETS)
+    return samples(recording, "time_s", "distance_m", "speed_kmh", *speeds)
 
 
 def _assumption_columns(assumed: Sequence[Assumptions]) -> Table:

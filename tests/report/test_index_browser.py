@@ -8,10 +8,9 @@ from typing import Any
 
 import pytest
 
-from studies.page import write_pages
 from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
 from studies.study import Study, StudyFindings, StudyResult
-from studies.writing import write_figures
+from studies.writing import write_figures, write_pages
 from uictest import report, runs
 from uictest.judging.evaluation import CaseResult
 

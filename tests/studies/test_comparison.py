@@ -9,15 +9,16 @@ from studies.comparison import (
     band_text,
     claims,
     comparison_table,
+    document,
     lines,
     misses,
     ours_text,
     paper_text,
+    study_table,
     tally,
 )
 from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
 from studies.study import StudyResult
-from studies.table import document, study_table
 
 
 def test_lines_have_the_papers_value_ours_and_the_band(made_up: StudyResult) -> None:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -7,8 +8,9 @@ from typing import Any
 
 import pytest
 
-from studies.study import STUDIES, StudyFindings, StudyResult
-from studies.writing import table_text, write_comparison, write_figures, write_tables
+from studies.stop_runner import StopRunner
+from studies.study import STUDIES, Study, StudyFindings, StudyResult, run_study
+from studies.writing import table_text, write_comparison, write_figures, write_pages, write_tables
 
 QUICK = ("bench-loops", "four-phase-lines", "command-level", "slide-test", "valve-actuations", "appendix-b")
 
@@ -19,7 +21,7 @@ def test_tables_lie_in_the_folder_of_their_study(made_up: StudyResult, tmp_path:
 
 
 def test_columns_of_different_lengths_are_rejected() -> None:
-    with pytest.raises(ValueError, match="shorter"):
+    with pytest.raises(ValueError, match="same length"):
         table_text({"a": [1, 2], "b": [1]})
 
 
@@ -28,13 +30,17 @@ def test_the_comparison_lies_beside_the_studies(made_up: StudyResult, tmp_path: 
     assert {path.name for path in (tmp_path / "new").iterdir()} == {"comparison.csv", "studies.json"}
 
 
-def _drawn(result: StudyResult, drawing: Callable[[Any], None]) -> StudyResult:
-    return replace(result, findings=StudyFindings(result.findings.values, drawings={"figure": drawing}))
+def _line(figure: Any) -> None:
+    figure.subplots().plot([0.0, 1.0], [1.0, 0.0])
+
+
+def _drawn(result: StudyResult, drawing: Callable[[Any], None] = _line) -> StudyResult:
+    return replace(result, findings=replace(result.findings, drawings={"figure": drawing}))
 
 
 def test_a_figure_is_the_same_to_the_byte_whenever_it_is_drawn(made_up: StudyResult, tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
-    study = _drawn(made_up, lambda figure: figure.subplots().plot([0.0, 1.0], [1.0, 0.0]))
+    study = _drawn(made_up)
     paths = write_figures(tmp_path, study)
     assert [path.suffix for path in paths] == [".svg", ".png"]
     before = [path.read_bytes() for path in paths]
@@ -64,3 +70,96 @@ def test_axes_name_their_units(name: str, result: Callable[[str], StudyResult]) 
         labels = {text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel()) if text}
         assert labels
         assert all(", " in label or label.startswith("%") for label in labels)
+
+
+ARGUMENTS = ("made-up",)
+
+
+def page_of(folder: Path, name: str = "made-up") -> str:
+    return (folder / name / "index.html").read_text("utf-8")
+
+
+def test_a_page_shows_the_papers_values_beside_ours(made_up: StudyResult, tmp_path: Path) -> None:
+    assert write_pages(tmp_path, [made_up], [], ARGUMENTS) == []
+    page = page_of(tmp_path)
+    assert "its text says: 17.6 s." in page
+    for text in ("18.1 (17.9 .. 18.3) s", "16.5 .. 19 s", "&lt; 2 %", "2.00 %", "not public", "Made up."):
+        assert text in page
+    assert re.findall(r'word-(\w+)">(holds|misses|shown)<', page) == [
+        ("bad", "misses"),
+        ("good", "holds"),
+        ("bad", "misses"),
+        ("none", "shown"),
+    ]
+    for text in ("calibrated", "predicted", "3 values: 1 hold, 1 miss (0 declared), 1 shown"):
+        assert text in page
+
+
+def test_markup_in_a_study_is_text(made_up: StudyResult, tmp_path: Path) -> None:
+    hostile = replace(made_up, study=replace(made_up.study, title="<script>x</script>", paper="<b>1</b>"))
+    write_pages(tmp_path, [hostile], [], ARGUMENTS)
+    assert "<script>x" not in page_of(tmp_path)
+    assert "<b>1" not in page_of(tmp_path)
+
+
+def test_the_page_holds_its_figure(made_up: StudyResult, tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    drawn = _drawn(made_up)
+    write_pages(tmp_path, [drawn], [], ARGUMENTS, write_figures(tmp_path, drawn))
+    assert re.search(r'<img src="data:image/(svg\+xml|png);base64,[A-Za-z0-9+/=]+"', page_of(tmp_path))
+
+
+def test_the_figure_of_an_earlier_run_is_not_shown_as_that_of_this_one(
+    made_up: StudyResult, tmp_path: Path
+) -> None:
+    pytest.importorskip("matplotlib")
+    drawn = _drawn(made_up)
+    write_figures(tmp_path, drawn)
+    write_pages(tmp_path, [drawn], [], ARGUMENTS, ())
+    assert "data:image" not in page_of(tmp_path).split("<main", 1)[1]
+
+
+def test_without_a_figure_the_page_says_why(made_up: StudyResult, tmp_path: Path) -> None:
+    write_pages(tmp_path, [_drawn(made_up)], [], ARGUMENTS)
+    assert "matplotlib is not installed" in page_of(tmp_path)
+
+
+def test_the_list_leads_to_every_page_and_names_those_of_earlier_runs(
+    made_up: StudyResult, tmp_path: Path
+) -> None:
+    other = replace(made_up, study=replace(made_up.study, name="other"))
+    never = replace(made_up.study, name="never")
+    known = [made_up.study, other.study, never]
+    write_pages(tmp_path, [made_up, other], known, ARGUMENTS)
+    assert "earlier runs" not in (tmp_path / "index.html").read_text("utf-8")
+    write_pages(tmp_path, [made_up], known, ARGUMENTS)
+    page = (tmp_path / "index.html").read_text("utf-8")
+    for link in re.findall(r'href="([^"#]+)"', page):
+        assert (tmp_path / link).exists() or link in ("comparison.csv", "studies.json")
+    assert page.index("made-up/index.html") < page.index("earlier runs") < page.index("other/index.html")
+    assert "never" not in page.split("<main", 1)[1].replace("it is never the paper", "")
+
+
+def test_a_page_of_somebody_else_is_left_alone(made_up: StudyResult, tmp_path: Path) -> None:
+    (tmp_path / "index.html").write_text("mine")
+    [problem] = write_pages(tmp_path, [made_up], [], ARGUMENTS)
+    assert "is left as it is" in problem
+    assert (tmp_path / "index.html").read_text() == "mine"
+    assert "17.6 s" in page_of(tmp_path)
+
+
+def test_the_files_of_the_simulated_stops_are_those_of_the_study_alone() -> None:
+    def run(scenario: str) -> Callable[[StopRunner], StudyFindings]:
+        def simulate(runner: StopRunner) -> StudyFindings:
+            runner.cases(scenario)
+            return StudyFindings({})
+
+        return simulate
+
+    runner = StopRunner()
+    inputs = [
+        run_study(Study(name, "", "", (), run(name)), runner).inputs for name in ("slide-80", "slip-120")
+    ]
+    files = [{Path(name).name for name in each} for each in inputs]
+    assert "slide-80.yaml" in files[0]
+    assert "slide-80.yaml" not in files[1]

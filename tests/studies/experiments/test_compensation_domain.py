@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from studies.experiments import compensation_domain
-from studies.figures.compensation_domain import worst_by_cell
-from studies.judged_conditions import JudgedConditions, judged_cases
-from studies.model_errors import ReplayErrors, SettingErrors, replay_errors
+from studies.experiments.compensation_domain import worst_by_cell
+from studies.model_errors import JudgedConditions, ReplayErrors, SettingErrors, judged_cases, replay_errors
 from studies.quantity import OwnBand, SourceBand
 from studies.stop_runner import StopRunner
 from studies.study import STUDIES, run_study

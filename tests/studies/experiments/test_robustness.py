@@ -11,9 +11,9 @@ from studies.experiments.robustness import (
     _in_order,
     _ratio,
     _values_of_sweep,
+    draw_sweep,
     swept_friction,
 )
-from studies.figures.robustness import draw_sweep
 from studies.neighbourhood import Point
 from uictest import CaseResult
 

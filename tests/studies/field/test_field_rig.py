@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from studies.field.families import DRY, Assumptions
+from studies.field.assumptions import DRY, Assumptions
 from studies.field.field_rig import FieldRig, field_stop
 from studies.stop_runner import StopRunner
 from uictest import rig

@@ -1,15 +1,38 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import fields, replace
 
 import pytest
 
-from studies.field import real_train
-from studies.field.families import CARRY_OVERS, FAMILIES, SHAPES, Assumptions, Family
+from studies.field import assumptions as module
+from studies.field.assumptions import (
+    CARRY_OVERS,
+    FAMILIES,
+    REAL_TRAIN,
+    SHAPES,
+    Assumptions,
+    Family,
+    FieldStop,
+)
 from studies.field.field_rig import FieldRig
-from studies.field.search import Trial, closest, evenly_spread, neighbours, search
+from studies.field.search import (
+    VARIATIONS,
+    Point,
+    Trial,
+    Variation,
+    Varied,
+    closest,
+    evenly_spread,
+    neighbours,
+    one_at_a_time,
+    plainest,
+    search,
+)
+from studies.field.tables import notes, simplest
 from studies.stop_runner import StopRunner
 
+PLAIN = Assumptions("constant", 0.17, 0.0, "ep-disc", 0.8)
 BY_NAME = {family.name: family for family in FAMILIES}
 
 
@@ -59,7 +82,7 @@ def test_what_a_family_does_not_vary_is_the_library_s(family: Family, field_rig:
 def test_neighbours_stay_near_and_within_the_ranges() -> None:
     family = BY_NAME["ep-disc"]
     corner = Assumptions("dry first", 0.05, 190.0, "ep-disc", 0.8, pad_factor=1.15)
-    stop = real_train.FieldStop(dict(real_train.REAL_TRAIN), (0, 0, 0, 0), 0.0)
+    stop = FieldStop(dict(REAL_TRAIN), (0, 0, 0, 0), 0.0)
     near = list(neighbours(Trial(family, corner, stop, 0), 0.1))
     assert all(0.05 <= each.friction <= 0.065 + 1e-12 for each in near)
     assert all(174.0 - 1e-9 <= each.place <= 190.0 for each in near)
@@ -80,7 +103,7 @@ def test_a_train_that_the_rig_itself_made_is_found_again(
 ) -> None:
     """The search knows four figures of a stop, none of which was tried."""
     train = field_rig.stops([truth])[0]
-    monkeypatch.setattr(real_train, "REAL_TRAIN", train.figures)
+    monkeypatch.setattr(module, "REAL_TRAIN", train.figures)
     trials = search(field_rig, [BY_NAME[name]])
     found = closest(trials)
     assert truth not in [trial.assumptions for trial in trials]
@@ -89,3 +112,53 @@ def test_a_train_that_the_rig_itself_made_is_found_again(
     assert found.assumptions.shape == truth.shape
     assert found.assumptions.friction == pytest.approx(truth.friction, abs=0.01)
     assert found.assumptions.place == pytest.approx(truth.place, abs=15.0)
+
+
+def _stop(misfit: float) -> FieldStop:
+    return FieldStop({**REAL_TRAIN, "braking_distance": 197.0 + 4.0 * misfit}, (12, 12, 11, 11), 0.4)
+
+
+def test_a_variation_changes_a_field_and_says_what_it_needs_besides() -> None:
+    names = {each.name for each in fields(Assumptions)}
+    for variation in VARIATIONS:
+        assert {variation.assumption, *variation.together} <= names
+        assert len(set(variation.values)) == len(variation.values)
+
+
+def test_one_assumption_that_the_rig_s_own_train_had_is_found(
+    field_rig: FieldRig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A train with stronger pads: they make the plainest stop agree, a longer build-up does not."""
+    truth = replace(plainest(field_rig), friction=0.1775, pad_factor=1.25)
+    monkeypatch.setattr(module, "REAL_TRAIN", field_rig.stops([truth])[0].figures)
+    pads = Variation("pads", "pad_factor", (1.1, 1.25))
+    filling = Variation("build-up", "fill_time", (3.0, 4.0), unit="s")
+    base, (stronger, slower) = one_at_a_time(field_rig, [pads, filling])
+    assert base.stop.misfit > 1.0
+    assert stronger.agreeing[-1].value == 1.25
+    assert stronger.closest.stop.misfit < 0.05
+    assert stronger.closest.assumptions.friction == pytest.approx(0.1775)
+    assert slower.agreeing == []
+
+
+def test_the_simplest_is_the_first_family_that_agrees_else_the_closest() -> None:
+    library, ep_disc, *_ = FAMILIES
+    far, near, nearest = (
+        Trial(family, PLAIN, _stop(misfit), 0)
+        for family, misfit in ((library, 3.0), (ep_disc, 0.9), (library, 0.1))
+    )
+    assert simplest([far, near, nearest]) is near
+    assert simplest([far, Trial(ep_disc, PLAIN, _stop(1.5), 0)]).stop.misfit == pytest.approx(1.5)
+
+
+def test_notes_say_what_agrees_and_at_which_value() -> None:
+    trial = Trial(FAMILIES[0], PLAIN, _stop(2.0), 0)
+    pads = Variation("pads", "pad_factor", (1.1, 1.2, 1.3))
+    points = [
+        Point(value, PLAIN, _stop(off)) for value, off in zip(pads.values, (2.0, 0.9, 0.5), strict=True)
+    ]
+    said = list(notes([trial], [trial], Point(1.0, PLAIN, _stop(2.0)), [Varied(pads, points)]))
+    assert any(FAMILIES[0].title in note and "no stop agrees" in note for note in said)
+    assert "- pads: agrees at 1.2 to 1.3." in said
+    said = list(notes([trial], [trial], Point(1.0, PLAIN, _stop(2.0)), [Varied(pads, points[:1])]))
+    assert "- pads: never agrees; least misfit 2.00, at 1.1." in said

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from studies.experiments.field_against_rig import QUANTITIES
-from studies.field.real_train import REAL_TRAIN, TOLERANCES, FieldStop, even_braking_delay
+from studies.field.assumptions import REAL_TRAIN, TOLERANCES, FieldStop, even_braking_delay
 from studies.quantity import OwnBand
 
 

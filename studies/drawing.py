@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import SubFigure
+    from matplotlib.image import AxesImage
 
 WIDTH = 6.9
 """Width of a figure, in: 175 mm, the type area of a page."""
@@ -16,8 +21,8 @@ BAND = "#e4eef5"
 BLUE, ORANGE, GREEN, PINK, SKY = "#0b6fb3", "#d4580a", "#0a8f6c", "#b8518f", "#6fb1dd"
 """After Okabe and Ito, darkened for print: distinguishable with colour vision deficiency."""
 
-WHEELSETS = {1: BLUE, 2: ORANGE, 3: GREEN, 4: PINK}
-SETTINGS = {
+WHEELSET_COLOURS = {1: BLUE, 2: ORANGE, 3: GREEN, 4: PINK}
+SETTING_COLOURS = {
     "none": ORANGE,
     "hysteresis": PINK,
     "cylinder": GREEN,
@@ -26,7 +31,7 @@ SETTINGS = {
     "four-caliper": INK,
 }
 """Settings of the compensation, and the rig that needs none."""
-PHASES = {
+PHASE_COLOURS = {
     "bc_squeezing": BLUE,
     "bc_releasing": SKY,
     "wsp_squeezing": ORANGE,
@@ -67,6 +72,27 @@ RC: Any = {
     "svg.hashsalt": "uictest",
 }
 """Settings of matplotlib."""
+
+
+_DARK = 0.6
+"""Share of the scale above which a number is written in white."""
+
+
+def heat_map(axes: Axes, values: NDArray[np.float64], digits: int, most: float) -> AxesImage:
+    """Draw values from zero to `most` as a map with the numbers in it: one hue, read by lightness alone."""
+    for (row, column), value in np.ndenumerate(values):
+        colour = "white" if value > _DARK * most else INK
+        number = f"{value:.{digits}f}"
+        axes.text(column, row, number, ha="center", va="center", color=colour, fontsize=7.0)
+    axes.grid(visible=False)
+    axes.spines[:].set_visible(False)
+    axes.tick_params(length=0)
+    return axes.imshow(values, cmap="Blues", vmin=0.0, vmax=most, aspect="auto")
+
+
+def heading(figure: SubFigure, text: str) -> None:
+    """Put a title above a part of a figure, as above axes."""
+    figure.suptitle(text, x=0.0, ha="left", fontsize=8.5, fontweight="bold")
 
 
 def from_zero(axes: Axes, *, across: bool = True, up: bool = True) -> None:

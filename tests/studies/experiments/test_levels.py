@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from studies.phases import Loop, slope_spread, slopes_table
+from studies.experiments.levels import Loop, slope_spread, slopes_table
 from uictest.rig.identification import HysteresisResult
 from uictest.rig.identification.lines import FittedLine
 

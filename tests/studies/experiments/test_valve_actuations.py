@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from studies.figures.valve_actuations import ActuationPanel, openings
+from studies.experiments.valve_actuations import ActuationPanel, openings
 from uictest.core.recording import Recording
 
 
