@@ -1,57 +1,172 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from uictest.core.measures import MEASURES
 from uictest.core.recording import Recording
+from uictest.core.units import in_unit
 from uictest.judging.evaluation import AppliedDefinition, Verdict
-from uictest.report.traces.moments import TRAIN, Moments, moments_of
+from uictest.plans.scenario import load
+from uictest.report.page.stop.marks import marks_of, taken_at
+from uictest.report.traces.moments import TRAIN, Moments, duration, moments_of
+from uictest.report.traces.quantities import PANELS, STRIPS
+from uictest.report.traces.trace import trace_of
+from uictest.rig import SimulatedStop, simulate
 
 MakeVerdict = Callable[..., Verdict]
 MakeRecording = Callable[..., Recording]
 
+DEFINED = {
+    "sliding_slide": 0.05,
+    "sliding_slip": 0.3,
+    "locked_speed": 0.1,
+    "moving_speed": 10 / 3.6,
+    "deceleration_filter": 0.5,
+    "developed_time": 2.0,
+    "rising_share": 0.05,
+    "developed_share": 0.95,
+    "reduced_share": 0.9,
+    "released_share": 0.2,
+    "first_phase_duration": 3.0,
+    "low_speed_cutoff": 30 / 3.6,
+    "sliding_below": 0.9,
+    "end_speed": 60 / 3.6,
+}
 
-def _verdict(make: MakeVerdict, measure: str, **definitions: float) -> Verdict:
-    applied = tuple(AppliedDefinition(name, value, "", "chosen") for name, value in definitions.items())
-    return make(id="it", measure=measure, definitions=applied)
+
+def _verdict(make: MakeVerdict, measure: str, value: float | None = None, **definitions: float) -> Verdict:
+    applied = tuple(AppliedDefinition(name, number, "", "chosen") for name, number in definitions.items())
+    unit = MEASURES[measure].unit
+    return make(id="it", measure=measure, unit=unit, value=value, definitions=applied)
 
 
-def test_a_lock_of_a_few_samples_is_found_however_long_the_record_is(
-    make_verdict: MakeVerdict, make_recording: MakeRecording
+TIMES = [
+    name
+    for name, measure in MEASURES.items()
+    if measure.kind == "time" and measure.decided and measure.decided.how in ("intervals", "longest")
+]
+
+
+@pytest.fixture(scope="module")
+def faulty_stop() -> SimulatedStop:
+    """A stop on a slippery rail in which a speed sensor fails, sampled in every cycle."""
+    path = Path(__file__).parents[3] / "examples" / "faults" / "slip-120-with-fault.yaml"
+    (case,) = load([path], overrides=["brake.pad=disc-pad"])
+    return simulate(case, record_every=0.01)
+
+
+def test_every_measure_says_when_it_is_decided_and_where_that_is_shown() -> None:
+    plots = {plot.key for plot in (*PANELS, *STRIPS)}
+    decided = {name: measure.decided for name, measure in MEASURES.items()}
+    assert {own.plot for own in decided.values() if own is not None} <= plots
+    # How far the rig is from that which its compensation was identified for is no matter of a stop.
+    assert [name for name, own in decided.items() if own is None] == ["compensation_misfit"]
+
+
+@pytest.mark.parametrize("measure", [name for name, measure in MEASURES.items() if measure.decided])
+def test_a_criterion_is_drawn_whatever_it_measures(
+    make_verdict: MakeVerdict, faulty_stop: SimulatedStop, measure: str
 ) -> None:
-    record = make_recording(340_001)
-    record["wheel_speed_2"][200_000:200_003] = 0.0
+    record = faulty_stop.recording
+    assert record is not None
+    verdict = replace(_verdict(make_verdict, measure, 1.0, **DEFINED), status="fail")
+    trace = trace_of(record, [verdict])
+    taken, marks = taken_at(verdict, trace), marks_of([verdict], trace)
+    assert taken is not None
+    assert 0.0 <= taken.start <= taken.end <= record["time"][-1]
+    assert any(mark.x0 is not None or mark.y is not None for mark in marks)
+
+
+@pytest.mark.parametrize("measure", TIMES)
+def test_the_intervals_of_a_duration_last_as_long_as_the_rig_measured(
+    make_verdict: MakeVerdict, faulty_stop: SimulatedStop, measure: str
+) -> None:
+    record, own = faulty_stop.recording, MEASURES[measure]
+    assert record is not None
+    values = own.read(faulty_stop.measures, faulty_stop.wheelset_measures, DEFINED).values
+    value = max(values)
+    moments = moments_of([_verdict(make_verdict, measure, value, **DEFINED)], record)["it"]
+    assert moments.wheelset is not None
+    lengths = [duration(each) for each in moments.intervals[moments.wheelset]]
+    longest = own.decided is not None and own.decided.how == "longest"
+    assert value > 0.0
+    assert (max(lengths) if longest else sum(lengths)) == pytest.approx(value)
+
+
+@pytest.mark.parametrize(
+    ("measure", "unit"),
+    [
+        ("maximum_slide_above_cutoff", "%"),
+        ("maximum_clamping_force", "kN"),
+        ("maximum_disc_temperature", "degC"),
+        ("minimum_deceleration", "g"),
+        ("maximum_deceleration", "g"),
+        ("reservoir_minimum_pressure", "bar"),
+    ],
+)
+def test_an_extreme_is_as_high_as_the_rig_measured(
+    make_verdict: MakeVerdict, faulty_stop: SimulatedStop, measure: str, unit: str
+) -> None:
+    record = faulty_stop.recording
+    assert record is not None
+    values = MEASURES[measure].read(faulty_stop.measures, faulty_stop.wheelset_measures, DEFINED).values
+    moments = moments_of([_verdict(make_verdict, measure, 1.0, **DEFINED)], record)["it"]
+    assert [height for _, height in moments.extremes.values()] == pytest.approx(
+        [in_unit(value, unit) for value in values]
+    )
+
+
+def test_a_lock_of_a_few_samples_is_found(make_verdict: MakeVerdict, make_recording: MakeRecording) -> None:
+    record = make_recording(34_001)
+    record["wheel_speed_2"][20_000:20_003] = 0.0
     lock = _verdict(make_verdict, "longest_lock", moving_speed=2.0, locked_speed=0.1)
-    [(wheelset, intervals)] = moments_of([lock], record.channels)["it"].intervals.items()
+    [(wheelset, intervals)] = moments_of([lock], record)["it"].intervals.items()
     assert wheelset == 2
-    assert intervals == [(pytest.approx(19.9999), pytest.approx(20.0002))]
+    # From the sample before the lock to its last, as the measure counts it.
+    assert intervals == [(pytest.approx(19.999), pytest.approx(20.002))]
 
 
 def test_the_largest_slide_counts_above_the_cutoff_only(
     make_verdict: MakeVerdict, make_recording: MakeRecording
 ) -> None:
     record = make_recording()
-    record["slide_1"][(record["time"] > 30.0)] = 0.9
-    slide = _verdict(make_verdict, "maximum_slide_above_cutoff", low_speed_cutoff=30 / 3.6)
-    moments = moments_of([slide], record.channels)["it"]
+    record["wheel_speed_1"][(record["time"] > 30.0)] *= 0.1
+    defined = {"low_speed_cutoff": 30 / 3.6, "moving_speed": 10 / 3.6}
+    slide = _verdict(make_verdict, "maximum_slide_above_cutoff", **defined)
+    moments = moments_of([slide], record)["it"]
     time, value = moments.extremes[1]
     assert 5.0 < time < 15.0
     assert value == pytest.approx(40.0)
-    assert moments.until == pytest.approx(25.0, abs=0.011)
+    assert moments.span == (0.0, pytest.approx(25.0, abs=0.011))
 
 
 def test_the_lowest_pressure_is_that_of_the_train_in_bar(
     make_verdict: MakeVerdict, make_recording: MakeRecording
 ) -> None:
     lowest = _verdict(make_verdict, "reservoir_minimum_pressure")
-    moments = moments_of([lowest], make_recording().channels)["it"]
+    moments = moments_of([lowest], make_recording())["it"]
     assert moments.extremes == {TRAIN: (34.0, pytest.approx(7.66))}
+
+
+def test_a_pressure_that_only_rises_is_lowest_at_the_beginning(
+    make_verdict: MakeVerdict, make_recording: MakeRecording
+) -> None:
+    record = make_recording()
+    record["reservoir_pressure"][:] = 7e5 + 1e3 * record["time"]
+    moments = moments_of([_verdict(make_verdict, "reservoir_minimum_pressure")], record)["it"]
+    assert moments.extremes == {TRAIN: (0.0, pytest.approx(7.0))}
 
 
 def test_what_is_not_defined_or_not_recorded_has_no_moments(make_verdict: MakeVerdict) -> None:
     time = np.linspace(0.0, 1.0, 11)
-    lock, distance = _verdict(make_verdict, "longest_lock"), _verdict(make_verdict, "braking_distance")
-    assert moments_of([lock, distance], {"time": time, "speed": 1.0 - time}) == {"it": Moments()}
-    assert moments_of([lock], {"time": time}) == {}
+    lock = _verdict(make_verdict, "longest_lock")
+    phase = _verdict(make_verdict, "initial_adhesion")
+    units = {"time": "s", "speed": "m/s"}
+    assert moments_of([lock], Recording({"time": time, "speed": 1.0 - time}, units)) == {"it": Moments()}
+    assert moments_of([phase], Recording({"time": time, "speed": 1.0 - time}, units)) == {}
+    assert moments_of([lock], Recording({"time": time}, {"time": "s"})) == {}

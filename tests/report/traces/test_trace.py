@@ -19,7 +19,6 @@ def test_series_are_in_the_units_an_engineer_reads(make_recording: MakeRecording
     assert np.nanmax(trace.curves["slide_1"].y) == pytest.approx(40.0)
     assert trace.curves["tank_pressure_4"].y.max() == pytest.approx(3.8)
     assert trace.curves["clamping_force_2"].y.max() == pytest.approx(14.0)
-    assert trace.sliding_time == 5.01
 
 
 def test_discs_are_drawn_in_degrees_where_their_temperature_is_recorded() -> None:
@@ -91,7 +90,6 @@ def test_a_recording_of_few_channels_is_drawn_as_far_as_it_goes() -> None:
     time = np.array([0.0, 1.0, 2.0])
     trace = trace_of(Recording({"time": time, "slide_3": time / 10}, {"time": "s", "slide_3": "1"}))
     assert list(trace.curves) == ["slide_3"]
-    assert trace.sliding_time is None
 
 
 def test_a_slide_that_was_not_recorded_is_derived_and_said_to_be(make_recording: MakeRecording) -> None:

@@ -137,6 +137,45 @@ class RecordedData:
     computed: bool = False
 
 
+How = Literal["intervals", "longest", "outer", "extreme", "span", "end"]
+"""How a stop decides a measure: in the intervals in which a field of the records grows; in the longest of
+them; from the first change of the field to the last; by its last change; over a span; at the end."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Decided:
+    """When a stop decides a measure, and how its plots show that.
+
+    Args:
+        how: it does.
+        plot: key of the panel or the strip that shows it.
+        field: of the records of the wheelsets, else of that of the stop, whose changes decide.
+        place: in the field, where that is a table.
+        among: the wheelsets that count; None: all of them.
+        channel: of the train that the extreme lies on, where the field is not drawn itself.
+        span: first and last time, s, by the record of the whole stop; None: from its beginning to its end.
+        down_to: definition that holds the train speed at which the span ends, and so do the bounds.
+        level: whether the value is a height in the plot, as its bounds are.
+        across: key of the plot along whose axis the value lies, as its bounds do; empty where there is none.
+        word: before the value in its mark; at the end before the speed there, which takes its place.
+        span_name: what the span is called where it is not the whole stop.
+
+    """
+
+    how: How
+    plot: str
+    field: str = ""
+    place: Callable[[DefinitionValues], int] | None = None
+    among: Callable[[WheelsetMeasures], bool] | None = None
+    channel: str = ""
+    span: Callable[[StopMeasures, DefinitionValues], tuple[float, float]] | None = None
+    down_to: str = ""
+    level: bool = False
+    across: str = ""
+    word: str = ""
+    span_name: str = ""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Measure:
     """One measure of a stop, or of each wheelset in it, that a criterion can bound.
@@ -148,6 +187,7 @@ class Measure:
         course: what the value can do while the stop goes on.
         meaning: what it is, in words.
         read: returns its value.
+        decided: when a stop decides it; None for what no moment of a stop decides.
         of_wheelsets: whether every wheelset has a value.
         of_faults: whether it says something about the reaction to faults: nothing, where none began.
         of_simulation: whether it says something about the simulation itself, nothing about a train.
@@ -167,6 +207,7 @@ class Measure:
     course: Course
     meaning: str
     read: Reader
+    decided: Decided | None = None
     of_wheelsets: bool = False
     of_faults: bool = False
     of_simulation: bool = False

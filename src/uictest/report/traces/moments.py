@@ -1,27 +1,41 @@
-"""When the criteria of a stop were decided: instants and intervals found in every sample of its recording."""
+"""When the criteria of a stop were decided: where the fields that decide a measure changed."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import math
+import re
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from types import MappingProxyType
+from types import SimpleNamespace
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.core.measures import (
+    MEASURES,
+    Measure,
+    MeasureDefinition,
+    RecordedFaults,
+    Replay,
+    WheelsetMeasures,
+    samples_of,
+)
+from uictest.core.record import fields_of
+from uictest.core.recording import Recording
+from uictest.core.units import in_unit
 from uictest.judging import evaluation
-from uictest.report.traces.quantities import PLOT_QUANTITIES, WHEELSETS
+from uictest.plans.faults import SPEED_SENSOR
+from uictest.report.traces.quantities import PANELS, WHEELSETS
 
-Samples = NDArray[np.float64]
-Channels = Mapping[str, Samples]
 Interval = tuple[float, float]
 """First and last time, s since the brake command."""
 Extreme = tuple[float, float]
-"""Time, s since the brake command, and value, in the unit that the quantity is drawn in."""
+"""Time, s since the brake command, and height, in the unit of the plot."""
 
 TRAIN: Final = 0
 """The number that the train has among the wheelsets 1 .. 4."""
+_UNITS: Final = {panel.key: panel.unit for panel in PANELS}
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,185 +45,182 @@ class Moments:
     Args:
         intervals: number of a wheelset -> the intervals that its measure counts.
         extremes: number of a wheelset, or `TRAIN` -> the instant of its largest or smallest value.
-        until: the first time at which the criterion no longer applies, s; None where it applies to the end.
+        span: the time over which a measure looks; None where that is not known, or the whole stop.
+        wheelset: the one that decides; None for a measure of the train, or where that is not known.
 
     """
 
     intervals: Mapping[int, Sequence[Interval]] = field(default_factory=dict)
     extremes: Mapping[int, Extreme] = field(default_factory=dict)
-    until: float | None = None
+    span: Interval | None = None
+    wheelset: int | None = None
 
 
-def moments_of(verdicts: Iterable[evaluation.Verdict], channels: Channels) -> dict[str, Moments]:
+@dataclass(slots=True)
+class _Changes:
+    """Where one number of the records changed: it had `value` at last, from `time` (s) on.
+
+    `grown` holds the intervals in which it grew, from the sample before to the last.
+    """
+
+    value: float
+    time: float
+    grown: list[Interval] = field(default_factory=list)
+
+
+Cell = tuple[str, int, int | None]
+"""A number in the records: field, number of the wheelset or `TRAIN`, place where the field is a table."""
+
+
+def moments_of(
+    verdicts: Iterable[evaluation.Verdict], record: Recording, sliding_time: float | None = None
+) -> dict[str, Moments]:
     """Return the moments of each criterion whose measure has any, by the id of the criterion.
 
     Args:
         verdicts: of the stop; their definitions say what counts.
-        channels: every sample of the recording, SI; with `time`, s since the brake command.
+        record: every sample of the stop, SI.
+        sliding_time: of the first sliding, s, where it is known better than by the samples.
 
     """
-    return {
-        verdict.id: _FINDERS[verdict.measure](verdict, channels)
+    judged = [
+        (verdict, measure)
         for verdict in verdicts
-        if verdict.measure in _FINDERS and "speed" in channels
-    }
+        if (measure := MEASURES.get(verdict.measure)) is not None
+        and measure.decided is not None
+        and all(verdict.defined(name) is not None for name in measure.definitions)
+    ]
+    if "speed" not in record.channels or not judged:
+        return {}
+    replay = _replay([verdict for verdict, _ in judged], record)
+    cells = {cell for verdict, measure in judged for cell in _cells(verdict, measure)}
+    changes = _changes(replay, cells)
+    if sliding_time is not None:
+        replay.train.sliding_time = sliding_time
+    return {verdict.id: _moments(verdict, measure, replay, changes, record) for verdict, measure in judged}
 
 
-def _locks(verdict: evaluation.Verdict, channels: Channels) -> Moments:
-    """Return when each wheelset was locked while the train moved."""
-    locked, moving = verdict.defined("locked_speed"), verdict.defined("moving_speed")
-    if locked is None or moving is None:
-        return Moments()
-    speed = channels["speed"]
-    return _intervals(channels, lambda wheel_speed: (speed > moving) & (wheel_speed < locked))
-
-
-def _slides(verdict: evaluation.Verdict, channels: Channels) -> Moments:
-    """Return when each wheelset slid while the train moved."""
-    share, slip, moving = map(verdict.defined, ("sliding_slide", "sliding_slip", "moving_speed"))
-    if share is None or slip is None or moving is None:
-        return Moments()
-    speed = channels["speed"]
-    return _intervals(
-        channels,
-        lambda wheel_speed: (
-            (speed > moving) & (speed - wheel_speed > share * speed) & (speed - wheel_speed > slip)
-        ),
+def _replay(verdicts: Iterable[evaluation.Verdict], record: Recording) -> Replay:
+    """Return the records of the stop at its first sample; definitions that no verdict has are unknown."""
+    stated = {each.name: each.value for verdict in verdicts for each in verdict.definitions}
+    unknown = dict.fromkeys(fields_of(MeasureDefinition), math.nan)
+    demanded = record.channels.get("demanded_pressure", np.array([math.nan]))
+    return Replay(
+        samples_of(record.channels, faults=_faults(record)),
+        SimpleNamespace(**(unknown | stated)),
+        float(np.max(demanded)),
     )
 
 
-def _largest_slides(verdict: evaluation.Verdict, channels: Channels) -> Moments:
-    """Return when each wheelset slid most above the cut-off, and when the train first ran below it."""
-    time, speed, cutoff = channels["time"], channels["speed"], verdict.defined("low_speed_cutoff")
-    if cutoff is None:
-        return Moments(extremes=_largest(channels, "slide", np.ones(len(time), dtype=np.bool_)))
-    slower = np.flatnonzero(speed < cutoff)
-    until = float(time[slower[0]]) if len(slower) else None
-    return Moments(extremes=_largest(channels, "slide", speed > cutoff), until=until)
+def _faults(record: Recording) -> RecordedFaults | None:
+    """Return the faults of the stop; each label ends with the number of its wheelset, if it has one."""
+    labels = record.metadata.get("faults", "")
+    if not labels or "active_faults" not in record.channels:
+        return None
+    active = np.nan_to_num(record["active_faults"]).astype(np.int64)
+    begun = np.bitwise_or.accumulate(active)
+
+    def of_wheelsets(bits: NDArray[np.int64], part: str = "") -> NDArray[np.float64]:
+        own = [
+            [1 << k for k, label in enumerate(labels.split(", ")) if re.fullmatch(rf"{part}.*-{n}", label)]
+            for n in WHEELSETS
+        ]
+        return np.stack([(bits & sum(each)) != 0 for each in own], axis=1).astype(np.float64)
+
+    return RecordedFaults(begun != 0, of_wheelsets(begun), of_wheelsets(active, SPEED_SENSOR))
 
 
-def _until_end_speed(verdict: evaluation.Verdict, channels: Channels) -> Moments:
-    """Return when the train first ran no faster than the speed down to which sliding counts."""
-    reached = np.flatnonzero(channels["speed"] <= (verdict.defined("end_speed") or 0.0))
-    return Moments(until=float(channels["time"][reached[0]]) if len(reached) else None)
+def _cells(verdict: evaluation.Verdict, measure: Measure) -> list[Cell]:
+    """Return the numbers whose changes decide a criterion, of the wheelsets or of the train."""
+    decided = measure.decided
+    if decided is None or not decided.field:
+        return []
+    place = None if decided.place is None else decided.place(_definition(verdict))
+    numbers = WHEELSETS if decided.field in fields_of(WheelsetMeasures) else (TRAIN,)
+    return [(decided.field, n, place) for n in numbers]
 
 
-def _largest_forces(verdict: evaluation.Verdict, channels: Channels) -> Moments:
-    """Return when the clamping force of each wheelset was largest."""
-    everywhere = np.ones(len(channels["time"]), dtype=np.bool_)
-    return Moments(extremes=_largest(channels, "clamping_force", everywhere))
+def _definition(verdict: evaluation.Verdict) -> dict[str, float]:
+    return {each.name: each.value for each in verdict.definitions}
 
 
-def _highest_disc_temperatures(verdict: evaluation.Verdict, channels: Channels) -> Moments:
-    """Return when the discs of each wheelset were hottest on their surface."""
-    everywhere = np.ones(len(channels["time"]), dtype=np.bool_)
-    return Moments(extremes=_largest(channels, "disc_surface_temperature", everywhere))
+def _changes(replay: Replay, cells: Collection[Cell]) -> dict[Cell, _Changes]:
+    """Let the samples pass and return where the numbers of the records changed."""
+    records = [vars(record) for record in (replay.train, *replay.wheelsets)]
+    previous = replay.train.end_time
+    changes, places = {}, []
+    for cell in cells:
+        name, n, place = cell
+        holder, key = (records[n], name) if place is None else (records[n][name], place)
+        changes[cell] = own = _Changes(holder[key], previous)
+        places.append((holder, key, own))
+    for time in replay.pass_samples(fields={name for name, _, _ in cells}):
+        for holder, key, own in places:
+            value = holder[key]
+            if value != own.value and value == value:
+                if value < own.value:
+                    pass
+                elif own.grown and own.grown[-1][1] == previous:
+                    own.grown[-1] = own.grown[-1][0], time
+                else:
+                    own.grown.append((previous, time))
+                own.value, own.time = value, time
+        previous = time
+    return changes
 
 
-def _smallest_deceleration(verdict: evaluation.Verdict, channels: Channels) -> Moments:
-    """Return when the filtered deceleration was smallest once the brake was developed."""
-    return _extreme_deceleration(verdict, channels, verdict.defined("developed_time") or 0.0, -1.0)
-
-
-def _largest_deceleration(verdict: evaluation.Verdict, channels: Channels) -> Moments:
-    """Return when the filtered deceleration was largest."""
-    return _extreme_deceleration(verdict, channels, 0.0, 1.0)
-
-
-def _lowest_reservoir_pressure(verdict: evaluation.Verdict, channels: Channels) -> Moments:
-    """Return when the pressure of the reservoir was lowest."""
-    pressure = channels.get("reservoir_pressure")
-    if pressure is None or not np.isfinite(pressure).any():
-        return Moments()
-    lowest = int(np.nanargmin(pressure))
-    return Moments(extremes={TRAIN: _extreme(channels, "reservoir_pressure", pressure, lowest)})
-
-
-def _largest_reference_excess(verdict: evaluation.Verdict, channels: Channels) -> Moments:
-    """Return when the reference speed was furthest above the train's since a fault first was active."""
-    if not {"reference_speed", "active_faults"} <= channels.keys():
-        return Moments()
-    speed, reference = channels["speed"], channels["reference_speed"]
-    counts = (np.cumsum(channels["active_faults"] > 0.0) > 0) & np.isfinite(reference)
-    counts &= speed >= (verdict.defined("moving_speed") or 0.0)
-    if not counts.any():
-        return Moments()
-    row = int(np.argmax(np.where(counts, reference - speed, -np.inf)))
-    return Moments(extremes={TRAIN: _extreme(channels, "reference_speed", reference, row)})
-
-
-_FINDERS: Final[Mapping[str, Callable[[evaluation.Verdict, Channels], Moments]]] = MappingProxyType(
-    {
-        "locked_time": _locks,
-        "longest_lock": _locks,
-        "longest_lock_of_sound_wheelsets": _locks,
-        "reference_excess": _largest_reference_excess,
-        "sliding_duration": _slides,
-        "maximum_slide_above_cutoff": _largest_slides,
-        "sliding_share": _until_end_speed,
-        "sliding_share_of_wheelsets": _until_end_speed,
-        "maximum_clamping_force": _largest_forces,
-        "maximum_disc_temperature": _highest_disc_temperatures,
-        "minimum_deceleration": _smallest_deceleration,
-        "maximum_deceleration": _largest_deceleration,
-        "reservoir_minimum_pressure": _lowest_reservoir_pressure,
-    }
-)
-"""Measure -> what finds its moments; the other measures have none."""
-
-
-def _intervals(channels: Channels, holds: Callable[[Samples], NDArray[np.bool_]]) -> Moments:
-    """Return when a condition on the speed of a wheelset, m/s, holds."""
-    intervals = {
-        n: _runs(channels["time"], holds(channels[name]))
-        for n in WHEELSETS
-        if (name := f"wheel_speed_{n}") in channels
-    }
-    return Moments(intervals={n: runs for n, runs in intervals.items() if runs})
-
-
-def _runs(time: Samples, holds: NDArray[np.bool_]) -> list[Interval]:
-    """Return the intervals from the sample before each run to its last, as the measures count them."""
-    ends = np.flatnonzero(np.diff(holds, prepend=False, append=False))
-    return [(float(time[max(a - 1, 0)]), float(time[b - 1])) for a, b in ends.reshape(-1, 2).tolist()]
-
-
-def _largest(channels: Channels, quantity: str, counts: NDArray[np.bool_]) -> dict[int, Extreme]:
-    """Return the largest value of each wheelset among the samples that count."""
-    largest = {}
-    for n in WHEELSETS:
-        samples = channels.get(f"{quantity}_{n}")
-        if samples is not None and (known := counts & np.isfinite(samples)).any():
-            row = int(np.argmax(np.where(known, samples, -np.inf)))
-            largest[n] = _extreme(channels, quantity, samples, row)
-    return largest
-
-
-def _extreme(channels: Channels, quantity: str, samples: Samples, row: int) -> Extreme:
-    shown = PLOT_QUANTITIES[quantity]
-    return float(channels["time"][row]), (float(samples[row]) - shown.zero) / shown.scale
-
-
-def _extreme_deceleration(
-    verdict: evaluation.Verdict, channels: Channels, since: float, sign: float
+def _moments(
+    verdict: evaluation.Verdict,
+    measure: Measure,
+    replay: Replay,
+    changes: Mapping[Cell, _Changes],
+    record: Recording,
 ) -> Moments:
-    time_constant = verdict.defined("deceleration_filter")
-    time, speed = channels["time"], channels["speed"]
-    counts = (speed >= (verdict.defined("moving_speed") or 0.0)) & (time >= since)
-    if time_constant is None or not counts.any():
-        return Moments()
-    filtered = _filtered_deceleration(time, speed, time_constant)
-    row = int(np.nanargmax(np.where(counts, sign * filtered, -np.inf)))
-    return Moments(extremes={TRAIN: (float(time[row]), float(filtered[row]))})
+    decided, definition, time = measure.decided, _definition(verdict), record["time"]
+    assert decided is not None
+    own = {
+        cell[1]: changes[cell]
+        for cell in _cells(verdict, measure)
+        if decided.among is None or decided.among(replay.wheelsets[cell[1] - 1])
+    }
+    span = None if decided.span is None else decided.span(replay.train, definition)
+    if decided.down_to:
+        reached = np.flatnonzero(record["speed"] <= definition[decided.down_to])
+        span = (float(time[0]), float(time[reached[0]])) if len(reached) else None
+    intervals: dict[int, Sequence[Interval]] = {}
+    extremes = {}
+    for n, each in own.items():
+        if decided.how in ("intervals", "longest") and each.grown:
+            intervals[n] = each.grown
+        elif decided.how == "outer" and each.grown:
+            intervals[n] = [(each.grown[0][1], float(time[-1]) if each.value else each.time)]
+        elif decided.how == "extreme" and math.isfinite(each.value):
+            row = int(np.searchsorted(time, each.time))
+            value = float(record[decided.channel][row]) if decided.channel else each.value
+            extremes[n] = each.time, in_unit(value, _UNITS[decided.plot])
+    known = span if span is not None and all(map(math.isfinite, span)) else None
+    return Moments(intervals, extremes, known, _deciding(verdict, measure, replay, intervals))
 
 
-def _filtered_deceleration(time: Samples, speed: Samples, time_constant: float) -> Samples:
-    """Return the deceleration of a train after the low-pass of the measures, m/s2."""
-    intervals = np.diff(time)
-    decelerations, shares = -np.diff(speed) / intervals, intervals / (intervals + time_constant)
-    filtered = np.zeros_like(time)
-    last = 0.0
-    for k, (deceleration, share) in enumerate(zip(decelerations.tolist(), shares.tolist(), strict=True)):
-        last += share * (deceleration - last)
-        filtered[k + 1] = last
-    return filtered
+def _deciding(
+    verdict: evaluation.Verdict,
+    measure: Measure,
+    replay: Replay,
+    intervals: Mapping[int, Sequence[Interval]],
+) -> int | None:
+    """Return the wheelset whose value is that of the criterion, or which has the longest interval of all."""
+    wanted = verdict.value
+    if measure.of_wheelsets and wanted is not None:
+        values = measure.read(replay.train, replay.wheelsets, _definition(verdict)).values
+        distances = {n: abs(in_unit(value, verdict.unit) - wanted) for n, value in enumerate(values, start=1)}
+        known = {n: distance for n, distance in distances.items() if math.isfinite(distance)}
+        return min(known, key=known.__getitem__, default=None)
+    if measure.decided is not None and measure.decided.how == "longest":
+        return max(intervals, key=lambda n: max(map(duration, intervals[n])), default=None)
+    return None
+
+
+def duration(interval: Interval) -> float:
+    """Return how long an interval lasts, s."""
+    first, last = interval
+    return last - first

@@ -35,12 +35,15 @@ def extremes(columns: Samples, y: Samples) -> Rows:
 
     """
     starts = np.flatnonzero(np.diff(columns, prepend=columns[0] - 1))
-    lasts = np.append(starts[1:], len(columns)) - 1
-    column = np.repeat(np.arange(len(starts)), lasts - starts + 1)
-    rising = np.lexsort((y, column))  # missing samples last
-    falling = np.lexsort((-y, column))
-    gaps = np.where(np.isnan(y[rising[lasts]]), rising[lasts], rising[starts])
-    return np.unique(np.concatenate([rising[starts], falling[starts], gaps]))
+    column = np.repeat(np.arange(len(starts)), np.diff(starts, append=len(columns)))
+    missing = np.isnan(y)
+    gaps = np.flatnonzero(missing)
+    kept = [gaps[np.diff(column[gaps], append=len(starts)) > 0]]
+    for extreme in (np.fmin, np.fmax):
+        own = extreme.reduceat(y, starts)[column]
+        rows = np.flatnonzero((y == own) | (missing & np.isnan(own)))
+        kept.append(rows[np.diff(column[rows], prepend=-1) > 0])
+    return np.unique(np.concatenate(kept))
 
 
 def thinned(y: Samples, bins: int) -> Rows:
@@ -123,7 +126,6 @@ class PlotTrace:
             `_1` .. `_4` at the end.
         states: name -> states over time.
         loops: key of a loop and name of its upper series, with a blank between -> line.
-        sliding_time: when a wheelset first slid, s; None where none did or it is not known.
         derived: names of the curves that the record does not hold.
         moments: id of a criterion -> when it was decided.
         faults: when faults were active.
@@ -136,7 +138,6 @@ class PlotTrace:
     curves: Mapping[str, Curve]
     states: Mapping[str, States] = field(default_factory=dict)
     loops: Mapping[str, Curve] = field(default_factory=dict)
-    sliding_time: float | None = None
     derived: tuple[str, ...] = ()
     moments: Mapping[str, Moments] = field(default_factory=dict)
     faults: tuple[FaultSpan, ...] = ()
@@ -161,9 +162,8 @@ def trace_of(record: recording.Recording, verdicts: Iterable[evaluation.Verdict]
         {name: curve_of(time, samples) for name, samples in series.items() if name not in states},
         {name: _states(time, samples) for name, samples in series.items() if name in states},
         dict(_loops(series)),
-        _sliding_time(record.metadata),
         tuple(name for name in series if name not in record.channels),
-        moments_of(verdicts, channels),
+        moments_of(verdicts, record, _sliding_time(record.metadata)),
         fault_spans(record),
     )
 

@@ -15,7 +15,7 @@ from uictest.judging.evaluation import (
     narrowest_margin,
 )
 from uictest.report.page.stop.margins import margin_share, margins_of
-from uictest.report.page.stop.taken import taken_at
+from uictest.report.page.stop.marks import taken_at
 from uictest.report.traces.trace import PlotTrace, trace_of
 
 MakeVerdict = Callable[..., Verdict]
@@ -161,7 +161,9 @@ def test_a_measure_of_the_train_is_taken_at_an_instant_of_its_own(
 def _in_fault(recording: Recording, **channels: np.ndarray) -> Recording:
     active = np.where((recording["time"] > 5.0) & (recording["time"] < 9.0), 2.0, 0.0)
     faulty = _with(recording, active_faults=active, **channels)
-    return Recording(faulty.channels, faulty.units, {**faulty.metadata, "faults": "a, b"})
+    return Recording(
+        faulty.channels, faulty.units, {**faulty.metadata, "faults": "brake-line-leak, speed-sensor-stuck-2"}
+    )
 
 
 def test_the_reference_is_furthest_off_after_the_first_fault(
@@ -172,32 +174,31 @@ def test_the_reference_is_furthest_off_after_the_first_fault(
     time, speed = recording["time"], recording["speed"]
     excess = 3.0 * np.exp(-((time - 2.0) ** 2)) + 2.0 * np.exp(-((time - 12.0) ** 2))
     faulty = _in_fault(recording, reference_speed=speed + excess)
-    verdict = make_verdict(measure="reference_excess", value=7.2, unit="km/h")
+    definitions = _definitions(moving_speed=1.0)
+    verdict = make_verdict(measure="reference_excess", value=7.2, unit="km/h", definitions=definitions)
     taken = taken_at(verdict, trace_of(faulty, [verdict]))
     assert taken is not None
     assert taken.start == pytest.approx(12.0, abs=0.011)
     assert taken.value == pytest.approx((120 / 3.6 - 12.0 + 2.0) * 3.6, abs=0.1)
 
 
-@pytest.mark.parametrize(("value", "wheelset"), [(0.5, 4), (1.7, None)])
-def test_a_lock_of_a_sound_wheelset_is_found_by_its_duration(
-    make_verdict: MakeVerdict,
-    make_recording: Callable[..., Recording],
-    value: float,
-    wheelset: int | None,
+def test_a_lock_of_a_sound_wheelset_is_none_of_a_faulty_one(
+    make_verdict: MakeVerdict, make_recording: Callable[..., Recording]
 ) -> None:
-    """Wheelset 2 is faulty and locked for 2 s, wheelset 4 for 0.5 s; nothing lasts 1.7 s."""
+    """Wheelset 2 is faulty and locked for 2 s, wheelset 4 for 0.5 s."""
     recording = make_recording()
     time, speed = recording["time"], recording["wheel_speed_1"]
 
     def locked(first: float, last: float) -> np.ndarray:
         return np.where((time > first + 1e-6) & (time < last + 1e-6), 0.0, speed)
 
-    recording = _with(recording, wheel_speed_2=locked(20.0, 22.0), wheel_speed_4=locked(15.0, 15.5))
+    recording = _in_fault(recording, wheel_speed_2=locked(20.0, 22.0), wheel_speed_4=locked(15.0, 15.5))
     definitions = _definitions(locked_speed=0.1, moving_speed=1.0)
-    verdict = make_verdict(measure="longest_lock_of_sound_wheelsets", value=value, definitions=definitions)
+    verdict = make_verdict(measure="longest_lock_of_sound_wheelsets", value=0.5, definitions=definitions)
     taken = taken_at(verdict, trace_of(recording, [verdict]))
-    assert (taken.wheelset if taken else None) == wheelset
+    assert taken is not None
+    assert (taken.start, taken.end) == pytest.approx((15.0, 15.5), abs=0.011)
+    assert (taken.plot, taken.wheelset) == ("locked", 4)
 
 
 def test_what_has_no_place_in_the_plots_has_none(make_verdict: MakeVerdict, trace: PlotTrace) -> None:

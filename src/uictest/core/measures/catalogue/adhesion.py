@@ -6,6 +6,7 @@ import math
 from typing import Final
 
 from uictest.core.measures.measure import (
+    Decided,
     Measure,
     MeasureValue,
     RecordedData,
@@ -64,6 +65,17 @@ MEASURES = (
         meaning="mean deceleration of the train over the first phase, counted from the first sliding of any"
         " wheelset",
         read=lambda stop, wheelsets, definition: initial_adhesion(stop, definition["first_phase_duration"]),
+        decided=Decided(
+            how="span",
+            plot="deceleration",
+            span=lambda stop, definition: (
+                stop.sliding_time,
+                stop.sliding_time + definition["first_phase_duration"],
+            ),
+            level=True,
+            word="mean",
+            span_name="first phase",
+        ),
         definitions=("first_phase_duration",),
         observed_by=("sliding_slide", "sliding_slip", "moving_speed"),
         recorded=RecordedData(("speed", "wheel_speed_{n}"), bounded=False),

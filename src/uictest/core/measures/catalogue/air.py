@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from uictest.core.measures.measure import (
+    Decided,
     Measure,
     RecordedData,
     StopColumn,
@@ -22,6 +23,9 @@ MEASURES = (
         course="falls",
         meaning="lowest gauge pressure of the reservoir",
         read=lambda stop, wheelsets, definition: one_value(stop.reservoir_minimum_pressure),
+        decided=Decided(
+            how="extreme", plot="pressure", field="reservoir_minimum_pressure", level=True, word="lowest"
+        ),
         recorded=RecordedData(("reservoir_pressure",)),
         column=StopColumn(
             "reservoir_minimum_bar", "bar", read=lambda stop, definition: stop.reservoir_minimum_pressure
@@ -35,6 +39,7 @@ MEASURES = (
         course="grows",
         meaning="air taken from the reservoir, normal volume (20 degC, 1 bar)",
         read=lambda stop, wheelsets, definition: one_value(normal_volume(stop.air_consumed)),
+        decided=Decided(how="end", plot="pressure"),
         recorded=_FLOW_OF_AIR,
         column=StopColumn(
             "air_consumed_nl", "NL", read=lambda stop, definition: normal_volume(stop.air_consumed)
@@ -50,6 +55,7 @@ MEASURES = (
         read=lambda stop, wheelsets, definition: value_per_wheelset(
             normal_volume(w.air_vented) for w in wheelsets
         ),
+        decided=Decided(how="outer", plot="valves", field="venting"),
         of_wheelsets=True,
         recorded=_FLOW_OF_AIR,
         column=WheelsetColumn(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from uictest.core.measures.measure import Measure, StopColumn, one_value
+from uictest.core.measures.measure import Decided, Measure, StopColumn, one_value
 
 # A residual is as bad below zero as above it: criteria bound its magnitude, results report its sign.
 MEASURES = (
@@ -13,6 +13,7 @@ MEASURES = (
         course="settles",
         meaning="magnitude of the energy balance's error over the initial kinetic energy",
         read=lambda stop, wheelsets, definition: one_value(abs(stop.energy_residual)),
+        decided=Decided(how="end", plot="speed"),
         of_simulation=True,
         column=StopColumn(
             "energy_residual",
@@ -29,6 +30,7 @@ MEASURES = (
         course="settles",
         meaning="magnitude of the air balance's error over the mass taken",
         read=lambda stop, wheelsets, definition: one_value(abs(stop.air_residual)),
+        decided=Decided(how="end", plot="pressure"),
         of_simulation=True,
         column=StopColumn(
             "air_residual",
@@ -45,6 +47,7 @@ MEASURES = (
         course="settles",
         meaning="magnitude of the error of the air's energy balance over the enthalpy taken",
         read=lambda stop, wheelsets, definition: one_value(abs(stop.air_energy_residual)),
+        decided=Decided(how="end", plot="pressure"),
         of_simulation=True,
         column=StopColumn(
             "air_energy_residual",

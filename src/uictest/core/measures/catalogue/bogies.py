@@ -8,6 +8,7 @@ from operator import attrgetter
 from typing import Any
 
 from uictest.core.measures.measure import (
+    Decided,
     Measure,
     MeasureValue,
     RecordedData,
@@ -35,6 +36,7 @@ def _of_bogie(number: int) -> Measure:
         meaning=f"part of the mean deceleration given by the rail through the {_POSITIONS[number]} bogie: its"
         " work on both wheelsets over the mass of the train and the braking distance",
         read=lambda stop, wheelsets, definition: deceleration_of_bogie(stop, of_stop(stop)),
+        decided=Decided(how="span", plot="deceleration", level=True, word=f"{_POSITIONS[number]} bogie"),
         recorded=RecordedData(("speed", "distance", "adhesion_{n}", "wheel_load_{n}"), bounded=False),
         column=StopColumn(
             f"deceleration_bogie_{number}_mps2",

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from uictest.core.measures.catalogue.stopping import braking_distance, constant_deceleration
 from uictest.core.measures.measure import (
+    Decided,
     Measure,
     MeasureValue,
     RecordedData,
@@ -16,6 +19,13 @@ from uictest.core.measures.records import StopMeasures
 
 _NEVER = "the pressure of the brake line never reached `developed_share` of what is commanded"
 _OBSERVED_BY = ("rising_share", "developed_share")
+_SINCE_BUILD_UP = Decided(
+    how="span",
+    plot="speed",
+    field="build_up_time",
+    span=lambda stop, definition: (stop.build_up_time, stop.end_time),
+    span_name="developed brake",
+)
 _RECORDED = RecordedData(("speed", "distance", "brake_line_pressure"), bounded=False)
 
 
@@ -53,6 +63,13 @@ MEASURES = (
         meaning="equivalent build-up time T_react + T_increase / 2 of the brake-line pressure, which begins"
         " to rise T_react after the brake command and has built up T_increase later",
         read=lambda stop, wheelsets, definition: build_up_time(stop),
+        decided=Decided(
+            how="span",
+            plot="pressure",
+            field="build_up_time",
+            span=lambda stop, definition: (stop.rise_time, 2.0 * stop.build_up_time - stop.rise_time),
+            across="pressure",
+        ),
         observed_by=_OBSERVED_BY,
         recorded=RecordedData(("brake_line_pressure",), bounded=False),
         column=StopColumn("build_up_time_s", "s", read=lambda stop, definition: stop.build_up_time),
@@ -64,6 +81,7 @@ MEASURES = (
         course="grows",
         meaning="braking distance less the distance run until the equivalent build-up time",
         read=lambda stop, wheelsets, definition: deceleration_distance(stop),
+        decided=_SINCE_BUILD_UP,
         observed_by=_OBSERVED_BY,
         recorded=_RECORDED,
         column=StopColumn(
@@ -79,6 +97,7 @@ MEASURES = (
         course="falls",
         meaning="v0^2 / (2 s), s the deceleration distance",
         read=lambda stop, wheelsets, definition: developed_deceleration(stop),
+        decided=replace(_SINCE_BUILD_UP, plot="deceleration", level=True, word="mean"),
         observed_by=_OBSERVED_BY,
         recorded=_RECORDED,
         column=StopColumn(

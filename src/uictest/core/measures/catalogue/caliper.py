@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from uictest.core.measures.measure import (
+    Decided,
     Measure,
     MeasureValue,
     RecordedData,
@@ -30,6 +31,7 @@ MEASURES = (
         course="grows",
         meaning="openings and closings of the vent",
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.valve_actuations for w in wheelsets),
+        decided=Decided(how="outer", plot="valves", field="venting"),
         of_wheelsets=True,
         recorded=RecordedData(("valve_command_{n}",)),
         column=WheelsetColumn(
@@ -46,6 +48,7 @@ MEASURES = (
         read=lambda stop, wheelsets, definition: value_per_wheelset(
             w.maximum_clamping_force for w in wheelsets
         ),
+        decided=Decided(how="extreme", plot="force", field="maximum_clamping_force", level=True),
         of_wheelsets=True,
         recorded=RecordedData(("clamping_force_{n}",)),
         column=WheelsetColumn(
@@ -60,6 +63,7 @@ MEASURES = (
         course="grows",
         meaning="highest temperature of the friction surface of the discs, where it is modelled",
         read=lambda stop, wheelsets, definition: _disc_temperatures(wheelsets),
+        decided=Decided(how="extreme", plot="temperature", field="maximum_disc_temperature", level=True),
         of_wheelsets=True,
         recorded=RecordedData(("disc_surface_temperature_{n}",)),
         column=WheelsetColumn(

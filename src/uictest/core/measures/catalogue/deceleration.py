@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from uictest.core.measures.measure import (
+    Decided,
     Measure,
     MeasureValue,
     RecordedData,
@@ -29,6 +30,7 @@ MEASURES = (
         course="falls",
         meaning="smallest filtered deceleration under developed braking",
         read=lambda stop, wheelsets, definition: _deceleration(stop.minimum_deceleration),
+        decided=Decided(how="extreme", plot="deceleration", field="minimum_deceleration", level=True),
         observed_by=(*_FILTERING, "developed_time"),
         recorded=RecordedData(("speed",), bounded=False),  # the filter has to settle first
         column=StopColumn(
@@ -42,6 +44,7 @@ MEASURES = (
         course="grows",
         meaning="largest filtered deceleration while the train runs",
         read=lambda stop, wheelsets, definition: _deceleration(stop.maximum_deceleration),
+        decided=Decided(how="extreme", plot="deceleration", field="maximum_deceleration", level=True),
         observed_by=_FILTERING,
         recorded=RecordedData(("speed",)),
         column=StopColumn(

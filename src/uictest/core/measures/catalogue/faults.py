@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from uictest.core.measures.measure import (
+    Decided,
     Measure,
     MeasureValue,
     RecordedData,
@@ -49,6 +50,9 @@ MEASURES = (
         course="grows",
         meaning="longest time at a stretch that a wheelset without a fault of its own is locked",
         read=lambda stop, wheelsets, definition: longest_lock_of_sound_wheelsets(stop, wheelsets),
+        decided=Decided(
+            how="longest", plot="locked", field="lock", among=lambda wheelset: not wheelset.faulty
+        ),
         observed_by=("locked_speed", "moving_speed"),
         of_faults=True,
         recorded=_FAULTS,
@@ -61,6 +65,7 @@ MEASURES = (
         meaning="longest time at a stretch that a wheelset with a faulty speed sensor is without brake force,"
         " once the brake is developed",
         read=lambda stop, wheelsets, definition: longest_release(stop, wheelsets),
+        decided=Decided(how="longest", plot="force", field="release"),
         observed_by=("moving_speed", "developed_time", "released_share"),
         of_faults=True,
         recorded=_FAULTS,
@@ -72,6 +77,13 @@ MEASURES = (
         course="grows",
         meaning="largest excess of the controller's reference speed over the train's since the first fault",
         read=lambda stop, wheelsets, definition: reference_excess(stop),
+        decided=Decided(
+            how="extreme",
+            plot="speed",
+            field="reference_excess",
+            channel="reference_speed",
+            word="excess",
+        ),
         observed_by=("moving_speed",),
         of_faults=True,
         recorded=_FAULTS,

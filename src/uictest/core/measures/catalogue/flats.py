@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from uictest.core.measures.measure import Measure, RecordedData, WheelsetColumn, value_per_wheelset
+from uictest.core.measures.measure import Decided, Measure, RecordedData, WheelsetColumn, value_per_wheelset
 
 _OBSERVED_BY = ("sliding_slide", "sliding_slip", "moving_speed")
 
@@ -14,6 +14,7 @@ MEASURES = (
         course="grows",
         meaning="distance that the train runs while the wheelset slides or is locked",
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.slid_distance for w in wheelsets),
+        decided=Decided(how="intervals", plot="sliding", field="slid_distance"),
         of_wheelsets=True,
         observed_by=_OBSERVED_BY,
         recorded=RecordedData(("speed", "wheel_speed_{n}")),
@@ -27,6 +28,7 @@ MEASURES = (
         course="grows",
         meaning="energy that both contacts of the wheelset turn into heat while it slides or is locked",
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.contact_energy for w in wheelsets),
+        decided=Decided(how="intervals", plot="sliding", field="contact_energy"),
         of_wheelsets=True,
         observed_by=_OBSERVED_BY,
         recorded=RecordedData(("speed", "wheel_speed_{n}", "adhesion_{n}", "wheel_load_{n}"), computed=True),

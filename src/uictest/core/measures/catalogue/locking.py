@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from uictest.core.measures.measure import Measure, RecordedData, WheelsetColumn, value_per_wheelset
+from uictest.core.measures.measure import Decided, Measure, RecordedData, WheelsetColumn, value_per_wheelset
 
 _OBSERVED_BY = ("locked_speed", "moving_speed")
 _WHEEL_SPEEDS = RecordedData(("speed", "wheel_speed_{n}"))
@@ -15,6 +15,7 @@ MEASURES = (
         course="grows",
         meaning="time the wheelset is locked in all",
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.locked_time for w in wheelsets),
+        decided=Decided(how="intervals", plot="locked", field="locked_time"),
         of_wheelsets=True,
         observed_by=_OBSERVED_BY,
         recorded=_WHEEL_SPEEDS,
@@ -28,6 +29,7 @@ MEASURES = (
         course="grows",
         meaning="longest time the wheelset is locked at a stretch",
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.longest_lock for w in wheelsets),
+        decided=Decided(how="longest", plot="locked", field="lock"),
         of_wheelsets=True,
         observed_by=_OBSERVED_BY,
         recorded=_WHEEL_SPEEDS,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from uictest.core.measures.measure import Measure, RecordedData, StopColumn, one_value
+from uictest.core.measures.measure import Decided, Measure, RecordedData, StopColumn, one_value
 
 MEASURES = (
     Measure(
@@ -12,6 +12,13 @@ MEASURES = (
         course="falls",
         meaning="lowest difference between the pressure of the reservoir and the highest cylinder pressure",
         read=lambda stop, wheelsets, definition: one_value(stop.reservoir_margin),
+        decided=Decided(
+            how="extreme",
+            plot="pressure",
+            field="reservoir_margin",
+            channel="reservoir_pressure",
+            word="lowest margin",
+        ),
         recorded=RecordedData(("reservoir_pressure", "cylinder_pressure_{n}")),
         column=StopColumn("reservoir_margin_bar", "bar", read=lambda stop, definition: stop.reservoir_margin),
         finite_field="reservoir_margin",

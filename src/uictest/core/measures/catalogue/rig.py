@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from uictest.core.measures.measure import Measure, one_value
+from uictest.core.measures.measure import Decided, Measure, one_value
 
 MEASURES = (
     Measure(
@@ -12,6 +12,7 @@ MEASURES = (
         course="grows",
         meaning="time for which loadcells are limited by their range, of all calipers together",
         read=lambda stop, wheelsets, definition: one_value(sum(w.loadcell_saturation for w in wheelsets)),
+        decided=Decided(how="end", plot="force"),
         of_simulation=True,
     ),
     Measure(
@@ -23,6 +24,7 @@ MEASURES = (
         read=lambda stop, wheelsets, definition: one_value(
             stop.line_saturation + sum(w.pressure_saturation for w in wheelsets)
         ),
+        decided=Decided(how="end", plot="pressure"),
         of_simulation=True,
     ),
     Measure(

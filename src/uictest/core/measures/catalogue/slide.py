@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from uictest.core.measures.measure import (
+    Decided,
     DefinitionValues,
     Measure,
     MeasureValue,
@@ -101,6 +102,14 @@ MEASURES = (
         read=lambda stop, wheelsets, definition: maximum_slide_above_cutoff(
             stop, wheelsets, definition["low_speed_cutoff"]
         ),
+        decided=Decided(
+            how="extreme",
+            plot="slide",
+            field="maximum_slide_above",
+            place=lambda definition: round(definition["low_speed_cutoff"] / SLIDE_CLASS),
+            down_to="low_speed_cutoff",
+            level=True,
+        ),
         of_wheelsets=True,
         definitions=("low_speed_cutoff",),
         speed_range=lambda definition: f"above {_kilometres_per_hour(definition['low_speed_cutoff'])}",
@@ -123,6 +132,7 @@ MEASURES = (
         course="grows",
         meaning="time the wheelset slides in all",
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.sliding_duration for w in wheelsets),
+        decided=Decided(how="intervals", plot="sliding", field="sliding_duration"),
         of_wheelsets=True,
         observed_by=("sliding_slide", "sliding_slip", "moving_speed"),
         recorded=_WHEEL_SPEEDS,
@@ -137,6 +147,7 @@ MEASURES = (
         meaning="share of the time from the brake command to `end_speed` in which at least half of the"
         " wheelsets turn, at once, below the share `sliding_below` of the train's speed",
         read=lambda stop, _, definition: sliding_share(stop, definition),
+        decided=Decided(how="span", plot="slide", down_to="end_speed"),
         definitions=("sliding_below", "end_speed"),
         speed_range=_down_to_end_speed,
         recorded=_SHARED,
@@ -155,6 +166,7 @@ MEASURES = (
         meaning="share of the time from the brake command to `end_speed` in which the wheelset turns below"
         " the share `sliding_below` of the train's speed",
         read=sliding_share_of_wheelsets,
+        decided=Decided(how="span", plot="slide", down_to="end_speed"),
         of_wheelsets=True,
         definitions=("sliding_below", "end_speed"),
         speed_range=_down_to_end_speed,

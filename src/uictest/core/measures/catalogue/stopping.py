@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from uictest.core.measures.measure import (
+    Decided,
     Measure,
     MeasureValue,
     RecordedData,
@@ -52,6 +53,7 @@ MEASURES = (
         course="grows",
         meaning="distance from the brake command to standstill, not corrected for the initial speed",
         read=lambda stop, wheelsets, definition: braking_distance(stop),
+        decided=Decided(how="end", plot="speed", across="over-distance"),
         recorded=RecordedData(("speed", "distance"), when="ends"),
         column=StopColumn("braking_distance_m", "m", read=lambda stop, definition: stop.braking_distance),
     ),
@@ -62,6 +64,7 @@ MEASURES = (
         course="grows",
         meaning="time from the brake command to standstill",
         read=lambda stop, wheelsets, definition: braking_time(stop),
+        decided=Decided(how="end", plot="speed", across="speed"),
         recorded=RecordedData(("speed",), when="ends"),
         column=StopColumn("braking_time_s", "s", read=lambda stop, definition: stop.braking_time),
     ),
@@ -72,6 +75,7 @@ MEASURES = (
         course="falls",
         meaning="v0^2 / (2 s), s the braking distance from v0",
         read=lambda stop, wheelsets, definition: mean_deceleration(stop),
+        decided=Decided(how="span", plot="deceleration", level=True, word="mean"),
         recorded=RecordedData(("speed", "distance"), when="ends", bounded=False),
         column=StopColumn(
             "mean_deceleration_mps2",
@@ -86,6 +90,7 @@ MEASURES = (
         course="settles",
         meaning="1 where the train came to a standstill",
         read=lambda stop, wheelsets, definition: standstill(stop),
+        decided=Decided(how="end", plot="speed", word="the record ends at"),
         recorded=RecordedData(("speed",), when="end", from_command=False),
     ),
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from uictest.core.measures.measure import (
+    Decided,
     Measure,
     MeasureValue,
     RecordedData,
@@ -19,6 +20,7 @@ from uictest.core.measures.measure import (
 from uictest.core.measures.records import StopMeasures
 
 _OBSERVED_BY = ("sliding_slide", "sliding_slip", "moving_speed", "reduced_share")
+_LIMITED_BY_RAIL = Decided(how="intervals", plot="sliding", field="exploited_work")
 _CONTACTS = RecordedData(
     (
         *("speed", "wheel_speed_{n}", "adhesion_{n}", "friction_{n}", "wheel_load_{n}"),
@@ -56,6 +58,7 @@ MEASURES = (
         meaning="work of the rail on the wheelsets over that at the maximum of their creep curves, of each"
         " while it slides or, once it has slid, its WSP holds its pressure down",
         read=lambda stop, wheelsets, definition: of_train(stop),
+        decided=_LIMITED_BY_RAIL,
         observed_by=_OBSERVED_BY,
         recorded=_CONTACTS,
         column=StopColumn(
@@ -72,6 +75,7 @@ MEASURES = (
         course="settles",
         meaning="adhesion utilisation of the wheelset; 100 % if it never slid where another one did",
         read=lambda stop, wheelsets, definition: of_each_wheelset(stop, wheelsets),
+        decided=_LIMITED_BY_RAIL,
         of_wheelsets=True,
         observed_by=_OBSERVED_BY,
         recorded=_CONTACTS,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from uictest.core.units import in_unit
 from uictest.judging import evaluation
-from uictest.report.page.stop.taken import Taken, taken_at
+from uictest.report.page.stop.marks import Taken, taken_at
 from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS
 from uictest.report.traces.trace import PlotTrace
 from uictest.report.wording import limits, quantity, rig_sentence, without_rig_that_holds

@@ -2,42 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import replace
-from types import MappingProxyType
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from typing import Final
 
+from uictest.core.measures import MEASURES, Decided
+from uictest.core.units import SIZES
 from uictest.judging import evaluation
-from uictest.report.page.stop import train_marks, wheelset_marks
-from uictest.report.page.stop.mark import Mark
+from uictest.report.escaping import printable
+from uictest.report.page.stop.mark import Mark, instant, limit_marks, misses, point
+from uictest.report.traces.moments import TRAIN, Moments, duration
+from uictest.report.traces.quantities import PANELS, STRIPS
 from uictest.report.traces.trace import PlotTrace
-from uictest.report.wording import failing_first
+from uictest.report.wording import failing_first, limits, number, quantity, value_and_limits
 
-DRAWN: Final[Mapping[str, Callable[[evaluation.Verdict, PlotTrace], Iterator[Mark]]]] = MappingProxyType(
-    {
-        "braking_distance": train_marks.braking_distance,
-        "braking_time": train_marks.braking_time,
-        "mean_deceleration": train_marks.mean_deceleration,
-        "standstill": train_marks.standstill,
-        "initial_adhesion": train_marks.initial_adhesion,
-        "minimum_deceleration": train_marks.minimum_deceleration,
-        "maximum_deceleration": train_marks.maximum_deceleration,
-        "reservoir_minimum_pressure": train_marks.reservoir_minimum_pressure,
-        "air_consumed": train_marks.air_consumed,
-        "energy_residual": train_marks.energy_residual,
-        "air_residual": train_marks.air_residual,
-        "air_energy_residual": train_marks.air_energy_residual,
-        "maximum_slide_above_cutoff": wheelset_marks.maximum_slide,
-        "locked_time": wheelset_marks.locked,
-        "longest_lock": wheelset_marks.locked,
-        "sliding_duration": wheelset_marks.sliding,
-        "valve_actuations": wheelset_marks.vented,
-        "air_vented": wheelset_marks.vented,
-        "maximum_clamping_force": wheelset_marks.maximum_clamping_force,
-        "maximum_disc_temperature": wheelset_marks.maximum_disc_temperature,
-    }
-)
-"""Measure -> how a criterion that bounds it is drawn; a criterion of another measure is only listed."""
+_UNITS: Final = {panel.key: panel.unit for panel in PANELS}
+_STRIPS: Final = frozenset(strip.key for strip in STRIPS)
 
 
 def marks_of(verdicts: Iterable[evaluation.Verdict], trace: PlotTrace) -> list[Mark]:
@@ -50,11 +30,142 @@ def marks_of(verdicts: Iterable[evaluation.Verdict], trace: PlotTrace) -> list[M
             label=_with_status(mark.label, verdict.status),
         )
         for verdict in failing_first(verdicts)
-        if verdict.status != "not_applicable" and verdict.measure in DRAWN
-        for mark in DRAWN[verdict.measure](verdict, trace)
+        if verdict.status != "not_applicable" and (decided := _decided(verdict)) is not None
+        for mark in _marks(verdict, decided, trace)
     ]
 
 
 def _with_status(label: str, status: evaluation.Status) -> str:
     """Return a label that says in words, not by its colour alone, that a criterion was not decided."""
     return f"{label} (inconclusive)" if label and status == "inconclusive" else label
+
+
+def _decided(verdict: evaluation.Verdict) -> Decided | None:
+    measure = MEASURES.get(verdict.measure)
+    return None if measure is None else measure.decided
+
+
+def _marks(verdict: evaluation.Verdict, decided: Decided, trace: PlotTrace) -> Iterator[Mark]:
+    moments = trace.moments.get(verdict.id, Moments())
+    if decided.across:
+        yield from _band(verdict, decided.across)
+    elif decided.how == "end":
+        if verdict.status != "pass":
+            what = f"{decided.word} {_last_speed(trace)}" if decided.word else value_and_limits(verdict)
+            yield instant(decided.plot, trace.end, f"{verdict.id}: {what}")
+    elif decided.how == "span":
+        yield from _span(verdict, decided, moments)
+    elif decided.how == "extreme":
+        yield from _extremes(verdict, decided, moments)
+    elif verdict.status != "pass" or decided.how != "outer":
+        yield from _intervals(verdict, decided, moments)
+
+
+def _band(verdict: evaluation.Verdict, plot: str) -> Iterator[Mark]:
+    """Yield what lies within the bounds of a distance or a time and, unless it passed, what was reached."""
+    label = printable(f"{verdict.id}: {limits(verdict, word='')}")
+    yield Mark(plot, "band", label, verdict.lower, verdict.upper)
+    if verdict.value is not None and verdict.status != "pass":
+        yield instant(plot, verdict.value, quantity(verdict.value, verdict.unit))
+
+
+def _span(verdict: evaluation.Verdict, decided: Decided, moments: Moments) -> Iterator[Mark]:
+    """Yield a mean with its bounds over its span; of another value, unless it passed, the span alone."""
+    start, end = moments.span or (None, None)
+    if (decided.span or decided.down_to) and (start is None or end is None):
+        return
+    if not decided.level:
+        if verdict.status != "pass":
+            label = printable(f"{verdict.id}: {value_and_limits(verdict)}")
+            yield Mark(decided.plot, "window", label, start, end)
+        return
+    if start is not None and end is not None:
+        yield Mark("speed", "window", f"{decided.span_name}, {number(end - start)} s", start, end)
+        yield Mark(decided.plot, "window", "", start, end)
+    scale = _scale(verdict, decided)
+    yield from limit_marks(verdict, decided.plot, x0=start, x1=end, scale=scale)
+    if verdict.value is not None:
+        label = f"{decided.word} {quantity(verdict.value, verdict.unit)}"
+        yield Mark(decided.plot, "mean", label, start, end, verdict.value / scale)
+
+
+def _extremes(verdict: evaluation.Verdict, decided: Decided, moments: Moments) -> Iterator[Mark]:
+    """Yield the bounds, and the extreme of the train or, unless it passed, of each wheelset."""
+    if decided.level:
+        until = moments.span[1] if moments.span else None
+        yield from limit_marks(verdict, decided.plot, x1=until, scale=_scale(verdict, decided))
+    for n, (time, height) in moments.extremes.items():
+        if n == TRAIN and verdict.value is not None:
+            y = verdict.value / _scale(verdict, decided) if decided.level else height
+            label = f"{decided.word} {quantity(verdict.value, verdict.unit)}".lstrip()
+            yield point(decided.plot, time, y, label)
+        elif n != TRAIN and verdict.status != "pass":
+            label = f"{n}: {quantity(height, verdict.unit)}" if misses(verdict, height) else ""
+            yield point(decided.plot, time, height, label, n)
+
+
+def _intervals(verdict: evaluation.Verdict, decided: Decided, moments: Moments) -> Iterator[Mark]:
+    """Yield intervals in a strip; the longest carries the value, where the criterion did not pass.
+
+    A panel has no room for more than the longest.
+    """
+    rows = [(last - first, first, last, n) for n, own in moments.intervals.items() for first, last in own]
+    longest = max(rows, default=None)
+    label = "" if verdict.status == "pass" else printable(f"{verdict.id}: {value_and_limits(verdict)}")
+    for row in rows:
+        _, first, last, n = row
+        if decided.plot in _STRIPS:
+            yield Mark(decided.plot, "interval", label if row == longest else "", first, last, float(n), n)
+        elif label and row == longest:
+            yield Mark(decided.plot, "window", label, first, last)
+
+
+def _scale(verdict: evaluation.Verdict, decided: Decided) -> float:
+    """Return how many units of the criterion one unit of the plot is."""
+    return SIZES.get(_UNITS[decided.plot], 1.0) / SIZES.get(verdict.unit, 1.0)
+
+
+def _last_speed(trace: PlotTrace) -> str:
+    curve = trace.curves.get("speed")
+    return "an unknown speed" if curve is None else f"{curve.y[-1]:.3g} km/h"
+
+
+@dataclass(frozen=True, slots=True)
+class Taken:
+    """From `start` to `end`, s since the brake command, in the plot `plot`; one instant where both are equal.
+
+    `wheelset` is the one that decides; None for a measure of the train. `value` is the height of the instant
+    in the unit of the plot, None where there is none.
+    """
+
+    plot: str
+    start: float
+    end: float
+    wheelset: int | None = None
+    value: float | None = None
+
+
+def taken_at(verdict: evaluation.Verdict, trace: PlotTrace) -> Taken | None:
+    """Return where the value of a criterion was taken; None where the plots show no such place."""
+    decided, moments = _decided(verdict), trace.moments.get(verdict.id, Moments())
+    if decided is None or verdict.value is None:
+        return None
+    if decided.how == "end":
+        return Taken(decided.plot, trace.end, trace.end)
+    if decided.how == "span":
+        of_part = decided.span is not None or decided.down_to
+        span = moments.span if of_part else (trace.start, trace.end)
+        return None if span is None else Taken(decided.plot, *span)
+    n = moments.wheelset
+    if decided.how == "extreme":
+        number_of_extreme = TRAIN if n is None else n
+        if number_of_extreme not in moments.extremes:
+            return None
+        time, height = moments.extremes[number_of_extreme]
+        return Taken(decided.plot, time, time, n, height)
+    intervals = [each for k, own in moments.intervals.items() if n in (None, k) for each in own]
+    if not intervals:
+        return None
+    if decided.how == "longest":
+        return Taken(decided.plot, *max(intervals, key=duration), n)
+    return Taken(decided.plot, min(intervals)[0], max(last for _, last in intervals), n)

@@ -1,0 +1,236 @@
+"""A recording fed to the accumulators sample by sample, and where their fields change meanwhile."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, field
+from math import inf, isnan
+from types import SimpleNamespace
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.core.measures.build_up import begin_build_up, observe_build_up
+from uictest.core.measures.contact import begin_contact, begin_utilisation, observe_contact
+from uictest.core.measures.reaction import observe_reaction, observe_reference
+from uictest.core.measures.records import END_SPEEDS, SLOW_TIMES, SPEED_CLASSES, WINDOW_SECONDS
+from uictest.core.measures.sliding_share import begin_slow_times, keep_slow_times
+from uictest.core.measures.train import (
+    begin_train,
+    begin_window,
+    keep_window,
+    note_standstill,
+    observe_reservoir_margin,
+    observe_train,
+)
+from uictest.core.measures.wheelset import begin_slides, begin_wheelset, keep_slide, observe_wheelset
+from uictest.core.physics import VENT
+
+Array = NDArray[np.float64]
+Channels = Mapping[str, Array]
+_WHEELSETS: Final = (1, 2, 3, 4)
+_WHEELS: Final = 2.0
+"""Of a wheelset: adhesion and wheel load are those of one."""
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedFaults:
+    """Faults of a recorded stop at every sample.
+
+    Args:
+        begun: whether any has begun, shape (n,).
+        faulty: whether a part of each wheelset has had one, shape (n, 4).
+        speed_sensor_faulty: whether its speed sensor has one, shape (n, 4).
+
+    """
+
+    begun: Array
+    faulty: Array
+    speed_sensor_faulty: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Samples:
+    """Samples of a recording as lists, which plain Python reads fastest; NaN where nothing was recorded.
+
+    Args:
+        train: time, distance, speed, pressures of reservoir and brake line, highest of the cylinder pressures
+            and the reference speed.
+        wheelsets: of each one the speed, whether its valve is commanded to vent, clamping force, temperature
+            of the disc surface, pressure of the tank, work of the rail, energy that the contacts turned into
+            heat, and the highest force that they could transmit.
+        faults: for each sample whether any has begun, and the two rows of the wheelsets; empty where no
+            faults were recorded.
+
+    """
+
+    train: list[list[float]]
+    wheelsets: list[list[list[float]]]
+    faults: list[tuple[bool, list[float], list[float]]]
+
+
+def samples_of(
+    channels: Channels, highest_force: Array | None = None, faults: RecordedFaults | None = None
+) -> Samples:
+    """Return the samples of a recording, SI; what is not among its channels is unknown.
+
+    The work of the rail and the heat of the contacts are integrated by trapezoids; a gap adds none.
+    `highest_force` is what both contacts of each wheelset could transmit, N, shape (n, 4).
+    """
+    time, speed = channels["time"], channels["speed"]
+    unknown = np.full(len(time), np.nan)
+
+    def of_train(name: str) -> Array:
+        return np.asarray(channels.get(name, unknown), dtype=np.float64)
+
+    def of_wheelsets(name: str) -> Array:
+        return np.stack([of_train(f"{name}_{n}") for n in _WHEELSETS], axis=1)
+
+    wheel_speed = of_wheelsets("wheel_speed")
+    force = _WHEELS * of_wheelsets("adhesion") * of_wheelsets("wheel_load")
+    train = [
+        *map(of_train, ("time", "distance", "speed", "reservoir_pressure", "brake_line_pressure")),
+        np.fmax.reduce(of_wheelsets("cylinder_pressure"), axis=1),
+        of_train("reference_speed"),
+    ]
+    wheelsets = [
+        wheel_speed,
+        _venting(of_wheelsets("valve_command")),
+        *map(of_wheelsets, ("clamping_force", "disc_surface_temperature", "tank_pressure")),
+        _integrated(force * speed[:, None], time),
+        _integrated(force * (speed[:, None] - wheel_speed), time),
+        np.full_like(force, np.nan) if highest_force is None else highest_force,
+    ]
+    recorded = [] if faults is None else [faults.begun, faults.faulty, faults.speed_sensor_faulty]
+    return Samples(
+        [channel.tolist() for channel in train],
+        [[channel[:, i].tolist() for channel in wheelsets] for i in range(len(_WHEELSETS))],
+        list(zip(*(each.tolist() for each in recorded), strict=True)),
+    )
+
+
+def _integrated(power: Array, time: Array) -> Array:
+    steps = 0.5 * (power[1:] + power[:-1]) * np.diff(time)[:, None]
+    return np.concatenate((np.zeros((1, power.shape[1])), np.cumsum(np.nan_to_num(steps), axis=0)))
+
+
+def _venting(command: Array) -> Array:
+    """Return 1 while the valve is commanded to vent. A gap keeps the state before it: one vent is not two."""
+    known = np.where(np.isnan(command), 0, np.arange(len(command))[:, None])
+    last_known = np.take_along_axis(command, np.maximum.accumulate(known, axis=0), axis=0)
+    return np.where(last_known == VENT, 1.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Replay:
+    """The records of a stop while the samples of its recording pass, SI.
+
+    They are plain objects: attributes of numpy records take ten times as long outside compiled code.
+
+    Args:
+        samples: of the recording.
+        definition: how samples become measures.
+        commanded_pressure: of the brake line, gauge, Pa.
+
+    """
+
+    samples: Samples
+    definition: Any
+    commanded_pressure: float
+    train: Any = field(
+        default_factory=lambda: SimpleNamespace(
+            speed_after_sliding=[0.0] * (WINDOW_SECONDS + 1),
+            reached_time=[0.0] * len(END_SPEEDS),
+            half_slow_time=[0.0] * SLOW_TIMES,
+        )
+    )
+    wheelsets: list[Any] = field(
+        default_factory=lambda: [
+            SimpleNamespace(maximum_slide_above=[0.0] * SPEED_CLASSES, slow_time=[0.0] * SLOW_TIMES)
+            for _ in _WHEELSETS
+        ]
+    )
+
+    def __post_init__(self) -> None:
+        time, distance, speed, reservoir, line, *_ = (channel[0] for channel in self.samples.train)
+        begin_train(self.train, time, distance, speed, reservoir)
+        begin_build_up(self.train, self.commanded_pressure, line)
+        begin_utilisation(self.train)
+        begin_window(self.train)
+        begin_slow_times(self.train, self.wheelsets)
+        for wheelset in self.wheelsets:
+            begin_wheelset(wheelset)
+            begin_contact(wheelset)
+            begin_slides(wheelset)
+
+    def pass_samples(self, end: float = inf, fields: Collection[str] | None = None) -> Iterator[float]:
+        """Feed the samples before `end` (s), and yield the time of each; the first one has begun the records.
+
+        Only `fields` need to hold their numbers afterwards; None: all of them.
+        """
+        train, definition = self.train, self.definition
+        contacts, slides, pressures, tables = (
+            fields is None or not own.isdisjoint(fields)
+            for own in (_OF_CONTACTS, _OF_SLIDES, _OF_PRESSURES, _TABLES)
+        )
+        of_wheelsets = zip(*(zip(*channels, strict=True) for channels in self.samples.wheelsets), strict=True)
+        samples = enumerate(zip(zip(*self.samples.train, strict=True), of_wheelsets, strict=True))
+        next(samples)
+        for k, (sample, own_samples) in samples:
+            time, distance, speed, reservoir, line, cylinder, reference_speed = sample
+            if time >= end:
+                break
+            for n, wheelset, own in zip(_WHEELSETS, self.wheelsets, own_samples, strict=True):
+                wheel_speed, venting, force, temperature, tank, rail_work, loss, highest = own
+                observe_wheelset(
+                    wheelset, train, definition, n, time, speed, wheel_speed, venting, force, temperature
+                )
+                if contacts:
+                    observe_contact(
+                        wheelset, train, definition, time, speed, tank, line, rail_work, loss, highest
+                    )
+                if isnan(speed - wheel_speed):
+                    # A lock before a gap and one after it need not be the same lock.
+                    wheelset.lock = 0.0
+                elif slides:
+                    keep_slide(wheelset, wheelset, definition, speed)
+            if pressures:
+                observe_reservoir_margin(train, reservoir, cylinder)
+                observe_build_up(train, definition, time, distance, speed, line)
+            observe_train(train, definition, time, distance, speed, reservoir)
+            if tables:
+                self._keep_tables()
+            if self.samples.faults:
+                self._observe_faults(k, reference_speed)
+            yield time
+
+    def stop_at(self, time: float, distance: float) -> None:
+        """Feed the standstill of the train (s, m), the last of all samples."""
+        reservoir = self.train.reservoir_minimum_pressure
+        observe_train(self.train, self.definition, time, distance, 0.0, reservoir)
+        self._keep_tables()
+        note_standstill(self.train, True, time, distance)
+
+    def _keep_tables(self) -> None:
+        keep_window(self.train, self.train)
+        keep_slow_times(self.train, self.wheelsets, self.train, self.wheelsets)
+
+    def _observe_faults(self, k: int, reference_speed: float) -> None:
+        begun, faulty, speed_sensor_faulty = self.samples.faults[k]
+        if not begun:
+            return
+        train, definition = self.train, self.definition
+        observe_reference(train, definition, reference_speed)
+        forces = [channels[2][k] for channels in self.samples.wheelsets]
+        largest = max(forces)
+        for i, wheelset in enumerate(self.wheelsets):
+            own = faulty[i], speed_sensor_faulty[i], forces[i]
+            observe_reaction(wheelset, train, definition, *own, largest)
+
+
+_OF_CONTACTS: Final = frozenset({"slid_distance", "contact_energy", "exploited_work", "available_work"})
+_OF_SLIDES: Final = frozenset({"maximum_slide_above"})
+_OF_PRESSURES: Final = frozenset({"reservoir_margin", "rise_time", "build_up_time"})
+_TABLES: Final = frozenset({"speed_after_sliding", "reached_time", "half_slow_time", "slow_time"})
+"""Fields whose accumulators are left out where nobody asks for them: they take half of the time."""
