@@ -8,11 +8,13 @@ from .contact import (
 )
 from .layouts import STOP_MEASURES as STOP_MEASURES, WHEELSET_MEASURES as WHEELSET_MEASURES
 from .measure import (
+    Column as Column,
     Course as Course,
     Decided as Decided,
     DefinitionValues as DefinitionValues,
     Measure as Measure,
     MeasureValue as MeasureValue,
+    Overview as Overview,
     RecordedData as RecordedData,
     StopColumn as StopColumn,
     WheelsetColumn as WheelsetColumn,

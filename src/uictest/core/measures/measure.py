@@ -77,6 +77,24 @@ def unavailable(reason: str) -> MeasureValue:
 
 
 @dataclass(frozen=True, slots=True)
+class Overview:
+    """How tables of cases show a column, shares in per cent, of wheelsets the largest value.
+
+    Args:
+        heading: lines over it; `{}` stands for the train speed above which slides count.
+        digits: behind the decimal point.
+        few_digits: where a terminal shows it.
+        rank: in which a narrow terminal leaves it out.
+
+    """
+
+    heading: str
+    digits: int
+    few_digits: int
+    rank: int
+
+
+@dataclass(frozen=True, slots=True)
 class Column:
     """A number that results report of every stop, whatever its criteria.
 
@@ -85,6 +103,7 @@ class Column:
         unit: that it is reported in.
         meaning: what it is where it is not the value that a criterion bounds.
         whole: whether it is a count.
+        overview: how tables of cases show it; None where they do not.
 
     """
 
@@ -92,6 +111,13 @@ class Column:
     unit: str
     meaning: str = ""
     whole: bool = False
+    overview: Overview | None = None
+
+    def text(self, value: float, digits: int) -> str:
+        """Return a number in the unit of the column as tables of cases show it."""
+        if self.whole:
+            return f"{value:g}"
+        return f"{100.0 * value if self.unit == '1' else value:.{digits}f}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS, Column
 from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.content import RunContent
@@ -23,12 +25,6 @@ from uictest.report.requirements import VerifiedRequirement, verified_requiremen
 from uictest.report.text_tables import MarkdownTable, code, number_cell, prose, row
 from uictest.report.wording import listed, reading_sentences
 
-_MEASURES = {
-    "braking_distance_m": ".1f",
-    "braking_time_s": ".1f",
-    "mean_deceleration_mps2": ".3f",
-    "initial_adhesion_g": ".4f",
-}
 _DIFFERENCE_COLUMNS = ("case", "quantity", "baseline", "this run", "deviation", "tolerance", "unit", "remark")
 _DIFFERENCES_SHOWN = 100
 """Quantities out of the tolerance of the baseline that a reader is shown here."""
@@ -131,14 +127,11 @@ def _difference_row(difference: Difference) -> str:
 
 def _row(content: RunContent, result: evaluation.CaseResult, *, repeated: bool) -> str:
     word, passes = content.word(result), content.passes(result)
-    slide, sliding, locked = (
-        max((wheelset[name] for wheelset in result.wheelsets), default=None)
-        for name in ("maximum_slide", "sliding_time_s", "locked_time_s")
-    )
     measures = result.measures or {}
-    cells = [number_cell(measures.get(name), form) for name, form in _MEASURES.items()]
-    cells.append(number_cell(None if slide is None else 100 * slide, ".1f"))
-    cells += [number_cell(sliding, ".1f"), number_cell(locked, ".1f")]
+    cells = [_cell(column, measures.get(name)) for name, column in STOP_COLUMNS.items() if column.overview]
+    for name in ("maximum_slide", "sliding_time_s", "locked_time_s"):
+        largest = max((wheelset[name] for wheelset in result.wheelsets), default=None)
+        cells.append(_cell(WHEELSET_COLUMNS[name], largest))
     why = "" if passes else prose("; ".join(content.explanation(result)))
     recorded = " (recorded stop)" if content.subject(result.id).recorded else ""
     outcome = f"{result.outcome}{recorded}"
@@ -147,6 +140,11 @@ def _row(content: RunContent, result: evaluation.CaseResult, *, repeated: bool) 
     if repeated:
         row_cells.insert(_PLACE_OF_STOPS, prose(stops_text(result)))
     return row(row_cells)
+
+
+def _cell(column: Column, value: float | None) -> str:
+    digits = 0 if column.overview is None else column.overview.digits
+    return number_cell(None, "") if value is None or math.isnan(value) else column.text(value, digits)
 
 
 def _files(content: RunContent) -> dict[str, bytes]:

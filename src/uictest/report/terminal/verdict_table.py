@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final
 
-from uictest.core.measures import MEASURES, STOP_COLUMNS
+from uictest.core.measures import MEASURES, STOP_COLUMNS, WHEELSET_COLUMNS, Column, Overview
 from uictest.judging import evaluation
 from uictest.report.difference import (
     BaselineComparison,
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from uictest.report.content import RunContent
 
 
-SHOWN_MEASURES = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "initial_adhesion_g")
+SHOWN_MEASURES = tuple(name for name, column in STOP_COLUMNS.items() if column.overview)
 
 MOST_DIFFERENCES: Final = 3
 """Quantities out of the tolerance of a baseline that a case shows on a terminal; results.json has all."""
@@ -120,21 +120,6 @@ def _measures(result: evaluation.CaseResult) -> Iterator[str]:
 
 
 _STYLES: Final[dict[Tone, str]] = {"good": "green", "bad": "bold red", "odd": "bold magenta"}
-_Column = tuple[str, str, str, int, float]
-_STOP_MEASURES: Final[tuple[_Column, ...]] = (
-    ("distance\nm", "braking_distance_m", ".1f", 3, 1.0),
-    ("time\ns", "braking_time_s", ".1f", 6, 1.0),
-    ("mean\nm/s2", "mean_deceleration_mps2", ".2f", 5, 1.0),
-    ("adhesion\ng", "initial_adhesion_g", ".3f", 7, 1.0),
-)
-_WHEELSET_MEASURES: Final[tuple[_Column, ...]] = (
-    ("max slide %\n> {}", "maximum_slide", ".0f", 4, 100.0),
-    ("sliding\nmax s", "sliding_time_s", ".1f", 10, 1.0),
-    ("locked\nmax s", "locked_time_s", ".1f", 9, 1.0),
-    ("vents\nmax", "valve_actuations", "g", 8, 1.0),
-)
-"""Heading, measure, its format, the rank in which it is left out on a narrow terminal, and its scale."""
-
 _FAILING: Final = 1
 """Rank of a column that a missed criterion rests on: it is left out last."""
 
@@ -176,14 +161,25 @@ def _columns(
     if any_repeated(results):
         columns.insert(2, TableColumn("stops", [stops_text(result) or "-" for result in results]))
     missed, speed = _missed_criteria(results), slide_speed(results)
-    for title, name, form, rank, scale in (*_STOP_MEASURES, *_WHEELSET_MEASURES):
-        cells = [_cell(_value(result, name), form, scale) for result in results]
-        own_rank = _FAILING if name in missed.values() else rank
-        columns.append(TableColumn(title.format(speed), cells, own_rank, right=True))
-    shown = {name for _, name, *_ in (*_STOP_MEASURES, *_WHEELSET_MEASURES)}
-    others = [criterion for criterion, column in missed.items() if column not in shown]
+    for column in (*STOP_COLUMNS.values(), *WHEELSET_COLUMNS.values()):
+        if column.overview is not None:
+            rank = _FAILING if column.name in missed.values() else column.overview.rank
+            columns.append(_measure_column(results, column, column.overview, speed, rank))
+    names = {name for name, column in (STOP_COLUMNS | WHEELSET_COLUMNS).items() if column.overview}
+    others = [criterion for criterion, column in missed.items() if column not in names]
     columns.extend(_criterion_column(results, criterion) for criterion in others)
     return columns
+
+
+def _measure_column(
+    results: Iterable[evaluation.CaseResult], column: Column, overview: Overview, speed: str, rank: int
+) -> TableColumn:
+    values = [_value(result, column.name) for result in results]
+    cells = [
+        "-" if value is None or math.isnan(value) else column.text(value, overview.few_digits)
+        for value in values
+    ]
+    return TableColumn(overview.heading.format(speed), cells, rank, right=True)
 
 
 def _missed_criteria(results: Iterable[evaluation.CaseResult]) -> dict[str, str]:
@@ -206,7 +202,8 @@ def _criterion_column(results: Iterable[evaluation.CaseResult], criterion: str) 
     """Return the values of a criterion whose measure the table does not have."""
     verdicts = [next((v for v in result.criteria if v.id == criterion), None) for result in results]
     unit = next((verdict.unit for verdict in verdicts if verdict is not None), "").removeprefix("1")
-    cells = [_cell(None if verdict is None else verdict.value, ".4g", 1.0) for verdict in verdicts]
+    values = [None if verdict is None else verdict.value for verdict in verdicts]
+    cells = ["-" if value is None or math.isnan(value) else f"{value:.4g}" for value in values]
     return TableColumn(f"{printable(criterion)}\n{unit}", cells, _FAILING, right=True)
 
 
@@ -238,7 +235,3 @@ def explanation_text(
     for line in lines:
         text.append(f"\n  {line}", style="not bold default")
     return text
-
-
-def _cell(value: float | None, form: str, scale: float) -> str:
-    return "-" if value is None or math.isnan(value) else format(scale * value, form)

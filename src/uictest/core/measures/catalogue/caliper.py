@@ -6,6 +6,7 @@ from uictest.core.measures.measure import (
     Decided,
     Measure,
     MeasureValue,
+    Overview,
     RecordedData,
     WheelsetColumn,
     Wheelsets,
@@ -35,7 +36,11 @@ MEASURES = (
         of_wheelsets=True,
         recorded=RecordedData(("valve_command_{n}",)),
         column=WheelsetColumn(
-            "valve_actuations", "1", whole=True, read=lambda wheelset: wheelset.valve_actuations
+            "valve_actuations",
+            "1",
+            whole=True,
+            overview=Overview("vents\nmax", digits=0, few_digits=0, rank=8),
+            read=lambda wheelset: wheelset.valve_actuations,
         ),
         finite_field="valve_actuations",
     ),

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from uictest.core.measures.measure import Decided, Measure, RecordedData, WheelsetColumn, value_per_wheelset
+from uictest.core.measures.measure import (
+    Decided,
+    Measure,
+    Overview,
+    RecordedData,
+    WheelsetColumn,
+    value_per_wheelset,
+)
 
 _OBSERVED_BY = ("locked_speed", "moving_speed")
 _WHEEL_SPEEDS = RecordedData(("speed", "wheel_speed_{n}"))
@@ -19,7 +26,12 @@ MEASURES = (
         of_wheelsets=True,
         observed_by=_OBSERVED_BY,
         recorded=_WHEEL_SPEEDS,
-        column=WheelsetColumn("locked_time_s", "s", read=lambda wheelset: wheelset.locked_time),
+        column=WheelsetColumn(
+            "locked_time_s",
+            "s",
+            overview=Overview("locked\nmax s", digits=1, few_digits=1, rank=9),
+            read=lambda wheelset: wheelset.locked_time,
+        ),
         finite_field="locked_time",
     ),
     Measure(

@@ -10,6 +10,7 @@ from uictest.core.measures.measure import (
     DefinitionValues,
     Measure,
     MeasureValue,
+    Overview,
     RecordedData,
     StopColumn,
     WheelsetColumn,
@@ -121,6 +122,7 @@ MEASURES = (
             meaning="largest slide (v - r omega)/v as a share, 1 where locked, at all speeds above"
             " `moving_speed`: criteria bound the largest above their own cut-off,"
             " `maximum_slide_above_cutoff`",
+            overview=Overview("max slide %\n> {}", digits=1, few_digits=0, rank=4),
             read=lambda wheelset: wheelset.maximum_slide,
         ),
         finite_field="maximum_slide",
@@ -136,7 +138,12 @@ MEASURES = (
         of_wheelsets=True,
         observed_by=("sliding_slide", "sliding_slip", "moving_speed"),
         recorded=_WHEEL_SPEEDS,
-        column=WheelsetColumn("sliding_time_s", "s", read=lambda wheelset: wheelset.sliding_duration),
+        column=WheelsetColumn(
+            "sliding_time_s",
+            "s",
+            overview=Overview("sliding\nmax s", digits=1, few_digits=1, rank=10),
+            read=lambda wheelset: wheelset.sliding_duration,
+        ),
         finite_field="sliding_duration",
     ),
     Measure(

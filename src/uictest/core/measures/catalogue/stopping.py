@@ -8,6 +8,7 @@ from uictest.core.measures.measure import (
     Decided,
     Measure,
     MeasureValue,
+    Overview,
     RecordedData,
     StopColumn,
     one_value,
@@ -55,7 +56,12 @@ MEASURES = (
         read=lambda stop, wheelsets, definition: braking_distance(stop),
         decided=Decided(how="end", plot="speed", across="over-distance"),
         recorded=RecordedData(("speed", "distance"), when="ends"),
-        column=StopColumn("braking_distance_m", "m", read=lambda stop, definition: stop.braking_distance),
+        column=StopColumn(
+            "braking_distance_m",
+            "m",
+            overview=Overview("distance\nm", digits=1, few_digits=1, rank=3),
+            read=lambda stop, definition: stop.braking_distance,
+        ),
     ),
     Measure(
         name="braking_time",
@@ -66,7 +72,12 @@ MEASURES = (
         read=lambda stop, wheelsets, definition: braking_time(stop),
         decided=Decided(how="end", plot="speed", across="speed"),
         recorded=RecordedData(("speed",), when="ends"),
-        column=StopColumn("braking_time_s", "s", read=lambda stop, definition: stop.braking_time),
+        column=StopColumn(
+            "braking_time_s",
+            "s",
+            overview=Overview("time\ns", digits=1, few_digits=1, rank=6),
+            read=lambda stop, definition: stop.braking_time,
+        ),
     ),
     Measure(
         name="mean_deceleration",
@@ -80,6 +91,7 @@ MEASURES = (
         column=StopColumn(
             "mean_deceleration_mps2",
             "m/s2",
+            overview=Overview("mean\nm/s2", digits=3, few_digits=2, rank=5),
             read=lambda stop, definition: mean_deceleration(stop).values[0] if stop.stopped else math.nan,
         ),
     ),
