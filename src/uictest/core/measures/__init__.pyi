@@ -41,7 +41,7 @@ from .registry import (
     stop_column_values as stop_column_values,
     wheelset_column_values as wheelset_column_values,
 )
-from .replay import RecordedFaults as RecordedFaults, Replay as Replay, samples_of as samples_of
+from .replay import Faults as Faults, Replay as Replay, samples_of as samples_of
 from .sliding_share import begin_slow_times as begin_slow_times, keep_slow_times as keep_slow_times
 from .train import (
     begin_train as begin_train,

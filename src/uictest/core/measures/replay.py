@@ -29,25 +29,12 @@ from uictest.core.physics import VENT
 
 Array = NDArray[np.float64]
 Channels = Mapping[str, Array]
+Faults = tuple[Array, Array, Array]
+"""At every sample whether any has begun, shape (n,); whether a part of each wheelset has had one, and whether
+its speed sensor has one, shape (n, 4)."""
 _WHEELSETS: Final = (1, 2, 3, 4)
 _WHEELS: Final = 2.0
 """Of a wheelset: adhesion and wheel load are those of one."""
-
-
-@dataclass(frozen=True, slots=True)
-class RecordedFaults:
-    """Faults of a recorded stop at every sample.
-
-    Args:
-        begun: whether any has begun, shape (n,).
-        faulty: whether a part of each wheelset has had one, shape (n, 4).
-        speed_sensor_faulty: whether its speed sensor has one, shape (n, 4).
-
-    """
-
-    begun: Array
-    faulty: Array
-    speed_sensor_faulty: Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +47,7 @@ class Samples:
         wheelsets: of each one the speed, whether its valve is commanded to vent, clamping force, temperature
             of the disc surface, pressure of the tank, work of the rail, energy that the contacts turned into
             heat, and the highest force that they could transmit.
-        faults: for each sample whether any has begun, and the two rows of the wheelsets; empty where no
-            faults were recorded.
+        faults: for each sample what :data:`Faults` hold; empty where none were recorded.
 
     """
 
@@ -71,7 +57,7 @@ class Samples:
 
 
 def samples_of(
-    channels: Channels, highest_force: Array | None = None, faults: RecordedFaults | None = None
+    channels: Channels, highest_force: Array | None = None, faults: Faults | None = None
 ) -> Samples:
     """Return the samples of a recording, SI; what is not among its channels is unknown.
 
@@ -102,11 +88,10 @@ def samples_of(
         _integrated(force * (speed[:, None] - wheel_speed), time),
         np.full_like(force, np.nan) if highest_force is None else highest_force,
     ]
-    recorded = [] if faults is None else [faults.begun, faults.faulty, faults.speed_sensor_faulty]
     return Samples(
         [channel.tolist() for channel in train],
         [[channel[:, i].tolist() for channel in wheelsets] for i in range(len(_WHEELSETS))],
-        list(zip(*(each.tolist() for each in recorded), strict=True)),
+        list(zip(*(each.tolist() for each in faults or ()), strict=True)),
     )
 
 

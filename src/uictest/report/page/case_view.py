@@ -15,10 +15,9 @@ from uictest.report.difference import Difference, case_explanation, case_word
 from uictest.report.escaping import printable
 from uictest.report.page.links import case_anchor, fragment
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
-from uictest.report.page.stop.fault_marks import fault_marks, fault_sentence
 from uictest.report.page.stop.margins import Margins, margins_of
 from uictest.report.page.stop.mark import Mark, vents
-from uictest.report.page.stop.marks import marks_of
+from uictest.report.page.stop.marks import fault_marks, marks_of
 from uictest.report.page.stop.overlay_view import STEPS, packed, panel_form, script_json
 from uictest.report.page.stop.sketch import Sketch, sketch_of
 from uictest.report.part_wording import slide_speed
@@ -113,7 +112,8 @@ def case_view(
 
 def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotTrace) -> Iterator[str]:
     yield from (f"{sentence[:1].upper()}{sentence[1:]}." for sentence in real_time_sentences(result))
-    yield from map(fault_sentence, trace.faults)
+    for span in trace.faults:
+        yield f"Fault {span.label} from {span.start:.4g} s to {span.end:.4g} s."
     yield from _sampling(trace)
     labels = dict.fromkeys(PLOT_QUANTITIES[key_of(name)].label for name in trace.derived)
     if labels:

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from uictest.core.measures import (
     MEASURES,
+    Faults,
     Measure,
     MeasureDefinition,
-    RecordedFaults,
     Replay,
     WheelsetMeasures,
     samples_of,
@@ -72,15 +72,12 @@ Cell = tuple[str, int, int | None]
 """A number in the records: field, number of the wheelset or `TRAIN`, place where the field is a table."""
 
 
-def moments_of(
-    verdicts: Iterable[evaluation.Verdict], record: Recording, sliding_time: float | None = None
-) -> dict[str, Moments]:
+def moments_of(verdicts: Iterable[evaluation.Verdict], record: Recording) -> dict[str, Moments]:
     """Return the moments of each criterion whose measure has any, by the id of the criterion.
 
     Args:
         verdicts: of the stop; their definitions say what counts.
         record: every sample of the stop, SI.
-        sliding_time: of the first sliding, s, where it is known better than by the samples.
 
     """
     judged = [
@@ -95,8 +92,8 @@ def moments_of(
     replay = _replay([verdict for verdict, _ in judged], record)
     cells = {cell for verdict, measure in judged for cell in _cells(verdict, measure)}
     changes = _changes(replay, cells)
-    if sliding_time is not None:
-        replay.train.sliding_time = sliding_time
+    if "sliding_time" in record.metadata:  # more exact than the samples
+        replay.train.sliding_time = float(record.metadata["sliding_time"])
     return {verdict.id: _moments(verdict, measure, replay, changes, record) for verdict, measure in judged}
 
 
@@ -112,7 +109,7 @@ def _replay(verdicts: Iterable[evaluation.Verdict], record: Recording) -> Replay
     )
 
 
-def _faults(record: Recording) -> RecordedFaults | None:
+def _faults(record: Recording) -> Faults | None:
     """Return the faults of the stop; each label ends with the number of its wheelset, if it has one."""
     labels = record.metadata.get("faults", "")
     if not labels or "active_faults" not in record.channels:
@@ -127,7 +124,7 @@ def _faults(record: Recording) -> RecordedFaults | None:
         ]
         return np.stack([(bits & sum(each)) != 0 for each in own], axis=1).astype(np.float64)
 
-    return RecordedFaults(begun != 0, of_wheelsets(begun), of_wheelsets(active, SPEED_SENSOR))
+    return np.asarray(begun != 0, float), of_wheelsets(begun), of_wheelsets(active, SPEED_SENSOR)
 
 
 def _cells(verdict: evaluation.Verdict, measure: Measure) -> list[Cell]:

@@ -163,7 +163,7 @@ def trace_of(record: recording.Recording, verdicts: Iterable[evaluation.Verdict]
         {name: _states(time, samples) for name, samples in series.items() if name in states},
         dict(_loops(series)),
         tuple(name for name in series if name not in record.channels),
-        moments_of(verdicts, record, _sliding_time(record.metadata)),
+        moments_of(verdicts, record),
         fault_spans(record),
     )
 
@@ -248,8 +248,3 @@ def _loops(series: Mapping[str, Series]) -> Iterator[tuple[str, Curve]]:
 def interval_of(time: Series) -> float:
     """Return the mean time between two samples, s (0 for a single sample)."""
     return float(time[-1] - time[0]) / (len(time) - 1) if len(time) > 1 else 0.0
-
-
-def _sliding_time(metadata: Mapping[str, str]) -> float | None:
-    time = metadata.get("sliding_time")
-    return None if time is None else float(time)

@@ -78,11 +78,7 @@ MEASURES = (
         meaning="largest excess of the controller's reference speed over the train's since the first fault",
         read=lambda stop, wheelsets, definition: reference_excess(stop),
         decided=Decided(
-            how="extreme",
-            plot="speed",
-            field="reference_excess",
-            channel="reference_speed",
-            word="excess",
+            how="extreme", plot="speed", field="reference_excess", channel="reference_speed", word="excess"
         ),
         observed_by=("moving_speed",),
         of_faults=True,

@@ -40,6 +40,13 @@ def _with_status(label: str, status: evaluation.Status) -> str:
     return f"{label} (inconclusive)" if label and status == "inconclusive" else label
 
 
+def fault_marks(trace: PlotTrace) -> Iterator[Mark]:
+    """Yield the stretches in which faults were active."""
+    for span in trace.faults:
+        yield Mark("speed", "window", span.label, span.start, span.end)
+        yield Mark("force", "window", "", span.start, span.end)
+
+
 def _decided(verdict: evaluation.Verdict) -> Decided | None:
     measure = MEASURES.get(verdict.measure)
     return None if measure is None else measure.decided
