@@ -88,7 +88,7 @@ def _testcase(
         controllers = controllers_text([result], uictest_version)
         tested = [f"controller: {controllers}"] if controllers else []
         remarks = [*case_explanation(result, differences), *tested, *remarks]
-    elif remarks:
+    else:
         remarks = [*repeat_sentences(result), *remarks]
     return Testcase(
         class_name(result.scenario),
