@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.ensemble import EnsembleOfRecords, Places, alike, by_way, ensemble, ensembles_of
+from uictest.core.ensemble import Places, alike, by_way, ensemble
 
 finite = st.floats(-1e9, 1e9)
 
@@ -96,17 +96,6 @@ def test_nan_is_neither_greater_nor_less_and_no_reason_to_go_alone() -> None:
     assert [(places.tolist(), greater) for places, greater in found] == [([1, 3], True), ([0, 2], False)]
 
 
-def test_a_table_has_its_entries_first() -> None:
-    records = np.zeros(3, [("speed", "f8"), ("table", "f8", (2,))])
-    records["table"] = [[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]
-    together = EnsembleOfRecords(records, np.array([2, 0]))
-    assert together.table[1].tolist() == [6.0, 2.0]
-    assert len(together.table) == 2
-    assert together.speed.tolist() == [0.0, 0.0]
-    with pytest.raises(AttributeError):
-        _ = together.distance
-
-
 @pytest.mark.parametrize("exponent", [2, 0.5, 3, -1, 1.5])
 def test_powers_have_the_bits_of_python(exponent: float) -> None:
     numbers = np.exp(np.random.default_rng(3).uniform(-60.0, 60.0, 20_000))
@@ -121,18 +110,3 @@ def test_cases_are_alike_where_all_their_numbers_are(rows: list[tuple[int, int, 
     assert all(
         group == [k for k, row in enumerate(rows) if row == rows[group[0]]] for group in groups if group
     )
-
-
-def test_code_that_reads_a_field_cannot_change_it_for_the_next() -> None:
-    records = np.array([(1.0,), (2.0,)], [("speed", "f8")])
-    at = ensembles_of(records)
-
-    def increased(places: Places) -> float:
-        speed: float = at(places).speed
-        speed += 1.0
-        return speed
-
-    for _ in range(2):
-        results = by_way(increased, lambda place: float(records["speed"][place]) + 1.0, np.arange(2))
-        assert [np.asarray(speed).item() for _, speed in results] == [2.0, 3.0]
-    assert records["speed"].tolist() == [1.0, 2.0]

@@ -76,29 +76,6 @@ def ensemble(numbers: NDArray[Any]) -> Ensemble:
     return numbers.view(Ensemble)
 
 
-class EnsembleOfRecords:
-    """The records at some places, each field an ensemble; tables have their entries first."""
-
-    def __init__(self, records: NDArray[Any], places: Places | slice) -> None:
-        self._records = records
-        self._places = places
-
-    def __getattr__(self, name: str) -> Ensemble:
-        """Return a field."""
-        if name not in (self._records.dtype.names or ()):
-            raise AttributeError(name)
-        field = ensemble(np.array(self._records[name][self._places].T, order="C"))
-        field.flags.writeable = False  # whoever reads it again reads the same
-        self.__dict__[name] = field
-        return field
-
-
-def ensembles_of(records: NDArray[Any]) -> Callable[[Places], EnsembleOfRecords]:
-    """Return a function that returns the records at some places; those at all places it makes once."""
-    whole = EnsembleOfRecords(records, slice(None))
-    return lambda places: whole if places.size == len(records) else EnsembleOfRecords(records, places)
-
-
 def by_way(
     together: Callable[[Places], Result], alone: Callable[[int], Result], places: Places
 ) -> Iterator[tuple[Places, Result]]:

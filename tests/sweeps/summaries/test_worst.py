@@ -55,17 +55,15 @@ def test_a_case_examined_alone_has_the_figures_of_its_row(load: Load) -> None:
     runner = chunk_runner(plan, rig.run_block)
     indices = [3, 0]
     block = runner.assembler.block(np.array(indices))
-    by_lanes = runner.results(block)
+    by_lanes, _ = runner.results(block)
     alone = run_cases(full_cases(plan, indices), recording=RecordingRequest("all"))
-    for place, result in enumerate(alone.results):
-        assert block.ids[place] == result.id
-        assert by_lanes.outcomes[place] == result.outcome
-        assert result.measures is not None
-        for name, numbers in by_lanes.measures.items():
-            assert np.array_equal(numbers[place], result.measures[name], equal_nan=True)
-        for name, numbers in by_lanes.wheelsets.items():
-            own = [wheelset[name] for wheelset in result.wheelsets]
-            assert np.array_equal(numbers[place], own, equal_nan=True)
+    for own, result in zip(by_lanes, alone.results, strict=True):
+        assert (own.id, own.outcome) == (result.id, result.outcome)
+        assert own.measures is not None and result.measures is not None
+        for found, expected in zip(
+            (own.measures, *own.wheelsets), (result.measures, *result.wheelsets), strict=True
+        ):
+            assert np.array_equal(list(found.values()), list(expected.values()), equal_nan=True)
 
 
 @pytest.mark.parametrize("column", ["narrowest_margin", "narrowest_criterion"])

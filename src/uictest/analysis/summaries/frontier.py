@@ -194,7 +194,8 @@ def verdicts_of(plan: Plan, indices: NDArray[np.int64], runner: ChunkRunner, job
     runner = chunk_runner(plan, runner.run_block)
 
     def met(block: NDArray[np.int64]) -> list[bool]:
-        return [bool(met) for met in runner.results(runner.assembler.block(block)).met]
+        results, _ = runner.results(runner.assembler.block(block))
+        return [each.met for each in results]
 
     blocks = np.array_split(indices, max(jobs, -(-indices.size // _CASES_AT_ONCE)))
     verdicts = map_on_threads(met, [block for block in blocks if block.size], jobs=jobs)

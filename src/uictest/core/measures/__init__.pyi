@@ -19,8 +19,6 @@ from .measure import (
     StopColumn as StopColumn,
     WheelsetColumn as WheelsetColumn,
     Wheelsets as Wheelsets,
-    is_finite as is_finite,
-    is_nan as is_nan,
 )
 from .reaction import observe_reaction as observe_reaction, observe_reference as observe_reference
 from .records import (

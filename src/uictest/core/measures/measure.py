@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
@@ -38,37 +37,16 @@ class MeasureValue:
 
 
 Reader = Callable[[StopMeasures, Wheelsets, DefinitionValues], MeasureValue]
-"""Reads the value of one stop, or the values of several (:mod:`uictest.core.ensemble`).
-
-It runs on ensembles where it takes numbers as they are: by :func:`plain`, :func:`is_nan`, :func:`is_finite`,
-not by `float`, `math.isnan`, `math.isfinite`. Otherwise the stops of a sweep are read one by one, which takes
-longer.
-"""
 
 
 def one_value(number: float) -> MeasureValue:
     """Return the value of a measure of the stop."""
-    return MeasureValue((plain(number),))
+    return MeasureValue((float(number),))
 
 
 def value_per_wheelset(numbers: Iterable[float]) -> MeasureValue:
     """Return the values of a measure of the wheelsets, from the leading end."""
-    return MeasureValue(tuple(map(plain, numbers)))
-
-
-def plain(number: float) -> float:
-    """Return a number of a record as a float; numbers of several stops (an ensemble) as they are."""
-    return number if getattr(number, "ndim", 0) else float(number)
-
-
-def is_nan(number: float) -> bool:
-    """Return whether a number is NaN."""
-    return bool(number != number)  # unlike `math.isnan`, of an ensemble as well
-
-
-def is_finite(number: float) -> bool:
-    """Return whether a number is neither NaN nor infinite."""
-    return bool(abs(number) < math.inf)
+    return MeasureValue(tuple(map(float, numbers)))
 
 
 def unavailable(reason: str) -> MeasureValue:

@@ -1,7 +1,3 @@
-from .block import (
-    StopBlock as StopBlock,
-    evaluate_block as evaluate_block,
-)
 from .bounds import (
     Bounds as Bounds,
     Coverage as Coverage,
@@ -13,6 +9,7 @@ from .case import (
     error_result as error_result,
     evaluate as evaluate,
     evaluate_simulated as evaluate_simulated,
+    may_be_biased as may_be_biased,
 )
 from .document import (
     WrittenCaseResult as WrittenCaseResult,
@@ -70,11 +67,6 @@ from .result import (
     deciding_verdicts as deciding_verdicts,
     narrowest_margin as narrowest_margin,
     outcome_of as outcome_of,
-)
-from .result_columns import (
-    ResultColumns as ResultColumns,
-    joined as joined,
-    result_columns as result_columns,
 )
 from .verdict import (
     READINGS as READINGS,

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from uictest.core.identity_cache import once_per_object
 from uictest.core.measures import StopMeasures, Wheelsets
 from uictest.core.units import in_unit, to_12_digits, value_text, with_unit
 from uictest.plans import scenario
@@ -23,7 +24,9 @@ class Bounds:
         """Return the distance to the nearest bound, positive inside, negative outside; NaN for NaN."""
         if math.isnan(value):
             return math.nan
-        return min(value - _or(self.lower, -math.inf), _or(self.upper, math.inf) - value)
+        lower = -math.inf if self.lower is None else self.lower
+        upper = math.inf if self.upper is None else self.upper
+        return min(value - lower, upper - value)
 
     def hold(self, value: float) -> bool:
         """Return whether a value keeps its bounds. NaN and infinity never do."""
@@ -66,6 +69,7 @@ class Bounds:
         return f"{self.lower:.4g} .. {self.upper:.4g}"
 
 
+@once_per_object
 def bounds_of(criterion: scenario.Criterion) -> Bounds:
     """Return the bounds of a criterion in the unit of its measure."""
     lower, upper = (
@@ -81,6 +85,8 @@ def deciding(values: Sequence[float], bounds: Bounds, needed: int) -> float:
     That is the one with the `needed`-th largest margin: it keeps the bounds if and only if `needed` do. NaN
     and infinity count as the worst of all.
     """
+    if len(values) == 1:
+        return values[0]
 
     def merit(value: float) -> float:
         return bounds.margin(value) if math.isfinite(value) else -math.inf

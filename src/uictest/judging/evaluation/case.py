@@ -7,6 +7,7 @@ from collections.abc import Container, Iterator, Mapping
 from typing import Final
 
 from uictest.controllers import ResponseTimes
+from uictest.core.identity_cache import once_per_object
 from uictest.core.measures import (
     MEASURES,
     STOP_COLUMNS,
@@ -19,6 +20,7 @@ from uictest.judging.evaluation.bounds import Coverage
 from uictest.judging.evaluation.judgement import judge
 from uictest.judging.evaluation.real_time import missed_deadlines
 from uictest.judging.evaluation.result import CaseResult, outcome_of
+from uictest.judging.evaluation.verdict import Verdict
 from uictest.plans import scenario
 
 JUDGED_KEYS = (
@@ -46,11 +48,11 @@ JUDGED_KEYS = (
 )
 """Keys of a scenario at or below which :func:`evaluate` reads; all else reaches it through the measures."""
 
-FINITE_IN_STOPS: Final = (
+_FINITE_IN_STOPS: Final = (
     *("end_time", "end_distance", "end_speed"),
     *(each.finite_field for each in MEASURES.values() if each.finite_field and not each.of_wheelsets),
 )
-FINITE_IN_WHEELSETS: Final = tuple(
+_FINITE_IN_WHEELSETS: Final = tuple(
     each.finite_field for each in MEASURES.values() if each.finite_field and each.of_wheelsets
 )
 """Fields of the records that hold a number after every simulated stop; the others may be NaN."""
@@ -87,7 +89,7 @@ def evaluate(
     verdicts = judge(case.scenario, measures, wheelset_measures, explain=explain, coverage=coverage)
     verdicts = [*verdicts, *missed_deadlines(response_times)]
     outcome, reason = outcome_of(verdicts)
-    of_stop = stop_column_values(measures, column_definition(case.scenario))
+    of_stop = stop_column_values(measures, _column_definition(case.scenario.criteria))
     of_wheelsets = [wheelset_column_values(wheelset) for wheelset in wheelset_measures]
     if coverage is not None:
         of_stop = _without(_unknown_columns(coverage, of_wheelsets=False), of_stop)
@@ -149,16 +151,37 @@ def error_result(case: scenario.Case, reason: str, duration: float = 0.0) -> Cas
     )
 
 
-def column_definition(resolved: scenario.Scenario) -> dict[str, float]:
+def may_be_biased(result: CaseResult, biases: Mapping[str, float]) -> bool:
+    """Return whether the biases of measures, as shares of their values, may have decided a result.
+
+    So they may where a value lies within its bias of a bound, and where a stop did not end, lacks data or
+    could not be judged. A measure that is not among `biases` may be biased by any amount.
+    """
+    if result.measures is None or math.isnan(result.measures["braking_time_s"]):
+        return True
+    return any(_may_be_biased(each, biases.get(each.measure, math.inf)) for each in result.criteria)
+
+
+def _may_be_biased(verdict: Verdict, bias: float) -> bool:
+    if verdict.status in ("not_applicable", "inconclusive"):
+        return verdict.status == "inconclusive"
+    if math.isinf(bias) or verdict.value is None or verdict.margin is None:
+        return math.isinf(bias)
+    at_bound = verdict.margin == 0.0 and bias > 0.0
+    return at_bound or abs(verdict.margin) < bias * abs(verdict.value)
+
+
+@once_per_object
+def _column_definition(profiles: tuple[scenario.Criteria, ...]) -> dict[str, float]:
     """Return the definitions that columns use: those of the first criterion that has them, else the defaults.
 
     A column then agrees with the verdict of that criterion.
     """
-    return {name: _stated(resolved, name, default) for name, default in _DEFAULTS.items()}
+    return {name: _stated(profiles, name, default) for name, default in _DEFAULTS.items()}
 
 
-def _stated(resolved: scenario.Scenario, name: str, default: float) -> float:
-    for profile in resolved.criteria:
+def _stated(profiles: tuple[scenario.Criteria, ...], name: str, default: float) -> float:
+    for profile in profiles:
         for criterion in profile.criteria:
             parameter = getattr(criterion.definition, name)
             if parameter is not None:
@@ -177,9 +200,9 @@ def _without(unknown: Container[str], columns: Mapping[str, float]) -> dict[str,
 
 
 def _not_finite(measures: StopMeasures, wheelsets: Wheelsets) -> Iterator[str]:
-    yield from (name for name in FINITE_IN_STOPS if not math.isfinite(getattr(measures, name)))
+    yield from (name for name in _FINITE_IN_STOPS if not math.isfinite(getattr(measures, name)))
     for number, wheelset in enumerate(wheelsets, start=1):
-        for name in FINITE_IN_WHEELSETS:
+        for name in _FINITE_IN_WHEELSETS:
             if not math.isfinite(getattr(wheelset, name)):
                 yield f"{name}_{number}"
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from uictest.core.measures import MEASURES, Course, MeasureValue
+from uictest.core.measures import MEASURES, Course
 from uictest.core.units import in_unit, value_text, with_unit
 from uictest.judging.evaluation.bounds import Bounds, MissingData, ObservedStop, deciding
 from uictest.judging.evaluation.verdict import Status
@@ -36,8 +36,8 @@ def decide(
     criterion passes or fails only if it does so wherever in their intervals the values lie.
     """
     unit, course = criterion.unit, criterion.course
-    observed = read_measure(criterion, definition, stop)
-    values = list(observed.values)
+    observed = MEASURES[criterion.measure].read(stop.measures, stop.wheelsets, definition)
+    values = [in_unit(number, unit) for number in observed.values]
     settled = course == "settles" and not observed.unavailable_reason
     missing = stop.missing(criterion.measure, len(values) or 1, settled=settled)
     if observed.unavailable_reason:
@@ -46,27 +46,13 @@ def decide(
         return _without_value(observed.unavailable_reason, () if final else missing)
     needed = criterion.wheelsets_needed(len(values))
     if not 1 <= needed <= len(values):
-        return too_few_wheelsets(len(values))
+        return Decision("inconclusive", None, f"the record holds {len(values)} wheelsets")
     where = criterion.speed_range(definition)
     if missing:
         return _PartlyKnown(values, missing, course, bounds, needed, unit, where).decision()
     value = deciding(values, bounds, needed)
     status: Status = "pass" if bounds.hold(value) else "fail"
-    return _decided(status, value, bounds, why_decided(values, value, bounds, needed, unit, where))
-
-
-def read_measure(
-    criterion: scenario.Criterion, definition: Mapping[str, float], stop: ObservedStop
-) -> MeasureValue:
-    """Return the value of a criterion's measure in the criterion's unit."""
-    observed = MEASURES[criterion.measure].read(stop.measures, stop.wheelsets, definition)
-    values = tuple(in_unit(number, criterion.unit) for number in observed.values)
-    return replace(observed, values=values)
-
-
-def too_few_wheelsets(count: int) -> Decision:
-    """Return the decision on a stop in which not as many wheelsets as needed have a value."""
-    return Decision("inconclusive", None, f"the record holds {count} wheelsets")
+    return _decided(status, value, bounds, _why_decided(values, value, bounds, needed, unit, where))
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,7 +129,7 @@ def _listed(missing: Sequence[MissingData]) -> str:
     return "; ".join(dict.fromkeys(gap.reason for gap in missing))
 
 
-def why_decided(
+def _why_decided(
     values: Sequence[float], value: float, bounds: Bounds, needed: int, unit: str, where: str = ""
 ) -> str:
     """Return why known values, in `unit`, keep or miss their bounds.
@@ -154,11 +140,14 @@ def why_decided(
         kept = sum(map(bounds.hold, values))
         listed = _looking(with_unit(", ".join(value_text(number, "1") for number in values), unit), where)
         return f"{kept} of {len(values)} wheelsets {bounds.demand(unit)} ({needed} needed): {listed}"
+    holds = bounds.hold(value)
+    if holds and not where:
+        return ""
     demand = with_unit(str(bounds), unit)
-    if not bounds.hold(value):
+    if not holds:
         return _missed(value, bounds, demand, unit, where)
     margin = value_text(bounds.margin(value), unit)
-    return f"{_looking(value_text(value, unit), where)} keeps {demand} by {margin}" if where else ""
+    return f"{_looking(value_text(value, unit), where)} keeps {demand} by {margin}"
 
 
 def _looking(text: str, where: str) -> str:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
-from uictest.core.measures import StopMeasures, Wheelsets, is_nan
+from uictest.core.measures import StopMeasures, Wheelsets
 from uictest.judging.evaluation.bounds import Bounds, Coverage, ObservedStop, bounds_of, why_cut_off
 from uictest.judging.evaluation.decision import Decision, decide
 from uictest.judging.evaluation.rig_reasons import why_rig_fails
@@ -25,7 +26,7 @@ from uictest.plans.scenario import TestConditions, test_conditions_of, unmet_con
 
 DecideBy = Callable[[scenario.Criterion, Mapping[str, float]], Decision]
 """Decides a criterion that applies, or what it is by another reading, with given definitions (SI)."""
-OVER_A_SERIES: Final = "judged over the stops of a series"
+_OVER_A_SERIES: Final = "judged over the stops of a series"
 _NO_RIG: Final = (
     "not known: rig.compensation_model does not list the rig that it was identified for,"
     " or states other numbers than were identified"
@@ -175,7 +176,7 @@ def undecided(
 ) -> Decision | None:
     """Return the decision on a criterion that its measure has no part in; None where it has."""
     if criterion.needs_series:
-        return Decision("not_applicable", None, OVER_A_SERIES)
+        return Decision("not_applicable", None, _OVER_A_SERIES)
     return _not_applicable(criterion, conditions, stop) or _unobserved(criterion, observation, stop)
 
 
@@ -193,9 +194,9 @@ def _not_applicable(
         return Decision("not_applicable", None, f"not recorded: {absent}")
     if unknown and criterion.applies.initial_speed is not None:
         return Decision("inconclusive", None, unknown)
-    if criterion.of_faults and conditions.has_faults and is_nan(stop.measures.fault_time):
+    if criterion.of_faults and conditions.has_faults and math.isnan(stop.measures.fault_time):
         return Decision("inconclusive", None, "no fault of the scenario began while the train moved")
-    if criterion.measure == "compensation_misfit" and is_nan(stop.measures.compensation_misfit):
+    if criterion.measure == "compensation_misfit" and math.isnan(stop.measures.compensation_misfit):
         return Decision("inconclusive", None, _NO_RIG)
     return None
 
@@ -210,7 +211,7 @@ def _unobserved(
     if "moving_speed" not in criterion.observed_by:
         return None
     # The deceleration is kept from the first sample at this speed on.
-    if stop.measures.initial_speed < moving_speed and is_nan(stop.measures.maximum_deceleration):
+    if stop.measures.initial_speed < moving_speed and math.isnan(stop.measures.maximum_deceleration):
         reason = f"the train never reached `moving_speed` ({moving_speed.text}), above which this is observed"
         return Decision("not_applicable", None, reason)
     return None

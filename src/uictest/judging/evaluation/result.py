@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Annotated, Final, Protocol, TypeVar
+from typing import Annotated, Final
 
 from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
 
@@ -120,35 +120,15 @@ class CaseResult:
 def outcome_of(verdicts: Iterable[Verdict]) -> tuple[Outcome, str]:
     """Return the outcome of a stop and why."""
     outcome, deciding = deciding_verdicts(verdicts)
-    return outcome, reason_of(outcome, ((verdict.id, verdict.reason) for verdict in deciding))
-
-
-def reason_of(outcome: Outcome, deciding: Iterable[tuple[str, str]]) -> str:
-    """Return why a stop has an outcome, from the ids of the verdicts that decide it and their reasons."""
-    reasons = "; ".join(f"{criterion}: {reason}" for criterion, reason in deciding)
-    return reasons or ("no criterion" if outcome == "skipped" else "")
+    reasons = "; ".join(f"{verdict.id}: {verdict.reason}" for verdict in deciding)
+    return outcome, reasons or ("no criterion" if outcome == "skipped" else "")
 
 
 _JUDGING: Final[tuple[Layer, ...]] = ("validity", "requirement")
 """Layers whose criteria judge a stop."""
 
 
-class Decided(Protocol):
-    """What of a verdict decides the outcome."""
-
-    @property
-    def layer(self) -> Layer:
-        """What its criterion is for."""
-
-    @property
-    def status(self) -> Status:
-        """What the criterion says of the stop."""
-
-
-AnyDecided = TypeVar("AnyDecided", bound=Decided)
-
-
-def deciding_verdicts(verdicts: Iterable[AnyDecided]) -> tuple[Outcome, list[AnyDecided]]:
+def deciding_verdicts(verdicts: Iterable[Verdict]) -> tuple[Outcome, list[Verdict]]:
     """Return the outcome of a stop and the verdicts that decide it, none where it passes.
 
     A failed check of the rig or a failed validity criterion makes the stop invalid: it does not count as a
@@ -173,8 +153,8 @@ def deciding_verdicts(verdicts: Iterable[AnyDecided]) -> tuple[Outcome, list[Any
 
 
 def _with_status(
-    verdicts: Sequence[AnyDecided], statuses: Sequence[Status], layer: Layer | None = None
-) -> list[AnyDecided]:
+    verdicts: Sequence[Verdict], statuses: Sequence[Status], layer: Layer | None = None
+) -> list[Verdict]:
     return [verdict for verdict in verdicts if verdict.status in statuses and layer in (None, verdict.layer)]
 
 

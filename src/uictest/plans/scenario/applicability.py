@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from uictest.core.units import in_unit, value_text
 from uictest.plans import scenario
@@ -49,14 +49,6 @@ class UnmetCondition:
     value: str | float
     accepted: Sequence[str] | scenario.Nominal
     unit: str = ""
-
-    def in_case(self, number: int) -> UnmetCondition:
-        """Return the condition in one case of an ensemble."""
-        from uictest.core.ensemble import Ensemble  # needs numpy, and what only checks a file does not
-
-        if not isinstance(self.value, Ensemble):
-            return self
-        return replace(self, value=self.value[number].item())
 
     def __str__(self) -> str:
         """Return what the stop has and what the criterion is for."""

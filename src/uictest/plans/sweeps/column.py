@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from uictest.core.units import KINDS
-from uictest.plans.scenario.yaml import parse_quantity, scalar_value
+from uictest.plans.scenario.yaml import Quantity, parse_quantity, scalar_value
 
 if TYPE_CHECKING:
     import numpy as np
@@ -74,10 +74,6 @@ class Column:
             lambda place: self.value_at(int(places[place])),
         )
 
-    def one_by_one(self) -> Column:
-        """Return the same values as such that only cases with the same one are looked at together."""
-        return replace(self, exact=None)
-
     def __getitem__(self, place: int) -> ParameterValue:
         """Return the value of one case."""
         return self.value_at(place)
@@ -120,7 +116,9 @@ def drawn_column(numbers: NDArray[np.float64], unit: str, kind: str) -> Column:
 
     def value_at(place: int) -> ParameterValue:
         text = written[place].as_py()
-        return ParameterValue(text, content_of(text, kind))
+        if not kind:
+            return ParameterValue(text, scalar_value(text))
+        return ParameterValue(text, Quantity(values[place], text, KINDS[kind].canonical))
 
     return Column(written, values, values if kind else None, value_at)
 

@@ -151,16 +151,14 @@ class BlockAssembler:
         return rejections
 
     def _judged_as(self, variants: ScenarioVariants) -> ScenarioVariants:
-        """Return the scenarios as far as they are judged; numbers in their criteria keep cases apart."""
-        settings = {key: variants.settings[key] for key in self._judged_keys}
-        settings |= {key: settings[key].one_by_one() for key in related_keys(settings, ("criteria",))}
-        return ScenarioVariants(variants.base, settings, variants.count)
+        """Return the scenarios as far as they are judged."""
+        return ScenarioVariants(
+            variants.base, {key: variants.settings[key] for key in self._judged_keys}, variants.count
+        )
 
     def case(self, block: CaseBlock, place: int) -> Case:
         """Return a case of a block, as far as judging it needs."""
-        parameters = {key: column.written[place].as_py() for key, column in block.settings.items()}
-        base = self._plan.base
-        return Case(block.ids[place], block.judged_as.at(place), base.path, parameters, {})
+        return Case(block.ids[place], block.judged_as.at(place), self._plan.base.path, {}, {})
 
 
 def _program_of(scenario: Scenario) -> ControllerProgram | None:

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import namedtuple
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest import rig
-from uictest.core.ensemble import Places, rows_at
-from uictest.judging.evaluation import ResultColumns, StopBlock, error_result, evaluate_block, joined
+from uictest.core.ensemble import rows_at
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.judging.evaluation import CaseResult, error_result, evaluate_simulated, may_be_biased
 from uictest.plans.sweeps import Plan, in_survey_steps
 from uictest.running.campaign import ThreadedMap
 from uictest.running.chunked.case_blocks import BlockAssembler, CaseBlock
@@ -27,6 +29,12 @@ RunBlock = Callable[[rig.BlockInputs], rig.BlockRun]
 """Simulates a block in which a controller comes from outside: here, or in child processes."""
 Measures = tuple[NDArray[Any], NDArray[Any]]
 """Measures of stops, shape (cases,), and of their wheelsets, (cases, 4)."""
+# Judging reads many fields, and a numpy record takes ten times as long to read as a tuple.
+_tuple_of: Any = namedtuple
+_Stop: Final = _tuple_of("_Stop", STOP_MEASURES.names)
+_Wheelset: Final = _tuple_of("_Wheelset", WHEELSET_MEASURES.names)
+Records = tuple[tuple[Any, ...], list[tuple[Any, ...]]]
+"""Measures of one stop and of its wheelsets."""
 Simulate = Callable[[NDArray[Any], NDArray[Any], NDArray[np.float64]], Measures]
 """Simulates cases: records, those of wheelsets and friction laws to measures."""
 WriteChunk = Callable[[int, bytes], None]
@@ -60,7 +68,7 @@ class ChunkRunner:
     def run_together(self, chunks: Sequence[NDArray[np.int64]]) -> list[bytes]:
         """Return the Parquet files of several chunks, whose cases are simulated in one queue."""
         block = self.assembler.block(np.concatenate(chunks))
-        table = rows(self.plan, block, self.results(block))
+        table = rows(self.plan, block, *self.results(block))
         sizes = [indices.size for indices in chunks]
         begins = np.cumsum([0, *sizes[:-1]]).tolist()
         return [parquet_bytes(table.slice(*place)) for place in zip(begins, sizes, strict=True)]
@@ -69,34 +77,44 @@ class ChunkRunner:
         """Compile the rig before several threads need it at once."""
         rig.load_block(self.assembler.block(np.zeros(1, np.int64)).programs)
 
-    def results(self, block: CaseBlock) -> ResultColumns:
+    def results(self, block: CaseBlock) -> tuple[list[CaseResult], list[int]]:
         """Return the results of a block; an error in a case is its result.
 
-        Those of a survey that a bias may have decided are of regular steps; `near_limit` says which.
+        Those of a survey that a bias may have decided are of regular steps: the second list has their places.
         """
-        columns = self._results_in_own_steps(block)
-        if self.regular is not None and columns.near_limit.any():
-            places = np.flatnonzero(columns.near_limit)
-            columns.put_block(places, self.regular.results(self.regular.assembler.again(block, places)))
-            columns.near_limit[places] = True
-        return columns
+        results, biases = self._results_in_own_steps(block), self.biases or {}
+        if self.regular is None:
+            return results, []
+        repeated = [place for place, result in enumerate(results) if may_be_biased(result, biases)]
+        if repeated:
+            again = self.regular.assembler.again(block, np.array(repeated))
+            for place, result in zip(repeated, self.regular.results(again)[0], strict=True):
+                results[place] = result
+        return results, repeated
 
-    def _results_in_own_steps(self, block: CaseBlock) -> ResultColumns:
+    def _results_in_own_steps(self, block: CaseBlock) -> list[CaseResult]:
         places = np.array([place for place, reason in enumerate(block.rejections) if not reason], np.int64)
-        judged: Sequence[tuple[Places, ResultColumns]] = ()
+        records: dict[int, Records] = {}
         if places.size:
             try:
-                measures = self._simulated(block, places)
+                stops, wheelsets = self._simulated(block, places)
             except Exception as error:
                 return self._run_one_by_one(block, error)
-            judged = list(self._judged(block, places, measures))
-        columns = joined(judged, len(block.ids))
-        for place, reason in enumerate(block.rejections):
-            if reason:
-                columns.put(place, error_result(self.assembler.case(block, place), reason))
-        return columns
+            of_each = zip(stops.tolist(), wheelsets.tolist(), strict=True)
+            records = dict(zip(places.tolist(), of_each, strict=True))
+        return [self._result(block, place, records.get(place)) for place in range(len(block.ids))]
 
-    def _simulated(self, block: CaseBlock, places: Places) -> Measures:
+    def _result(self, block: CaseBlock, place: int, records: Records | None) -> CaseResult:
+        case, reason = self.assembler.case(block, place), block.rejections[place]
+        if records is not None and not reason:
+            try:
+                stop, wheelsets = _Stop(*records[0]), [_Wheelset(*each) for each in records[1]]
+                return evaluate_simulated(case, stop, wheelsets, explain=False)
+            except Exception as error:  # a case that cannot be judged is a row and does not end the sweep
+                reason = f"{type(error).__name__}: {error}"
+        return error_result(case, reason)
+
+    def _simulated(self, block: CaseBlock, places: NDArray[np.int64]) -> Measures:
         """Return the measures of some cases; one whose controller from outside fails becomes a rejection."""
         inputs = (
             rows_at(block.parameters, places),
@@ -112,38 +130,13 @@ class ChunkRunner:
             block.rejections[place] = failure
         return run.measures, run.wheelset_measures
 
-    def _run_one_by_one(self, block: CaseBlock, error: Exception) -> ResultColumns:
+    def _run_one_by_one(self, block: CaseBlock, error: Exception) -> list[CaseResult]:
         """Find the case that caused the error of the block."""
         if len(block.ids) == 1:
             block.rejections[0] = f"{type(error).__name__}: {error}"
             return self._results_in_own_steps(block)
-        alone = [np.array([place]) for place in range(len(block.ids))]
-        parts = [(place, self._results_in_own_steps(block.take(place))) for place in alone]
-        return joined(parts, len(block.ids))
-
-    def _judged(
-        self, block: CaseBlock, places: Places, measures: Measures
-    ) -> Iterator[tuple[Places, ResultColumns]]:
-        """Yield the results of the simulated cases at some places, group by group of the same criteria."""
-        position = np.zeros(len(block.ids), np.int64)
-        position[places] = np.arange(places.size)
-        is_simulated = np.array([not reason for reason in block.rejections])
-        for group in block.judged_as.groups(by_numbers=False):
-            own = group[is_simulated[group]]
-            if own.size:
-                of_stops, of_wheelsets = (rows_at(each, position[own]) for each in measures)
-                yield own, evaluate_block(self._stops(block, own, of_stops, of_wheelsets))
-
-    def _stops(
-        self, block: CaseBlock, places: Places, measures: NDArray[Any], wheelset_measures: NDArray[Any]
-    ) -> StopBlock:
-        return StopBlock(
-            measures,
-            wheelset_measures,
-            lambda place: self.assembler.case(block, int(places[place])),
-            lambda own: block.judged_as.together(places[own]),
-            self.biases,
-        )
+        alone = (block.take(np.array([place])) for place in range(len(block.ids)))
+        return [result for case in alone for result in self._results_in_own_steps(case)]
 
 
 def chunk_runner(plan: Plan, run_block: RunBlock) -> ChunkRunner:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from types import MappingProxyType
@@ -13,7 +13,7 @@ import numpy as np
 
 from uictest.core.measures import MEASURES, STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.units import SIZES
-from uictest.judging.evaluation import ResultColumns
+from uictest.judging.evaluation import CaseResult, narrowest_margin
 from uictest.plans import library
 from uictest.plans.sweeps import REGULAR_STEP, SURVEY_STEP, Plan, scenarios_with_each
 from uictest.report import SurveyBias, SurveyStep
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 WHEELSETS: Final = 4
 _OWN: Final = ("expect", "outcome", "reason")
+_NO_WHEELSETS: Final[Sequence[Mapping[str, float]]] = ({},) * WHEELSETS
 TIME_STEP_COLUMN: Final = "time_step_ms"
 """Column of a survey: the step that the case was simulated in in the end."""
 REPEATED_TEXTS: Final = (*_OWN, "narrowest_criterion")
@@ -80,8 +81,13 @@ def _schema(keys: tuple[str, ...], numeric_keys: tuple[str, ...], survey: bool) 
     )
 
 
-def rows(plan: Plan, block: CaseBlock, results: ResultColumns) -> pa.Table:
-    """Return the rows of a block; a measure without a value is null."""
+def rows(
+    plan: Plan, block: CaseBlock, results: Sequence[CaseResult], repeated: Sequence[int] = ()
+) -> pa.Table:
+    """Return the rows of a block; a measure without a value is null.
+
+    `repeated` are the places of those cases of a survey that were simulated in regular steps in the end.
+    """
     import pyarrow as pa
 
     columns: dict[str, Any] = {"index": block.indices, "id": block.ids}
@@ -89,15 +95,21 @@ def rows(plan: Plan, block: CaseBlock, results: ResultColumns) -> pa.Table:
         columns[text_column(key)] = column.written
     for key in plan.numeric_keys:
         columns[number_column(key)] = block.settings[key].numbers
-    columns |= {"expect": results.expectations, "outcome": results.outcomes, "reason": results.reasons}
-    columns |= {"met": results.met, "narrowest_margin": results.margins}
-    columns["narrowest_criterion"] = results.criteria
+    for name in (*_OWN, "met"):
+        columns[name] = [getattr(each, name) for each in results]
+    margins = map(narrowest_margin, results)
+    columns["narrowest_margin"], columns["narrowest_criterion"] = zip(*margins, strict=True)
     if plan.survey:
-        steps = np.where(results.near_limit, REGULAR_STEP, SURVEY_STEP)
-        columns[TIME_STEP_COLUMN] = steps / SIZES["ms"]
-    columns |= results.measures
-    for name, numbers in results.wheelsets.items():
-        columns |= zip(wheelset_columns(name), numbers.T, strict=True)
+        steps = np.full(len(results), SURVEY_STEP / SIZES["ms"])
+        steps[list(repeated)] = REGULAR_STEP / SIZES["ms"]
+        columns[TIME_STEP_COLUMN] = steps
+    of_stops = [each.measures or {} for each in results]
+    for name in STOP_COLUMNS:
+        columns[name] = [measures.get(name) for measures in of_stops]
+    wheelsets = [each.wheelsets or _NO_WHEELSETS for each in results]
+    for name in WHEELSET_COLUMNS:
+        for place, numbered in enumerate(wheelset_columns(name)):
+            columns[numbered] = [of_each[place].get(name) for of_each in wheelsets]
     schema = row_schema(plan)
     return pa.table([pa.array(columns[each.name], each.type, from_pandas=True) for each in schema], schema)
 

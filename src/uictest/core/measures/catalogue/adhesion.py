@@ -12,9 +12,7 @@ from uictest.core.measures.measure import (
     Overview,
     RecordedData,
     StopColumn,
-    is_finite,
     one_value,
-    plain,
     unavailable,
 )
 from uictest.core.measures.records import StopMeasures
@@ -30,9 +28,9 @@ def initial_adhesion(stop: StopMeasures, first_phase_duration: float) -> Measure
     where no wheelset slid, or where the train stood or the record ended before the phase was over: the phase
     would then not be one of sliding at all.
     """
-    if not is_finite(stop.sliding_time):
+    if not math.isfinite(stop.sliding_time):
         return unavailable("no wheelset slid, so the first phase has no beginning")
-    at_start = plain(stop.speed_after_sliding[0])
+    at_start = float(stop.speed_after_sliding[0])
     at_end = _speed_after(stop, first_phase_duration)
     if not (at_start > 0.0 and at_end > 0.0):
         return unavailable(
@@ -46,10 +44,10 @@ def _speed_after(stop: StopMeasures, seconds: float) -> float:
     whole, known = math.floor(seconds), len(stop.speed_after_sliding)
     if not 0 <= whole < known:
         return math.nan
-    before = plain(stop.speed_after_sliding[whole])
+    before = float(stop.speed_after_sliding[whole])
     if seconds == whole:
         return before
-    after = plain(stop.speed_after_sliding[whole + 1]) if whole + 1 < known else math.nan
+    after = float(stop.speed_after_sliding[whole + 1]) if whole + 1 < known else math.nan
     return before + (seconds - whole) * (after - before) if after > 0.0 else math.nan
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from uictest.core.measures.catalogue.stopping import braking_distance, constant_deceleration
@@ -11,7 +12,6 @@ from uictest.core.measures.measure import (
     MeasureValue,
     RecordedData,
     StopColumn,
-    is_nan,
     one_value,
     unavailable,
 )
@@ -31,12 +31,12 @@ _RECORDED = RecordedData(("speed", "distance", "brake_line_pressure"), bounded=F
 
 def build_up_time(stop: StopMeasures) -> MeasureValue:
     """Return the equivalent build-up time in s, from the brake command."""
-    return unavailable(_NEVER) if is_nan(stop.build_up_time) else one_value(stop.build_up_time)
+    return unavailable(_NEVER) if math.isnan(stop.build_up_time) else one_value(stop.build_up_time)
 
 
 def deceleration_distance(stop: StopMeasures) -> MeasureValue:
     """Return the distance (m) from the equivalent build-up time to standstill or, before it, up to now."""
-    if is_nan(stop.build_up_time):
+    if math.isnan(stop.build_up_time):
         return unavailable(_NEVER)
     (distance,) = braking_distance(stop).values
     return one_value(distance - stop.build_up_distance)
@@ -44,7 +44,7 @@ def deceleration_distance(stop: StopMeasures) -> MeasureValue:
 
 def developed_deceleration(stop: StopMeasures) -> MeasureValue:
     """Return v0^2 / (2 s) in m/s2, s the deceleration distance (up to now), v0 the initial speed."""
-    if is_nan(stop.build_up_time):
+    if math.isnan(stop.build_up_time):
         return unavailable(_NEVER)
     (distance,) = deceleration_distance(stop).values
     return one_value(constant_deceleration(stop.initial_speed, distance))

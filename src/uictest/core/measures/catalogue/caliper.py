@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from uictest.core.measures.measure import (
     Decided,
     Measure,
@@ -10,16 +12,14 @@ from uictest.core.measures.measure import (
     RecordedData,
     WheelsetColumn,
     Wheelsets,
-    is_nan,
-    plain,
     unavailable,
     value_per_wheelset,
 )
 
 
 def _disc_temperatures(wheelsets: Wheelsets) -> MeasureValue:
-    temperatures = tuple(plain(wheelset.maximum_disc_temperature) for wheelset in wheelsets)
-    if all(map(is_nan, temperatures)):
+    temperatures = tuple(float(wheelset.maximum_disc_temperature) for wheelset in wheelsets)
+    if all(map(math.isnan, temperatures)):
         return unavailable("the temperature of the discs is not modelled: brake.disc_temperature")
     return MeasureValue(temperatures)
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 from uictest.core.measures.measure import (
     Decided,
     Measure,
     MeasureValue,
     RecordedData,
     StopColumn,
-    is_nan,
     one_value,
     unavailable,
 )
@@ -17,7 +18,7 @@ _FILTERING = ("deceleration_filter", "moving_speed")
 
 
 def _deceleration(extreme: float) -> MeasureValue:
-    if is_nan(extreme):
+    if math.isnan(extreme):
         return unavailable("the brake was never fully developed while the train ran")
     return one_value(extreme)
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
+
 from uictest.core.measures.measure import (
     Decided,
     Measure,
     MeasureValue,
     RecordedData,
     Wheelsets,
-    is_nan,
     one_value,
     unavailable,
 )
@@ -20,7 +21,7 @@ _FAULTS = RecordedData(("faults of the brake",), when="never")
 
 def longest_lock_of_sound_wheelsets(stop: StopMeasures, wheelsets: Wheelsets) -> MeasureValue:
     """Return the longest lock (s) of any wheelset that has had no fault of its own."""
-    if is_nan(stop.fault_time):
+    if math.isnan(stop.fault_time):
         return unavailable(_NO_FAULT)
     locks = [float(wheelset.longest_lock) for wheelset in wheelsets if not wheelset.faulty]
     return one_value(max(locks)) if locks else unavailable("every wheelset has had a fault")
@@ -29,15 +30,15 @@ def longest_lock_of_sound_wheelsets(stop: StopMeasures, wheelsets: Wheelsets) ->
 def longest_release(stop: StopMeasures, wheelsets: Wheelsets) -> MeasureValue:
     """Return the longest time (s) for which a wheelset with a faulty speed sensor was without brake force."""
     releases = [float(wheelset.longest_release) for wheelset in wheelsets]
-    known = [release for release in releases if not is_nan(release)]
+    known = [release for release in releases if not math.isnan(release)]
     return one_value(max(known)) if known else unavailable("no speed sensor was faulty while the train moved")
 
 
 def reference_excess(stop: StopMeasures) -> MeasureValue:
     """Return by how much (m/s) the estimate of the train's speed was too high since the first fault."""
-    if is_nan(stop.fault_time):
+    if math.isnan(stop.fault_time):
         return unavailable(_NO_FAULT)
-    if is_nan(stop.reference_excess):
+    if math.isnan(stop.reference_excess):
         return unavailable("the controller gives no reference speed")
     return one_value(stop.reference_excess)
 

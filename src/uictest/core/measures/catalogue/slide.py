@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Final
 
@@ -15,8 +16,6 @@ from uictest.core.measures.measure import (
     StopColumn,
     WheelsetColumn,
     Wheelsets,
-    is_nan,
-    plain,
     unavailable,
     value_per_wheelset,
 )
@@ -42,8 +41,8 @@ def maximum_slide_above_cutoff(
     measures keep one value per such class. There is no value for a train that never ran faster.
     """
     k = round(low_speed_cutoff / SLIDE_CLASS)
-    slides = tuple(plain(wheelset.maximum_slide_above[k]) for wheelset in wheelsets)
-    if not stop.initial_speed > low_speed_cutoff or all(map(is_nan, slides)):
+    slides = tuple(float(wheelset.maximum_slide_above[k]) for wheelset in wheelsets)
+    if not stop.initial_speed > low_speed_cutoff or all(map(math.isnan, slides)):
         return unavailable(f"the train never ran faster than the cut-off of {10 * k} km/h")
     return MeasureValue(slides)
 
@@ -74,11 +73,11 @@ def _sliding_shares(
     if not stop.initial_speed > END_SPEEDS[k]:
         why = f"the train did not run faster than {end}"
         return MeasureValue(unavailable_reason=why, whatever_follows=True)
-    if is_nan(stop.reached_time[k]):
+    if math.isnan(stop.reached_time[k]):
         return unavailable(f"the train did not come down to {end}")
-    duration = plain(stop.reached_time[k])
+    duration = float(stop.reached_time[k])
     places = range(k * len(SLOW_SHARES) + j, len(END_SPEEDS) * len(SLOW_SHARES), len(SLOW_SHARES))
-    return MeasureValue(tuple(sum(plain(table[place]) for place in places) / duration for table in tables))
+    return MeasureValue(tuple(sum(float(table[place]) for place in places) / duration for table in tables))
 
 
 def _down_to_end_speed(definition: DefinitionValues) -> str:

@@ -12,7 +12,6 @@ from uictest.core.measures.measure import (
     StopColumn,
     WheelsetColumn,
     Wheelsets,
-    is_nan,
     one_value,
     unavailable,
     value_per_wheelset,
@@ -38,13 +37,13 @@ def of_train(stop: StopMeasures) -> MeasureValue:
 def of_each_wheelset(stop: StopMeasures, wheelsets: Wheelsets) -> MeasureValue:
     """Return the share of each wheelset; what never slid left nothing unused and has 1."""
     shares = (wheelset.adhesion_utilisation for wheelset in wheelsets)
-    return _why_none(stop) or value_per_wheelset(1.0 if is_nan(share) else share for share in shares)
+    return _why_none(stop) or value_per_wheelset(1.0 if math.isnan(share) else share for share in shares)
 
 
 def _why_none(stop: StopMeasures) -> MeasureValue | None:
     if not stop.stopped:
         return unavailable("no standstill")
-    if is_nan(stop.adhesion_utilisation):
+    if math.isnan(stop.adhesion_utilisation):
         return unavailable("no wheelset slid, so that the rail never limited the brake")
     return None
 

@@ -5,6 +5,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import BeforeValidator, Field
 
+from uictest.core.identity_cache import once_per_object
 from uictest.core.measures import SLIDE_CLASS, SLOW_SHARE_CLASS
 from uictest.core.units import in_unit
 from uictest.plans.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Quantity, of_kind
@@ -154,6 +155,7 @@ class Definition(Model):
         """Return the definitions that are given, by name."""
         return {name: value for name, value in self if isinstance(value, RangedDefinition)}
 
+    @once_per_object
     def stated(self) -> dict[str, float]:
         """Return the SI value used of each definition that is given."""
         return {name: float(parameter.value) for name, parameter in self.parameters().items()}
