@@ -158,7 +158,7 @@ class BlockAssembler:
 
     def case(self, block: CaseBlock, place: int) -> Case:
         """Return a case of a block, as far as judging it needs."""
-        return Case(block.ids[place], block.judged_as.at(place), self._plan.base.path, {}, {})
+        return Case(block.ids[place], block.judged_as.build(place), self._plan.base.path, {}, {})
 
 
 def _program_of(scenario: Scenario) -> ControllerProgram | None:

@@ -27,7 +27,7 @@ class Rejected:
 
 
 class ScenarioVariants:
-    """The scenarios of some cases, each built when it is first needed."""
+    """The scenarios of some cases, each built when it is needed."""
 
     def __init__(
         self, base: Scenario, settings: Settings, count: int, all_numbers: ScenarioVariants | None = None
@@ -57,11 +57,14 @@ class ScenarioVariants:
         return ScenarioVariants(self.base, settings, places.size)
 
     def at(self, place: int) -> Scenario:
-        """Return the scenario of one case."""
+        """Return the scenario of one case, kept for those who ask for it again."""
         if place not in self._scenarios:
-            contents = {key: column[place].content for key, column in self.settings.items()}
-            self._scenarios[place] = with_values(self.base, contents)
+            self._scenarios[place] = self.build(place)
         return self._scenarios[place]
+
+    def build(self, place: int) -> Scenario:
+        """Return the scenario of one case, built anew."""
+        return with_values(self.base, {key: column[place].content for key, column in self.settings.items()})
 
     def texts(self, place: int) -> tuple[str, ...]:
         """Return the values of one case as written."""
