@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.core.recording.contents import Contents, Group
+from uictest.core.recording.recording import Contents, Group
 from uictest.plans.scenario import ScenarioErrors
 from uictest.recorded.field_data import (
     MapError,

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from uictest.core.recording.contents import Contents, Group
+from uictest.core.recording.recording import Contents, Group
 from uictest.recorded.field_data import (
     MapError,
     RawChannel,

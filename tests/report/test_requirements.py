@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 
 from uictest.judging.evaluation import CaseResult, Verdict
-from uictest.report.requirement_matrix import requirement_matrix
-from uictest.report.requirements import requirements_of, verified_requirements
+from uictest.report.requirements import requirement_matrix, requirements_of, verified_requirements
 
 MakeResult = Callable[..., CaseResult]
 MakeVerdict = Callable[..., Verdict]

@@ -41,8 +41,7 @@ from .github import (
     case_annotations as case_annotations,
     missing_annotations as missing_annotations,
 )
-from .junit import junit_text as junit_text
-from .junit_properties import test_properties as test_properties
+from .junit import junit_text as junit_text, test_properties as test_properties
 from .manifest import (
     CASES_IN_PYTHON as CASES_IN_PYTHON,
     RunManifest as RunManifest,
@@ -58,7 +57,6 @@ from .part_wording import (
     domain_notices as domain_notices,
     interval_text as interval_text,
 )
-from .recording_path import RECORDINGS as RECORDINGS, recording_path as recording_path
 from .repeat_wording import repeat_sentences as repeat_sentences, rule_text as rule_text
 from .requirements import requirements_of as requirements_of
 from .run_contents import (
@@ -67,13 +65,18 @@ from .run_contents import (
     with_recorded_traces as with_recorded_traces,
 )
 from .run_report import (
+    RECORDINGS as RECORDINGS,
     RESULTS as RESULTS,
+    recording_path as recording_path,
     run_name as run_name,
     write_recording as write_recording,
     write_reports as write_reports,
 )
-from .series.github import series_annotations as series_annotations
-from .series.lines import series_line as series_line, series_lines as series_lines
+from .series.lines import (
+    series_annotations as series_annotations,
+    series_line as series_line,
+    series_lines as series_lines,
+)
 from .series.tables import series_table as series_table
 from .series.wording import (
     count_sentences as count_sentences,

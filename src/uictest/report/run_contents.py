@@ -13,8 +13,7 @@ from uictest.judging.series import series_results_of
 from uictest.report.content import RunContent, drawn_cases
 from uictest.report.document import read_baseline_comparison, read_subjects
 from uictest.report.manifest import read_manifest
-from uictest.report.recording_path import recording_path, require_names
-from uictest.report.run_report import RESULTS
+from uictest.report.run_report import RESULTS, recording_path, require_names
 from uictest.report.traces.trace import PlotTrace, trace_of
 
 

@@ -7,8 +7,7 @@ from .batch import (
     with_domains as with_domains,
 )
 from .drawing import with_traces as with_traces
-from .observer import Observer as Observer
-from .processors import available_processors as available_processors
+from .observer import Observer as Observer, available_processors as available_processors
 from .publishing import Published as Published, publish_batch as publish_batch, publish_run as publish_run
 from .recorded.batch import (
     JudgedRecordings as JudgedRecordings,
@@ -64,13 +63,11 @@ from .sweep.whole import (
     measure_names as measure_names,
     run_sweep as run_sweep,
 )
-from .validation.plans import (
-    load_validations as load_validations,
-    read_reference as read_reference,
-    reference_of as reference_of,
-)
 from .validation.run import (
     ValidationRun as ValidationRun,
+    load_validations as load_validations,
     publish_validation as publish_validation,
+    read_reference as read_reference,
+    reference_of as reference_of,
     run_validation as run_validation,
 )

@@ -15,7 +15,7 @@ from uictest.running import campaign
 from uictest.runs.drawing import TraceCollection
 from uictest.runs.observer import Observer
 from uictest.runs.series_runs import SeriesBatch, run_series
-from uictest.runs.validation.plans import read_reference
+from uictest.runs.validation.run import read_reference
 
 Keep = Callable[[str, recording.Recording], object]
 """Takes the id of a case and its recording."""

@@ -10,7 +10,7 @@ from uictest.core import recording
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.running import campaign
-from uictest.runs.processors import available_processors
+from uictest.runs.observer import available_processors
 
 
 @dataclass(slots=True)

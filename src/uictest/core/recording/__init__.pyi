@@ -1,5 +1,3 @@
-from .contents import Contents as Contents, Group as Group, Samples as Samples
-from .conversion import recording_of as recording_of
 from .parquet import (
     parquet_bytes as parquet_bytes,
     read_parquet as read_parquet,
@@ -18,5 +16,9 @@ from .recording import (
     BRAKE_COMMAND_TIME as BRAKE_COMMAND_TIME,
     ORIGIN as ORIGIN,
     TIME as TIME,
+    Contents as Contents,
+    Group as Group,
     Recording as Recording,
+    Samples as Samples,
+    recording_of as recording_of,
 )

@@ -18,8 +18,8 @@ from uictest.core.measures import (
 )
 from uictest.judging.evaluation.bounds import Coverage
 from uictest.judging.evaluation.judgement import judge
-from uictest.judging.evaluation.real_time import missed_deadlines
 from uictest.judging.evaluation.result import CaseResult, outcome_of
+from uictest.judging.evaluation.rig_reasons import missed_deadlines
 from uictest.judging.evaluation.verdict import Verdict
 from uictest.plans import scenario
 

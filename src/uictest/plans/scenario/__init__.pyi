@@ -5,7 +5,6 @@ from .applicability import (
     test_conditions_of as test_conditions_of,
     unmet_conditions as unmet_conditions,
 )
-from .choice import chosen_case as chosen_case
 from .compensation_fit import (
     FIT_KEYS as FIT_KEYS,
     RIG_SOURCE as RIG_SOURCE,
@@ -21,6 +20,7 @@ from .discovery import (
     OTHER_SCHEMAS as OTHER_SCHEMAS,
     SERIES_SUFFIXES as SERIES_SUFFIXES,
     SWEEP_SUFFIXES as SWEEP_SUFFIXES,
+    chosen_case as chosen_case,
     link_outside as link_outside,
     may_be_scenario as may_be_scenario,
 )
@@ -90,8 +90,11 @@ from .rail_friction import (
     sets_friction as sets_friction,
 )
 from .references import Parts as Parts, is_path as is_path
-from .requirement_ids import in_order_of_ids as in_order_of_ids, named_requirements as named_requirements
-from .requirement_list import read_requirement_list as read_requirement_list
+from .requirement_list import (
+    in_order_of_ids as in_order_of_ids,
+    named_requirements as named_requirements,
+    read_requirement_list as read_requirement_list,
+)
 from .resolution import resolve as resolve
 from .sections import SURVEY as SURVEY
 from .wheelset_values import (

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Final
 
 from uictest.plans.scenario.files import Files, trust_hint
+from uictest.plans.scenario.model import Case
 from uictest.plans.scenario.references import KIND_OF_FOLDER
 from uictest.plans.scenario.yaml import (
     Diagnostic,
@@ -14,6 +15,7 @@ from uictest.plans.scenario.yaml import (
     ScenarioErrors,
     collecting,
     diagnose,
+    suggestion,
     unreadable_error,
     whole_file,
 )
@@ -91,3 +93,15 @@ def may_be_scenario(name: str) -> bool:
 def _is_of_other_kind(tree: Map) -> bool:
     schema = tree.get("schema")
     return isinstance(schema, Scalar) and schema.value in OTHER_SCHEMAS
+
+
+def chosen_case(cases: Sequence[Case], case_id: str | None) -> Case:
+    """Return the case of an id, or the only one. Raises ValueError."""
+    ids = [case.id for case in cases]
+    if case_id is None:
+        if len(cases) != 1:
+            raise ValueError(f"the scenario has {len(cases)} cases: pass case= one of {', '.join(ids)}")
+        return cases[0]
+    if case_id not in ids:
+        raise ValueError(f"no case {case_id!r}; {suggestion(case_id, ids)}")
+    return cases[ids.index(case_id)]

@@ -2,15 +2,21 @@
 
 import math
 from collections.abc import Iterable
-from typing import NamedTuple
+from functools import cache
+from pathlib import Path
+from typing import Final, NamedTuple
 
 from uictest.core import physics
 from uictest.core.units import STANDARD_GRAVITY
+from uictest.plans.scenario.files import Files
 from uictest.plans.scenario.parts.brake import Disc
 from uictest.plans.scenario.parts.caliper import Caliper
 from uictest.plans.scenario.parts.compensation import Compensation
+from uictest.plans.scenario.parts.criteria import Criteria
 from uictest.plans.scenario.parts.vehicle import Vehicle
+from uictest.plans.scenario.references import Parts
 from uictest.plans.scenario.total import total
+from uictest.plans.scenario.yaml import Document, Place, Scalar
 
 
 class BrakedWheelset(NamedTuple):
@@ -48,3 +54,15 @@ def braking_force(disc: Disc, wheelsets: Iterable[BrakedWheelset], clamping_forc
         / each.wheel_radius
         for each in wheelsets
     )
+
+
+RIG_CHECKS: Final = "uictest-rig"
+"""Name of the profile."""
+
+
+@cache
+def rig_checks() -> Criteria:
+    """Return the profile."""
+    place = Place(Document(RIG_CHECKS, Path(), RIG_CHECKS))
+    profile: Criteria = Parts(Files()).resolve(Scalar(RIG_CHECKS, RIG_CHECKS, place), Criteria, ()).part
+    return profile

@@ -15,9 +15,11 @@ from uictest.plans.faults import MOST_FAULTS
 from uictest.plans.scenario.compensation_fit import unresolved_air, unresolved_cylinder
 from uictest.plans.scenario.faults import impossible_faults, impossible_pole_wheels, line_leak, tank_leak
 from uictest.plans.scenario.feasibility import (
+    RIG_CHECKS,
     BrakedWheelset,
     braking_force,
     largest_clamping_force,
+    rig_checks,
     stopping_time_at_least,
 )
 from uictest.plans.scenario.parts.compensation import COMPENSATION_SETTINGS
@@ -34,7 +36,6 @@ from uictest.plans.scenario.parts.measures import (
     seeds_too_large,
 )
 from uictest.plans.scenario.parts.vehicle import Vehicle
-from uictest.plans.scenario.rig_checks import RIG_CHECKS, rig_checks
 from uictest.plans.scenario.sections import Brake, Rail, Rig, Simulation
 from uictest.plans.scenario.stability import ValveConductances, limit_of_air, limit_of_vehicle
 from uictest.plans.scenario.wheelset_values import WHEELSET_NUMBERS, distinct_values, wheelset_value

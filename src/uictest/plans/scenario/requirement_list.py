@@ -2,10 +2,11 @@
 
 import csv
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Final
 
+from uictest.plans.scenario.model import Scenario
 from uictest.plans.scenario.parts.measures import REQUIREMENT_PATTERN
 from uictest.plans.scenario.yaml import (
     Document,
@@ -98,3 +99,25 @@ def _yaml_id(item: Node) -> tuple[str, Place]:
         expected = f"expected an id, or a mapping with the key {quoted(_COLUMN)}"
         raise single_error(item.place, f"{expected}, found {describe(item)}")
     return node.text, node.place
+
+
+_NUMBERS = re.compile(r"([0-9]+)")
+
+
+def named_requirements(scenario: Scenario) -> tuple[str, ...]:
+    """Return the ids of the requirements that a resolved scenario or one of its criteria names, each once.
+
+    Criteria that only a series can be judged by are left out.
+    """
+    criteria = (each for profile in scenario.criteria for each in profile.criteria if not each.needs_series)
+    of_criteria = (requirement for criterion in criteria for requirement in criterion.requirements)
+    return tuple(dict.fromkeys((*scenario.requirements, *of_criteria)))
+
+
+def in_order_of_ids(requirements: Iterable[str]) -> list[str]:
+    """Return ids in alphabetical order, numbers within them by value: BR-9 before BR-10."""
+    return sorted(requirements, key=lambda text: (_split_at_numbers(text), text))
+
+
+def _split_at_numbers(text: str) -> list[str | int]:
+    return [int(part) if place % 2 else part for place, part in enumerate(_NUMBERS.split(text))]

@@ -1,8 +1,12 @@
 from .definition import (
     load_series as load_series,
 )
-from .model import SERIES_SCHEMA as SERIES_SCHEMA, SeriesFile as SeriesFile, Stops as Stops
-from .schema import series_schema as series_schema
+from .model import (
+    SERIES_SCHEMA as SERIES_SCHEMA,
+    SeriesFile as SeriesFile,
+    Stops as Stops,
+    series_schema as series_schema,
+)
 from .series import (
     PlannedStop as PlannedStop,
     Recorded as Recorded,

@@ -7,7 +7,14 @@ from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, Field
 
-from uictest.plans.scenario import Criteria, RequirementId, RequirementIds, Slug, repeated_requirements
+from uictest.plans.scenario import (
+    Criteria,
+    RequirementId,
+    RequirementIds,
+    Slug,
+    repeated_requirements,
+    schema_of,
+)
 from uictest.plans.scenario.yaml import (
     Inconsistency,
     Model,
@@ -132,3 +139,18 @@ class SeriesFile(Model):
                     key = ("criteria", number, "criteria", index, "id")
                     yield Inconsistency(key, message, "leave one profile out")
             seen |= {criterion.id: profile.name for criterion in profile.criteria}
+
+
+_STOPS: Final = {"anyOf": [{"type": "string"}, {"$ref": "#/definitions/Stops"}]}
+_REQUIRED: Final = ("schema", "name", "dry", "wet")
+
+
+def series_schema() -> dict[str, Any]:
+    """Return the schema of ``uictest/series/1``, every field described."""
+    schema: dict[str, Any] = schema_of(SeriesFile, "uictest series")
+    schema["required"] = list(_REQUIRED)
+    for role in ("dry", "wet"):
+        listed = {"type": "array", "minItems": 1, "items": _STOPS}
+        description = schema["properties"][role]["description"]
+        schema["properties"][role] = {"description": description, "anyOf": [*_STOPS["anyOf"], listed]}
+    return schema

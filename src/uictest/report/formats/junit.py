@@ -18,8 +18,7 @@ from uictest.report.difference import (
     difference_sentences,
 )
 from uictest.report.format_registry import ReportFormat
-from uictest.report.junit import junit_text
-from uictest.report.junit_properties import WITH_TEST_PROPERTIES, suite_properties, test_properties
+from uictest.report.junit import WITH_TEST_PROPERTIES, junit_text, suite_properties, test_properties
 from uictest.report.part_wording import changes_line, controller_of, controllers_text, domain_sentences
 from uictest.report.repeat_wording import repeat_sentences
 from uictest.report.requirements import requirements_of

@@ -17,8 +17,12 @@ from uictest.report.formats.csv import CHANGED, REQUIREMENTS, controller_cells, 
 from uictest.report.manifest import manifest_form
 from uictest.report.part_wording import changes_of, domain_sentences
 from uictest.report.repeat_wording import criterion_share_cells, range_cells, share_cells, stop_rows
-from uictest.report.requirement_matrix import REQUIREMENTS_SHEET, requirement_matrix, verdict_columns
-from uictest.report.requirements import verified_requirements
+from uictest.report.requirements import (
+    REQUIREMENTS_SHEET,
+    requirement_matrix,
+    verdict_columns,
+    verified_requirements,
+)
 from uictest.report.sheet import (
     VERDICT_COLUMNS,
     Row,

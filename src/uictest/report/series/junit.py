@@ -8,7 +8,7 @@ from uictest.core.document import Suite, Testcase, TestcaseStatus, class_name
 from uictest.judging import evaluation
 from uictest.judging.series import SeriesResult, SeriesVerdict
 from uictest.plans.scenario import in_order_of_ids
-from uictest.report.junit_properties import suite_properties, test_properties
+from uictest.report.junit import suite_properties, test_properties
 from uictest.report.part_wording import controller_of
 from uictest.report.requirements import requirements_of
 from uictest.report.series.wording import (

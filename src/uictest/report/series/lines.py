@@ -7,9 +7,11 @@ from collections.abc import Iterator
 from uictest.core.series_measures import SERIES_MEASURES
 from uictest.judging.series import SeriesResult
 from uictest.report.escaping import printable
+from uictest.report.github import annotation
 from uictest.report.series.wording import (
     count_sentences,
     not_counted_sentences,
+    series_explanation,
     series_verdict_sentence,
     series_word,
     unsettled_of_series,
@@ -41,3 +43,10 @@ def series_lines(result: SeriesResult) -> Iterator[str]:
         yield f"criterion {printable(result.id)} {series_verdict_sentence(each, result.confidence)}"
     for sentence in (*count_sentences(result), *not_counted_sentences(result)):
         yield f"stops {printable(result.id)} {sentence}"
+
+
+def series_annotations(result: SeriesResult) -> Iterator[str]:
+    """Yield an `::error` command for a series that misses its expectation."""
+    if not result.met:
+        title = f"{series_word(result)} {result.id}"
+        yield annotation(result.file, title, "\n".join(series_explanation(result)))

@@ -11,10 +11,9 @@ from typing import Any, Final
 
 from uictest.core import files
 from uictest.judging import evaluation
-from uictest.report.junit import junit_text
-from uictest.report.junit_properties import WITH_TEST_PROPERTIES
-from uictest.report.recording_path import require_names
+from uictest.report.junit import WITH_TEST_PROPERTIES, junit_text
 from uictest.report.run_contents import read_traces
+from uictest.report.run_report import require_names
 from uictest.report.sweep import formats
 from uictest.report.sweep.junit import sweep_suite
 from uictest.report.sweep.k_dry_file import K_DRY_FILE, k_dry_yaml

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from uictest.core.document import Suite, Testcase, TestcaseStatus, class_name
 from uictest.judging import evaluation
-from uictest.report.junit_properties import suite_properties, test_properties
+from uictest.report.junit import suite_properties, test_properties
 from uictest.report.sweep.result import OutcomeCount, SweepResult
 
 

@@ -17,8 +17,7 @@ from uictest.rig.model.friction_law import ROWS
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
-from uictest.rig.model.stepped_stop import step_stop
-from uictest.rig.model.stop import run_stop
+from uictest.rig.model.stop import run_stop, step_stop
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 

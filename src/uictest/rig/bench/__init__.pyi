@@ -1,7 +1,6 @@
 from .applied import bench_input as bench_input
 from .identified_air import identify_air as identify_air
-from .identified_case import identified as identified
-from .identified_rig import IDENTIFIED_KEYS as IDENTIFIED_KEYS
+from .identified_rig import IDENTIFIED_KEYS as IDENTIFIED_KEYS, identified as identified
 from .recipe import (
     BenchRecipe as BenchRecipe,
     BenchTest as BenchTest,

@@ -7,7 +7,6 @@ from .batch import (
     with_parts as with_parts,
 )
 from .case import CaseRun as CaseRun, RecordingRequest as RecordingRequest, run_case as run_case
-from .descriptions import descriptions_of as descriptions_of
 from .repeats import Stop as Stop, case_of_stop as case_of_stop, stops_of as stops_of
 from .requirement_coverage import (
     CoveredRequirement as CoveredRequirement,
@@ -20,6 +19,7 @@ from .selection import (
     by_expression as by_expression,
     by_id as by_id,
     by_tag as by_tag,
+    descriptions_of as descriptions_of,
     parse as parse,
 )
 from .threaded_map import (

@@ -2,19 +2,150 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Final
 
 from uictest import report
 from uictest.analysis import validation
 from uictest.core import files
+from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import evaluation
 from uictest.plans import scenario, validation as validation_plans
+from uictest.plans.scenario import yaml
+from uictest.recorded import field_data
 from uictest.running import campaign
 from uictest.runs.observer import Observer
-from uictest.runs.validation.stops import compared_stop, conditions_of_stop, recorded_stops
+from uictest.runs.recorded.files import RecordedFile, named_map, read_files
+from uictest.runs.scenario_files import InvalidInputError, is_series, load_series
+
+_DISTANCE: Final = "braking_distance_m"
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedStopOfPlan:
+    """A recorded stop: its file, the case as planned, and that from the recorded speed where it is usable."""
+
+    file: RecordedFile
+    planned: validation_plans.PlannedComparison
+    case: scenario.Case
+    not_counted: str
+
+
+def recorded_stops(
+    plan: validation_plans.ValidationPlan, trusted: Sequence[Path] | None
+) -> tuple[list[RecordedStopOfPlan], dict[str, str]]:
+    """Return the recorded stops of a plan, and every file that was read with its SHA-256.
+
+    Raises InvalidInputError where a file cannot be read, or two stops have one id.
+    """
+    read = dict(plan.inputs)
+    stops = _counted_once([stop for each in plan.comparisons for stop in _stops(plan, each, read, trusted)])
+    _require_distinct(plan, stops)
+    return stops, read
+
+
+def compared_stop(
+    stop: RecordedStopOfPlan, simulated: evaluation.CaseResult | None
+) -> validation.ComparedStop:
+    """Return a recorded stop beside its simulation, if it has one."""
+    file = stop.file
+    found = validation.ComparedStop(
+        id=stop.case.id,
+        recording=yaml.display_name(file.path),
+        sha256=file.digest,
+        initial_speed=float(stop.case.scenario.initial_speed),
+        repeats=stop.case.scenario.repeat,
+        seed=None if file.stop is None else stop.case.scenario.seed,
+        tuned=stop.planned.tuned,
+        not_counted=stop.not_counted,
+    )
+    if file.stop is None or simulated is None:
+        return found
+    recorded, _ = field_data.judge_recording(stop.case, file.stop)
+    found = replace(
+        found, recorded=validation.figures_of(recorded), simulated=validation.figures_of(simulated)
+    )
+    return replace(found, not_counted=found.not_counted or _missing_end(found, simulated))
+
+
+def conditions_of_stop(stop: RecordedStopOfPlan) -> list[validation.Conditions]:
+    """Return the conditions of a stop as planned and as recorded."""
+    parts = campaign.parts_of_cases([replace(stop.planned.case, id="planned"), stop.case])
+    return [validation.conditions_of(each) for each in parts.values()]
+
+
+def _stops(
+    plan: validation_plans.ValidationPlan,
+    planned: validation_plans.PlannedComparison,
+    read: dict[str, str],
+    trusted: Sequence[Path] | None,
+) -> Iterator[RecordedStopOfPlan]:
+    """Yield the recorded stops of a comparison; the files read for it are added to `read`."""
+    mapped, inputs = named_map(planned.recorded.channel_map, trusted)
+    read |= inputs
+    for file in read_files(planned.recorded.files, mapped):
+        read[yaml.display_name(file.path)] = file.digest
+        case_id = f"{planned.case.id}.{file.name}"
+        case = replace(planned.case, id=case_id)
+        if file.stop is not None:
+            case = validation.as_recorded(planned.case, case_id, _speed(file.stop), file.digest)
+        yield RecordedStopOfPlan(file, planned, case, _why_not_counted(plan, planned, file))
+
+
+def _require_distinct(plan: validation_plans.ValidationPlan, stops: Sequence[RecordedStopOfPlan]) -> None:
+    """Raise InvalidInputError where two stops have one id: each is compared with the simulation of its id."""
+    files: dict[str, Path] = {}
+    for stop in stops:
+        if stop.case.id in files:
+            raise InvalidInputError(
+                f"{plan.path}: a second recorded stop {stop.case.id!r}, of {stop.file.path} and"
+                f" {files[stop.case.id]}: rename one of the files"
+            )
+        files[stop.case.id] = stop.file.path
+
+
+def _counted_once(stops: Sequence[RecordedStopOfPlan]) -> list[RecordedStopOfPlan]:
+    """Return stops of which a copy of another's record does not count; the one that is tuned comes first."""
+    first: dict[str, RecordedStopOfPlan] = {}
+    for stop in sorted(stops, key=lambda stop: not stop.planned.tuned):
+        first.setdefault(stop.file.digest, stop)
+    return [
+        stop
+        if first[stop.file.digest] is stop or stop.not_counted
+        else replace(stop, not_counted=f"a copy of {yaml.display_name(first[stop.file.digest].file.path)}")
+        for stop in stops
+    ]
+
+
+def _why_not_counted(
+    plan: validation_plans.ValidationPlan, planned: validation_plans.PlannedComparison, file: RecordedFile
+) -> str:
+    if file.stop is None:
+        return "; ".join(map(str, file.defects))
+    nominal, speed = float(planned.case.scenario.initial_speed), _speed(file.stop)
+    if abs(speed - nominal) > plan.speed_tolerance:
+        stated = f"{nominal / KILOMETRE_PER_HOUR:.4g} km/h"
+        within = f"{plan.speed_tolerance / KILOMETRE_PER_HOUR:.3g} km/h"
+        return f"its scenario begins at {stated}, more than {within} away"
+    return ""
+
+
+def _speed(stop: field_data.RecordedStop) -> float:
+    return float(stop.recording["speed"][0])
+
+
+def _missing_end(stop: validation.ComparedStop, simulated: evaluation.CaseResult) -> str:
+    """Return why the stop has no end. Not validated: stops without one."""
+    if simulated.outcome == "error":
+        return f"simulation: {simulated.reason}"
+    for figures, of_what in ((stop.recorded, "record"), (stop.simulated, "simulation")):
+        if math.isnan(figures[_DISTANCE]):
+            return f"the {of_what} has no braking distance: it ends before standstill, or has a gap"
+    return ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,3 +195,35 @@ def _simulated(cases: Sequence[scenario.Case], jobs: int, observer: Observer) ->
     if done.interrupted:
         raise KeyboardInterrupt
     return done.results
+
+
+def load_validations(
+    paths: Sequence[Path], overrides: Sequence[str] | None = None, trusted: Sequence[Path] | None = None
+) -> list[validation_plans.ValidationPlan]:
+    """Return the validations of validation and series files. Raises ScenarioErrors, InvalidInputError."""
+    plans: list[validation_plans.ValidationPlan] = []
+    for path in paths:
+        if is_series(path):
+            plans += map(validation_plans.plan_of_series, load_series([path], overrides, None, trusted))
+        else:
+            plans.append(validation_plans.load_validation(path, tuple(overrides or ()), trusted or ()))
+    for plan in plans:
+        if not plan.comparisons:
+            raise InvalidInputError(f"{plan.path}: no stop names a recording: list them under `recordings`")
+    return plans
+
+
+def reference_of(option: Path | None, named: str | None) -> validation.ValidationReference | None:
+    """Return the validation of an option, else that which a scenario names. Raises InvalidInputError."""
+    path = option or (None if named is None else Path(named))
+    return None if path is None else read_reference(path)
+
+
+def read_reference(path: Path) -> validation.ValidationReference:
+    """Return the validation that cases are held against. Raises InvalidInputError."""
+    try:
+        return validation.read_validation(path)
+    except OSError as error:
+        raise InvalidInputError(f"{path}: {error.strerror or error}") from error
+    except ValueError as error:
+        raise InvalidInputError(f"{path}: {error}") from error

@@ -10,9 +10,8 @@ from typing import Any, Self
 from uictest import rig
 from uictest.controllers import ControllerError
 from uictest.selftest.conformance import situations
-from uictest.selftest.conformance.built_in import PlainInstance
 from uictest.selftest.conformance.situations import WHEELSETS, Situation
-from uictest.selftest.conformance.subject import Subject
+from uictest.selftest.conformance.subject import PlainInstance, Subject
 
 REPEATED: tuple[rig.Beginning, ...] = ("create", "reset", "create")
 

@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 
-from uictest.core.recording.contents import Contents, Group, Samples
 from uictest.core.recording.formats.layout import (
     COMMENT,
     MARK,
@@ -33,7 +32,7 @@ from uictest.core.recording.formats.sample_lines import (
     reject_open_quotation,
     sample_lines,
 )
-from uictest.core.recording.recording import Recording
+from uictest.core.recording.recording import Contents, Group, Recording, Samples
 
 _HEADING = 1000
 """Most lines before the first sample."""

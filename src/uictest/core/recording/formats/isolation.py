@@ -16,7 +16,6 @@ from typing import Any
 import numpy as np
 
 from uictest.core import files
-from uictest.core.recording.contents import Contents, Group
 from uictest.core.recording.formats.choice import format_of
 from uictest.core.recording.formats.layout import Dialect
 from uictest.core.recording.formats.problems import (
@@ -26,6 +25,7 @@ from uictest.core.recording.formats.problems import (
     ReadingInterruptedError,
     UnreadableError,
 )
+from uictest.core.recording.recording import Contents, Group
 
 _MODULE = "uictest.core.recording.formats.reader"
 REJECTED, EXTRA_MISSING, TOO_LARGE, NO_ROOM = 10, 11, 12, 13

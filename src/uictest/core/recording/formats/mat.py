@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from uictest.core.recording.contents import Contents, Group, Samples
 from uictest.core.recording.formats.problems import check_size, required_module
-from uictest.core.recording.recording import Recording
+from uictest.core.recording.recording import Contents, Group, Recording, Samples
 
 _EXTRA = "mat"
 _HDF5 = b"\x89HDF\r\n\x1a\n"

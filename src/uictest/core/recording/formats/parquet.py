@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from uictest.core.recording.contents import Contents, Group, Samples
 from uictest.core.recording.formats.problems import UnreadableError, check_size
 from uictest.core.recording.parquet import parquet_bytes
-from uictest.core.recording.recording import Recording
+from uictest.core.recording.recording import Contents, Group, Recording, Samples
 
 if TYPE_CHECKING:
     import pyarrow as pa

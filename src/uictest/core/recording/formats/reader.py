@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 
-from uictest.core.recording.contents import Contents, Group
 from uictest.core.recording.formats.choice import module_of
 from uictest.core.recording.formats.isolation import EXTRA_MISSING, NO_ROOM, REJECTED, TOO_LARGE
 from uictest.core.recording.formats.layout import Dialect
@@ -27,6 +26,7 @@ from uictest.core.recording.formats.problems import (
     MissingExtraError,
     UnreadableError,
 )
+from uictest.core.recording.recording import Contents, Group
 
 _LONGEST_REASON = 500
 _NO_ROOM = {errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)}

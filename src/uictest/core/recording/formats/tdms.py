@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from uictest.core.recording.contents import Contents, Group, Samples
 from uictest.core.recording.formats.problems import check_size, required_module
 from uictest.core.recording.plausibility import STATES, state_kind
-from uictest.core.recording.recording import TIME, Recording
+from uictest.core.recording.recording import TIME, Contents, Group, Recording, Samples
 
 _EXTRA = "tdms"
 _GROUP = "stop"
