@@ -1,6 +1,7 @@
 from .applied import bench_input as bench_input
 from .identified_air import identify_air as identify_air
-from .identified_rig import IDENTIFIED_KEYS as IDENTIFIED_KEYS, identified as identified
+from .identified_case import identified as identified
+from .identified_rig import IDENTIFIED_KEYS as IDENTIFIED_KEYS
 from .recipe import (
     BenchRecipe as BenchRecipe,
     BenchTest as BenchTest,

@@ -14,7 +14,6 @@ from uictest.core.recording import ORIGIN
 from uictest.plans.scenario import (
     COMPENSATION_SETTINGS,
     BrakeSystem,
-    Case,
     Compensation,
     Files,
     Parts,
@@ -192,23 +191,3 @@ def _on_rig(test: BenchTest, scenario: Scenario) -> BenchTest:
         segments.append(segment.model_copy(update=changes))
     recipe = test.recipe.model_copy(update={"inputs": tuple(segments)})
     return replace(test, recipe=recipe, case=replace(test.case, scenario=changed))
-
-
-def identified(case: Case) -> Case:
-    """Return a case whose compensation, where it is to be identified, is: for its caliper, brake and sensors.
-
-    The same rig gives the same numbers, in every process and in every order. What is identified is what the
-    setting of the compensation uses. It takes up to some minutes, once for each distinct rig.
-
-    Raises:
-        UnsuitableRecordError: the bench cannot identify a compensation for the rig; the message says why.
-    """
-    rig = case.scenario.rig
-    if not rig.compensation_model.to_identify or rig.topology != "one-caliper":
-        return case
-    # It brings the bench and the identification, which few stops need.
-    from uictest.rig.bench.identified_rig import identified_compensation
-
-    model = identified_compensation(case.scenario)
-    changed = case.scenario.model_copy(update={"rig": rig.model_copy(update={"compensation_model": model})})
-    return replace(case, scenario=changed)
