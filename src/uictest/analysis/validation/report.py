@@ -66,7 +66,7 @@ def validation_document(validation: Validation, *, every_figure: bool = True) ->
         f"Validation {validation.name}",
         [
             Lines(list(_stop_lines(validation)), "Stops"),
-            Table(_FIGURES, shown, "Figures", "figures.csv has them"),
+            Table(_FIGURES, shown, "Figures", more="figures.csv has them"),
             Lines(list(_domain_lines(validation)), "Domain"),
             Lines([*remarks(validation), *more], "Remarks"),
         ],
