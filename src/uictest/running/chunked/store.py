@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from uictest import report
 from uictest.core import files
 from uictest.running.chunked.manifest import manifest_differences
 
@@ -132,6 +133,7 @@ class ChunkStore:
         return [(int(match[1]), path) for match, path in matches if match]
 
     def _discard(self) -> None:
+        files.remove_listed(self.folder, report.SWEEP_RESULTS)  # other chunks will have another result
         for name in (MANIFEST, *(f"{CHUNKS}/{path.name}" for _, path in self._files())):
             files.remove(self.folder, name)
 
