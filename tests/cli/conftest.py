@@ -1,7 +1,5 @@
 """The program as its users meet it: in a folder of its own, in this process or in one of its own."""
 
-from __future__ import annotations
-
 import shutil
 import signal
 import subprocess
@@ -12,15 +10,19 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from uictest import rig
 from uictest.analysis.summaries import worst
 from uictest.cli.entry import execute
 from uictest.core.measures import STOP_COLUMNS
+from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, error_result
 from uictest.running.campaign import CaseRun, RecordingRequest, batch
 
+STATED = ("--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop")
+"""What `evaluate` asks of a recorded stop."""
 HANGING = 600.0
 """Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""
 PROGRAM = Path(sysconfig.get_path("scripts"), "uictest")
@@ -51,6 +53,15 @@ Call = Callable[..., Answer]
 Start = Callable[..., "subprocess.Popen[str]"]
 Write = Callable[..., Path]
 MadeOnce = Callable[[Callable[[], object]], None]
+
+
+def rolling_train(end: float = 10.5, **changes: Any) -> Recording:
+    """A train of rolling wheels that stops from 10 m/s within ten seconds."""
+    time = np.arange(0.0, end, 0.01)
+    speed = np.maximum(10.0 - time, 0.0)
+    channels = {"time": time, "speed": speed, **{f"wheel_speed_{n}": speed for n in (1, 2, 3, 4)}, **changes}
+    units = {name: "s" if name == "time" else "m/s" for name in channels}
+    return Recording(channels, units, {"brake_command_time": "0 s"})
 
 
 @pytest.fixture(autouse=True)

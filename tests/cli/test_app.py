@@ -1,14 +1,10 @@
-from __future__ import annotations
-
 import re
-from collections.abc import Callable
-from typing import Any
 
 import pytest
 
 import uictest
 
-Call = Callable[..., Any]
+from .conftest import Call
 
 
 def test_the_version(call: Call) -> None:

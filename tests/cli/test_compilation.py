@@ -1,7 +1,5 @@
 """Whoever waits for the compiler is told for what, how far it is, and how long it may still take."""
 
-from __future__ import annotations
-
 import io
 import re
 

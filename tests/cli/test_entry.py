@@ -1,26 +1,19 @@
 """The installed program in a process of its own, with the real rig."""
 
-from __future__ import annotations
-
 import json
 import os
 import resource
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from uictest import rig
 from uictest.plans.scenario import load
 
-from .conftest import HANGING, Start
-
-Call = Callable[..., Any]
-Write = Callable[..., Path]
+from .conftest import HANGING, Call, Write
 
 _LARGE = ("numba", "rich", "pandas", "scipy", "control", "pyarrow", "matplotlib", "plotly")
 _RUNS = (
@@ -86,55 +79,6 @@ def test_the_program_can_be_run_as_a_module(process: Call) -> None:
     assert as_module.stdout == process("--version").out
 
 
-def test_met_0_and_missed_1_with_a_recording(process: Call, scenario: Write) -> None:
-    scenario("stop")
-    answer = process("run")
-    assert answer.code == 0, answer.err
-    assert answer.out.startswith("pass stop outcome=pass expect=pass braking_distance_m=")
-    assert not Path("reports/latest/recordings").exists()
-    scenario("stop", "expect: invalid\n")
-    answer = process("run")
-    assert answer.code == 1, answer.err
-    assert Path("reports/latest/recordings/stop.parquet").is_file()
-
-
-def test_json_on_stdout_and_messages_on_stderr(process: Call, scenario: Write) -> None:
-    scenario("stop")
-    answer = process("run", "--format", "json")
-    assert json.loads(answer.out)["cases"][0]["id"] == "stop"
-    assert "1 case: 1 pass" in answer.err
-
-
-def test_recordings_when_asked(process: Call, scenario: Write) -> None:
-    scenario("stop", "matrix:\n  brake.command: [80 %, 90 %]\n")
-    assert process("run", "--record", "all", "--record-rate", "50").code == 0
-    names = sorted(path.name for path in Path("reports/latest/recordings").iterdir())
-    assert names == ["stop[command=80].parquet", "stop[command=90].parquet"]
-
-
-def test_results_are_the_same_bits_with_and_without_recording_and_on_any_number_of_threads(
-    process: Call, scenario: Write
-) -> None:
-    scenario("stop", "matrix:\n  rail.friction: [0.05, 0.1]\n  rail.condition: [wet]\n")
-    texts = []
-    for name, options in {
-        "a": ["-n1"],
-        "b": ["-n2"],
-        "c": ["--record", "all", "--record-rate", "200"],
-    }.items():
-        process("run", "-o", name, *options)
-        texts.append(json.loads(Path(name, "latest", "results.json").read_text())["cases"])
-    assert texts[0] == texts[1] == texts[2]
-
-
-def test_an_invalid_file_exits_4(process: Call, scenario: Write) -> None:
-    scenario("stop", "brake: {command: 200 %}\n")
-    answer = process("run")
-    assert (answer.code, answer.out) == (4, "")
-    assert "scenarios/stop.yaml:4:" in answer.err
-    assert not Path("reports").exists()
-
-
 def test_a_full_disk_exits_3_and_leaves_nothing(process: Call, scenario: Write) -> None:
     scenario("stop", "expect: invalid\n")
 
@@ -149,58 +93,47 @@ def test_a_full_disk_exits_3_and_leaves_nothing(process: Call, scenario: Write) 
     assert not Path("reports").exists()
 
 
-def test_a_stdout_that_takes_no_more_exits_3(process: Call, scenario: Write) -> None:
+def test_a_met_case_is_recorded_when_asked_and_a_missed_one_always(process: Call, scenario: Write) -> None:
+    scenario("stop", "matrix:\n  brake.command: [80 %, 90 %]\n")
+    answer = process("run", "--record", "all", "--record-rate", "50", "--format", "json")
+    assert answer.code == 0, answer.err
+    ids = ["stop[command=80]", "stop[command=90]"]
+    assert [case["id"] for case in json.loads(answer.out)["cases"]] == ids
+    assert "2 cases: 2 pass" in answer.err
+    assert sorted(path.stem for path in Path("reports/latest/recordings").iterdir()) == ids
     scenario("stop")
-    with Path("/dev/full").open("w") as full:
-        for arguments in (["list"], ["run"], ["--help"]):
-            answer = process(*arguments, stdout=full)
-            assert answer.code == 3, arguments
-            assert "No space left on device" in answer.err
+    answer = process("run")
+    assert answer.code == 0, answer.err
+    assert answer.out.startswith("pass stop outcome=pass expect=pass braking_distance_m=")
+    assert not Path("reports/latest/recordings").exists()
+    scenario("stop", "expect: invalid\n")
+    answer = process("run")
+    assert answer.code == 1, answer.err
+    assert Path("reports/latest/recordings/stop.parquet").is_file()
 
 
-def test_a_reader_that_leaves_is_no_error(process: Call, scenario: Write) -> None:
-    scenario("stop")
-    for arguments in (["list"], ["run"], ["--help"]):
-        reading, writing = os.pipe()
-        os.close(reading)
-        answer = process(*arguments, stdout=writing)
-        os.close(writing)
-        assert answer.code == 0, arguments
-        assert "Traceback" not in answer.err
+def test_results_are_the_same_bits_with_and_without_recording_and_on_any_number_of_threads(
+    call: Call, scenario: Write
+) -> None:
+    scenario("stop", "matrix:\n  rail.friction: [0.05, 0.1]\n  rail.condition: [wet]\n")
+    options = (["-n1"], ["-n2"], ["-n", "auto"], ["--record", "all", "--record-rate", "200"])
+    results = []
+    for given in options:
+        call("run", *given)
+        results.append(json.loads(Path("reports/latest/results.json").read_text())["cases"])
+    assert results == [results[0]] * len(options)
 
 
-def test_ctrl_c_reports_what_is_finished_and_exits_2(start: Start, scenario: Write) -> None:
-    scenario("stop", "rail: {condition: wet}\n")
-    # More lines than a pipe holds: the run cannot end before somebody reads on.
-    values = ["--set", "rail.friction=range(0.1,0.3,0.0004)"]
-    running = start("run", "-n1", *values, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    assert running.stdout is not None
-    assert running.stdout.readline().startswith("pass stop[friction=0.1000]")
-    running.send_signal(signal.SIGINT)
-    # communicate() would miss the lines that readline() has buffered.
-    assert running.stderr is not None
-    out, err = running.stdout.read(), running.stderr.read()
-    assert running.wait(HANGING) == 2, err
-    assert "interrupted" in err
-    document = json.loads(Path("reports/latest/results.json").read_text())
-    assert document["complete"] is False
-    # The signal may come between keeping a result and showing it: nothing that was shown is missing.
-    shown = ["stop[friction=0.1000]", *(line.split()[1] for line in out.splitlines())]
-    assert shown == [case["id"] for case in document["cases"]][: len(shown)]
-    assert len(document["cases"]) < len(shown) + 2
-    assert [path.name for path in Path("reports").iterdir() if path.name.startswith(".")] == []
-
-
-def test_hostile_file_names_are_shown_as_text(process: Call, scenario: Write) -> None:
+def test_hostile_file_names_are_shown_as_text(call: Call, scenario: Write) -> None:
     scenario("stop", file="[red]\x1b[31m\n::error::=1+1.yaml")
     scenario("other", "nonsense: 1\n", file="[bold]\x1b[2J.yaml")
     for arguments in (["check"], ["check", "--format", "github"], ["run"]):
-        answer = process(*arguments)
+        answer = call(*arguments)
         assert answer.code == 4
         assert "\x1b" not in answer.out + answer.err
         assert r"\x1b[2J" in answer.out + answer.err
     Path("scenarios", "[bold]\x1b[2J.yaml").unlink()
     for arguments in (["run", "--format", "text"], ["run", "--format", "github", "--set", "expect=fail"]):
-        answer = process(*arguments)
+        answer = call(*arguments)
         assert "\x1b" not in answer.out + answer.err
         assert not [line for line in answer.out.splitlines() if line.startswith("::error::")]

@@ -1,19 +1,14 @@
 """Foreign code runs in `run` and in nothing that only reads files."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
 import zipfile
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
+from .conftest import Call
 
 HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\n"
 SWEEP = "schema: uictest/sweep/1\nname: s\nscenario: stop.yaml\ngrid: {seed: [1, 2]}\n"
@@ -42,14 +37,27 @@ def _fmu(path: Path, mark: Path) -> None:
         archive.write(path.parent / "inside.so", "binaries/linux64/wsp.so")
 
 
-@pytest.fixture(params=["python", "library", "fmu"])
-def loaded(request: pytest.FixtureRequest, workplace: Path) -> Path:
-    """The file that a controller creates once it is loaded; a scenario and a sweep use that controller."""
+READING = [
+    ["check", "stop.yaml"],
+    ["check", "s.sweep.yaml"],
+    ["list", "stop.yaml"],
+    ["list", "s.sweep.yaml"],
+    ["schema"],
+    ["run", "stop.yaml", "--dry-run"],
+    ["sweep", "s.sweep.yaml", "--dry-run"],
+]
+
+
+@pytest.mark.parametrize("kind", ["python", "library", "fmu"])
+def test_what_reads_files_loads_no_controller_and_a_run_does(call: Call, workplace: Path, kind: str) -> None:
     mark = workplace / "loaded"
-    if request.param == "python":
-        (workplace / "wsp.py").write_text(f"open({str(mark)!r}, 'w').close()\nclass Wsp: ...\n")
-        controller = "{python: wsp.py, class: Wsp}"
-    elif request.param == "library":
+    if kind == "python":
+        (workplace / "wsp.py").write_text(
+            f"open({str(mark)!r}, 'w').close()\nclass Wsp: ...\n"
+            "PARAMETERS = {'share': {'default': 0.0, 'unit': '1'}}\n"
+        )
+        controller = "{python: wsp.py, class: Wsp, parameters: {share: 0.5}}"
+    elif kind == "library":
         _library(workplace / "libwsp.so", mark)
         controller = "{library: libwsp.so}"
     else:
@@ -57,28 +65,10 @@ def loaded(request: pytest.FixtureRequest, workplace: Path) -> Path:
         controller = "{fmu: wsp.fmu}"
     (workplace / "stop.yaml").write_text(f"{HEAD}controller: {controller}\n")
     (workplace / "s.sweep.yaml").write_text(SWEEP)
-    return mark
-
-
-@pytest.mark.parametrize(
-    "command",
-    [
-        ["check", "stop.yaml"],
-        ["check", "s.sweep.yaml"],
-        ["list", "stop.yaml"],
-        ["schema"],
-        ["run", "stop.yaml", "--dry-run"],
-        ["sweep", "s.sweep.yaml", "--dry-run"],
-    ],
-    ids=" ".join,
-)
-def test_what_reads_files_loads_no_controller(call: Call, loaded: Path, command: list[str]) -> None:
-    assert call(*command).code == 0
-    assert not loaded.exists()
-
-
-@pytest.mark.parametrize("loaded", ["python", "library"], indirect=True)
-def test_a_run_loads_it(call: Call, loaded: Path) -> None:
-    """So that the tests above prove something; what is loaded here is no controller."""
-    assert call("run", "stop.yaml").code == 3
-    assert loaded.exists()
+    for command in READING:
+        assert call(*command).code == 0, command
+        assert not mark.exists(), command
+    if kind != "fmu":
+        # So that the lines above prove something; what is loaded here is no controller.
+        assert call("run", "stop.yaml").code == 3
+        assert mark.exists()

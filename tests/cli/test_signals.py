@@ -1,21 +1,18 @@
 """Who asks the program to stop gets exit code 2 and no traceback, at whatever moment."""
 
-from __future__ import annotations
-
 import json
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from itertools import product
 from pathlib import Path
 
 import pytest
 
-from .conftest import HANGING
+from .conftest import HANGING, Write
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are POSIX")
 
-Write = Callable[..., Path]
 ASKING = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
 # Asks as soon as the named module is looked for, which is a moment that does not depend on the machine.
 ASKED_WHILE_IMPORTING = """
@@ -42,9 +39,13 @@ def ignoring() -> None:
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
 
 
-@pytest.mark.parametrize("number", ASKING)
+# Each signal before and after the program has begun, and moments further on.
 @pytest.mark.parametrize(
-    "module", ["uictest.cli.entry", "typer", "uictest.cli.commands.run", "pydantic", "numpy"]
+    ("module", "number"),
+    [
+        *product(["uictest.cli.entry", "uictest.cli.commands.run"], ASKING),
+        *zip(["typer", "pydantic", "numpy"], ASKING, strict=True),
+    ],
 )
 def test_asked_while_it_starts(scenario: Write, module: str, number: signal.Signals) -> None:
     scenario("stop")
@@ -56,21 +57,29 @@ def test_asked_while_it_starts(scenario: Write, module: str, number: signal.Sign
     assert not Path("reports").exists()
 
 
-def test_a_closed_terminal_leaves_what_is_finished(program: Path, scenario: Write) -> None:
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
+def test_ctrl_c_and_a_closed_terminal_leave_what_is_finished(
+    program: Path, scenario: Write, number: signal.Signals
+) -> None:
     scenario("stop", "rail: {condition: wet}\n")
+    # More lines than a pipe holds: the run cannot end before somebody reads on.
     command = [program, "run", "-n1", "--set", "rail.friction=range(0.1,0.3,0.0004)"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, preexec_fn=heeding) as running:
-        assert running.stdout is not None
-        assert running.stdout.readline().startswith("pass stop[friction=0.1000]")
-        running.send_signal(signal.SIGHUP)
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(command, text=True, preexec_fn=heeding, **pipes) as running:  # type: ignore[call-overload]
+        first = running.stdout.readline()
+        running.send_signal(number)
         # communicate() would miss the lines that readline() has buffered.
-        out = running.stdout.read()
-        assert running.wait(HANGING) == 2
+        lines, err = [first, *running.stdout], running.stderr.read()
+        assert running.wait(HANGING) == 2, err
+    assert "interrupted" in err
     document = json.loads(Path("reports/latest/results.json").read_text())
     assert document["complete"] is False
-    # The signal may come between keeping a result and showing it.
-    shown = 1 + len(out.splitlines())
-    assert shown <= len(document["cases"]) <= shown + 1
+    # The signal may come between keeping a result and showing it: nothing that was shown is missing.
+    shown = [line.split()[1] for line in lines]
+    assert shown[0] == "stop[friction=0.1000]"
+    assert shown == [case["id"] for case in document["cases"]][: len(shown)]
+    assert len(document["cases"]) < len(shown) + 2
+    assert [path.name for path in Path("reports").iterdir() if path.name.startswith(".")] == []
 
 
 def test_what_the_caller_ignores_stays_ignored(scenario: Write) -> None:

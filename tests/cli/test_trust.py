@@ -1,14 +1,11 @@
 """`--trust`: folders that references may lead into."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-Call = Callable[..., Any]
+from .conftest import Call
+
 HEAD = "schema: uictest/scenario/1\nname: stop\n"
 SWEEP = "schema: uictest/sweep/1\nname: s\nscenario: stop.yaml\ngrid: {seed: [1, 2]}\n"
 

@@ -1,18 +1,12 @@
 """Arguments that name no usable path: a usage error, whichever command they are given to."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
 
-from uictest.core.recording import Recording, write_parquet
+from uictest.core.recording import write_parquet
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
+from .conftest import Call, Write, rolling_train
 
 LONG = "n" * 300
 COMMANDS = {
@@ -50,9 +44,14 @@ PATHS = {
 }
 
 
+@pytest.fixture(autouse=True)
+def stop(workplace: Path) -> None:
+    write_parquet(rolling_train(0.1), Path("stop.parquet"))
+
+
 @pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
 @pytest.mark.parametrize("arguments", COMMANDS.values(), ids=COMMANDS)
-def test_a_path_that_cannot_be_is_a_usage_error(
+def test_a_path_that_cannot_be_is_a_usage_error_before_anything_is_simulated(
     call: Call, scenario: Write, made_up: list[str], arguments: list[str], path: str
 ) -> None:
     scenario("stop")
@@ -60,14 +59,30 @@ def test_a_path_that_cannot_be_is_a_usage_error(
     Path("circle").symlink_to("circle")
     text = "schema: uictest/sweep/1\nname: two\nscenario: scenarios/stop.yaml\ngrid: {seed: [1, 2]}\n"
     Path("two.sweep.yaml").write_text(text)
-    time = np.arange(10) * 0.1
-    write_parquet(
-        Recording({"time": time, "speed": 1.0 - time}, {"time": "s", "speed": "m/s"}), Path("stop.parquet")
-    )
     answer = call(*(argument.replace("PATH", path) for argument in arguments))
     if answer.code == 0:  # no earlier run, or a file in place of a link
         assert "--lf" in arguments or path == "circle"
         return
+    assert answer.code == 4, answer.err
+    assert "internal error" not in answer.err
+    assert made_up == [] or "--accept" in arguments
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments"),
+    [
+        ("results.json", ["run", "--baseline", "deep"]),
+        ("manifest.json", ["compare", "deep", "deep"]),
+        ("sweep.json", ["report", "deep"]),
+    ],
+)
+def test_json_nested_deeper_than_it_can_be_read_is_a_usage_error(
+    call: Call, scenario: Write, name: str, arguments: list[str]
+) -> None:
+    scenario("stop")
+    Path("deep").mkdir()
+    Path("deep", name).write_text("[" * 100_000)
+    answer = call(*arguments)
     assert answer.code == 4, answer.err
     assert "internal error" not in answer.err
 
@@ -81,10 +96,6 @@ def test_init_onto_a_file_in_the_way_is_a_usage_error(call: Call, workplace: Pat
 
 
 def test_a_page_into_a_folder_that_is_not_there_is_a_usage_error(call: Call, workplace: Path) -> None:
-    time = np.arange(10) * 0.1
-    write_parquet(
-        Recording({"time": time, "speed": 1.0 - time}, {"time": "s", "speed": "m/s"}), Path("stop.parquet")
-    )
     answer = call("compare", "stop.parquet", "stop.parquet", "--html", "none/page.html")
     assert answer.code == 4
     assert "none" in answer.err

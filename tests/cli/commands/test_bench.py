@@ -1,7 +1,5 @@
 """`uictest bench`."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,8 +1,5 @@
-from __future__ import annotations
-
 import json
 import tracemalloc
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +8,7 @@ import pytest
 from uictest.plans import series
 from uictest.plans.scenario import loading
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
+from ..conftest import Call, Write
 
 
 def test_valid_files_exit_0_and_say_how_many(call: Call, scenario: Write) -> None:

@@ -1,39 +1,49 @@
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from uictest.core.recording import Recording, write_parquet
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
+from ..conftest import Call, Write
+
+TAKES = "compare takes the folders of two runs, or two recordings"
 
 
-def _recording(path: str, shift: float = 0.0) -> Path:
-    time = np.linspace(0.0, 10.0, 101)
-    write_parquet(
-        Recording({"time": time, "speed": 30.0 - time + shift}, {"time": "s", "speed": "m/s"}), Path(path)
-    )
-    return Path(path)
-
-
-def test_a_run_and_itself_agree_and_another_differs(call: Call, scenario: Write, made_up: list[str]) -> None:
+@pytest.fixture
+def two_runs(call: Call, scenario: Write, made_up: list[str]) -> tuple[str, str]:
+    """The folders of two runs of the case a, which passes in the first and fails in the other."""
     scenario("a")
     call("run", "-o", "one")
     scenario("a", "tags: [fail]\n")
     call("run", "-o", "other")
-    same = call("compare", "one/latest", "one/latest")
+    return "one/latest", "other/latest"
+
+
+@pytest.fixture
+def recordings(workplace: Path) -> tuple[Path, Path]:
+    """Two recordings, whose speeds differ by 0.5 m/s."""
+    time = np.linspace(0.0, 10.0, 101)
+    paths = Path("a.parquet"), Path("b.parquet")
+    for path, speed in zip(paths, (30.0, 30.5), strict=True):
+        channels = {"time": time, "speed": speed - time}
+        write_parquet(Recording(channels, {"time": "s", "speed": "m/s"}), path)
+    return paths
+
+
+def test_a_run_and_itself_agree_and_another_differs(call: Call, two_runs: tuple[str, str]) -> None:
+    one, other = two_runs
+    same = call("compare", one, one)
     assert (same.code, same.out) == (0, "")
     assert "no difference" in same.err
-    differing = call("compare", "one/latest", "other/latest")
+    differing = call("compare", one, other, "--html", "page.html")
     assert differing.code == 1
     assert "differs  a     outcome" in differing.out
     assert "note: inputs: scenarios/a.yaml" in differing.out
+    why = "a: neither run has a recording"
+    assert f"not drawn: {why}; run both with --record all" in differing.err
+    assert why in Path("page.html").read_text()
 
 
 def test_the_parameter_that_changed_is_named_and_so_it_is_against_a_baseline(
@@ -48,8 +58,8 @@ def test_the_parameter_that_changed_is_named_and_so_it_is_against_a_baseline(
     assert line in call("compare", "one/latest", "other/latest").out.splitlines()
 
 
-def test_recordings_are_compared_channel_by_channel(call: Call) -> None:
-    first, second = _recording("a.parquet"), _recording("b.parquet", shift=0.5)
+def test_recordings_are_compared_channel_by_channel(call: Call, recordings: tuple[Path, Path]) -> None:
+    first, second = recordings
     assert call("compare", first, first).code == 0
     answer = call("compare", first, second, "--html", "page.html")
     assert answer.code == 1
@@ -60,42 +70,40 @@ def test_recordings_are_compared_channel_by_channel(call: Call) -> None:
     assert [each["quantity"] for each in document["differences"]] == ["speed"]
 
 
-def test_channels_are_chosen_for_the_page(call: Call) -> None:
-    first, second = _recording("a.parquet"), _recording("b.parquet", shift=0.5)
+def test_channels_are_chosen_for_the_page(call: Call, recordings: tuple[Path, Path]) -> None:
+    first, second = recordings
     assert call("compare", first, second, "--channel", "speed").code == 4
     answer = call("compare", first, second, "--html", "page.html", "--channel", "sped")
     assert (answer.code, Path("page.html").exists()) == (4, False)
     assert "did you mean 'speed'? both have: speed" in answer.err
 
 
-def test_stops_without_two_recordings_are_named(call: Call, scenario: Write, made_up: list[str]) -> None:
-    scenario("a")
-    call("run", "-o", "one")
-    scenario("a", "tags: [fail]\n")
-    call("run", "-o", "other")
-    answer = call("compare", "one/latest", "other/latest", "--html", "page.html")
-    assert "not drawn: a: neither run has a recording; run both with --record all" in answer.err
-    assert "a: neither run has a recording" in Path("page.html").read_text()
-
-
 @pytest.mark.parametrize(
-    "arguments",
+    ("arguments", "said"),
     [
-        ["missing.parquet", "missing.parquet"],
-        ["notes.txt", "notes.txt"],
-        ["broken.parquet", "broken.parquet"],
-        ["folder", "folder"],
-        ["folder", "a.parquet"],
-        ["a.parquet", "a.parquet", "--tolerance", "much"],
+        (["missing.parquet", "missing.parquet"], "missing.parquet: No such file"),
+        (["notes.txt", "notes.txt"], "notes.txt: no line of samples"),
+        (["one/latest", "scenarios/a.yaml"], f"scenarios/a.yaml is a file; {TAKES}"),
+        (["broken.parquet", "broken.parquet"], "broken.parquet"),
+        (["scenarios", "a.parquet"], f"scenarios holds no run: it has no results.json; {TAKES}"),
+        (["scenarios", "one/latest"], f"scenarios holds no run: it has no results.json; {TAKES}"),
+        (["study", "study"], f"study holds a sweep; {TAKES}"),
+        (["one/latest", "study"], f"study holds a sweep; {TAKES}"),
+        (["one/latest", "nowhere"], f"there is no nowhere; {TAKES}"),
+        (["a.parquet", "a.parquet", "--tolerance", "much"], "Invalid value for --tolerance: 'much'"),
     ],
 )
-def test_what_cannot_be_compared_exits_4(call: Call, arguments: list[str]) -> None:
-    _recording("a.parquet")
-    Path("folder").mkdir()
+@pytest.mark.usefixtures("two_runs", "recordings")
+def test_what_cannot_be_compared_exits_4_and_is_named_for_what_it_is(
+    call: Call, arguments: list[str], said: str
+) -> None:
     for name in ("notes.txt", "broken.parquet"):
         Path(name).write_text("notes")
+    Path("study").mkdir()
+    Path("study/manifest.json").write_text('{"schema": "uictest/sweep-manifest/1"}')
     answer = call("compare", *arguments)
     assert (answer.code, answer.out) == (4, "")
+    assert answer.err.startswith(f"uictest: {said}"), answer.err
     assert "Traceback" not in answer.err
 
 
@@ -152,23 +160,6 @@ def test_variants_without_pairs_exit_5_and_wrong_usage_exits_4(call: Call, scena
         answer = call("compare", *arguments)
         assert (answer.code, answer.out) == (4, ""), arguments
         assert "Traceback" not in answer.err
-
-
-def test_what_is_no_run_is_named_for_what_it_is(call: Call, scenario: Write, made_up: list[str]) -> None:
-    scenario("a")
-    call("run", "-o", "one")
-    Path("study").mkdir()
-    Path("study/manifest.json").write_text('{"schema": "uictest/sweep-manifest/1"}')
-    takes = "; compare takes the folders of two runs, or two recordings\n"
-    for arguments, said in (
-        (("study", "study"), "study holds a sweep"),
-        (("one/latest", "study"), "study holds a sweep"),
-        (("scenarios", "one/latest"), "scenarios holds no run: it has no results.json"),
-        (("one/latest", "nowhere"), "there is no nowhere"),
-        (("one/latest", "scenarios/a.yaml"), "scenarios/a.yaml is a file"),
-    ):
-        answer = call("compare", *arguments)
-        assert (answer.code, answer.err) == (4, f"uictest: {said}{takes}")
 
 
 def test_reports_for_people_are_chosen(call: Call, scenario: Write, made_up: list[str]) -> None:

@@ -1,9 +1,6 @@
-from __future__ import annotations
-
 import json
 import os
 import sys
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,7 +9,8 @@ import pytest
 
 from uictest.selftest import conformance
 
-Call = Callable[..., Any]
+from ..conftest import Call
+
 FILLS = """\
 from uictest.controllers import Outputs
 
@@ -46,9 +44,11 @@ def program(fault: str = "pass") -> Path:
     return path
 
 
-def test_exit_codes_are_those_of_run(call: Call) -> None:
+def test_exit_codes_are_those_of_run_and_junit_has_the_failure(call: Call) -> None:
     assert call("controller", "check", "threshold").code == 0
-    assert call("controller", "check", program()).code == 1
+    assert call("controller", "check", program(), "--junitxml", "check.xml").code == 1
+    assert '<failure message="from the beginning of the slide' in Path("check.xml").read_text("utf-8")
+    assert "fills" not in sys.modules  # the program is not imported here
     assert call("controller", "check", program("raise ValueError")).code == 3
     assert call("controller", "check", "no-such.py").code == 4
 
@@ -76,11 +76,6 @@ def test_a_part_and_a_scenario_name_their_controller(call: Call, text: str) -> N
     answer = call("controller", "check", "file.yaml")
     assert answer.code == 1
     assert "fail vents-sliding" in answer.out
-
-
-def test_junit_has_the_failure(call: Call) -> None:
-    assert call("controller", "check", program(), "--junitxml", "check.xml").code == 1
-    assert '<failure message="from the beginning of the slide' in Path("check.xml").read_text("utf-8")
 
 
 def test_parameters_are_set_as_texts_of_yaml(call: Call) -> None:
@@ -111,8 +106,3 @@ def test_a_hang_ends_and_leaves_no_process(call: Call) -> None:
     assert "step did not return within 0.2 s (cycle 0)" in answer.out
     with pytest.raises(ProcessLookupError):
         os.kill(int(Path("pid").read_text()), 0)
-
-
-def test_the_program_is_not_imported_here(call: Call) -> None:
-    call("controller", "check", program())
-    assert "fills" not in sys.modules

@@ -1,9 +1,5 @@
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,23 +7,13 @@ import pytest
 from uictest.core.recording import Recording
 from uictest.core.recording.formats import ReadingInterruptedError, writer_of
 
-Call = Callable[..., Any]
-STATED = ("--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop")
-
-
-def _recording(end: float = 10.5, **changes: Any) -> Recording:
-    """A train of rolling wheels that stops from 10 m/s within ten seconds."""
-    time = np.arange(0.0, end, 0.01)
-    speed = np.maximum(10.0 - time, 0.0)
-    channels = {"time": time, "speed": speed, **{f"wheel_speed_{n}": speed for n in (1, 2, 3, 4)}, **changes}
-    units = {name: "s" if name == "time" else "m/s" for name in channels}
-    return Recording(channels, units, {"brake_command_time": "0 s"})
+from ..conftest import STATED, Call, Write, rolling_train
 
 
 @pytest.fixture
 def stop(workplace: Path) -> Path:
     path = workplace / "Stop 1.csv"
-    writer_of("csv")(_recording(), path)
+    writer_of("csv")(rolling_train(), path)
     return path
 
 
@@ -54,9 +40,9 @@ def test_json_is_the_document_with_the_preparation_in_it(call: Call, stop: Path)
 def test_the_page_of_a_recorded_stop_draws_the_first_phase_and_says_that_it_is_recorded(
     call: Call, workplace: Path
 ) -> None:
-    time = _recording()["time"]
-    slid = np.where((time > 1.0) & (time < 6.0), 0.8, 1.0) * _recording()["speed"]
-    writer_of("csv")(_recording(wheel_speed_2=slid), workplace / "slid.csv")
+    time = rolling_train()["time"]
+    slid = np.where((time > 1.0) & (time < 6.0), 0.8, 1.0) * rolling_train()["speed"]
+    writer_of("csv")(rolling_train(wheel_speed_2=slid), workplace / "slid.csv")
     stated = (*STATED[2:-1], "uictest-slide.yaml", "--rail", "wet")
     (workplace / "uictest-slide.yaml").write_text(
         "schema: uictest/criteria/1\nname: slide\ncriteria:\n"
@@ -74,14 +60,10 @@ def test_the_page_of_a_recorded_stop_draws_the_first_phase_and_says_that_it_is_r
         assert "one-caliper" not in html
 
 
-def test_a_scenario_states_everything(call: Call, stop: Path, scenario: Callable[..., Path]) -> None:
-    path = scenario("a", "rail: {condition: wet}\n")
-    assert call("evaluate", stop, "--scenario", path).code == 0
-
-
-def test_a_scenario_of_several_cases_needs_a_choice(
-    call: Call, stop: Path, scenario: Callable[..., Path]
+def test_a_scenario_states_everything_and_a_case_of_several_is_chosen(
+    call: Call, stop: Path, scenario: Write
 ) -> None:
+    assert call("evaluate", stop, "--scenario", scenario("a", "rail: {condition: wet}\n")).code == 0
     path = scenario("a", "matrix: {brake.command: [80 %, 90 %]}\n")
     answer = call("evaluate", stop, "--scenario", path)
     assert answer.code == 4
@@ -90,8 +72,8 @@ def test_a_scenario_of_several_cases_needs_a_choice(
 
 
 def test_a_missed_criterion_exits_1_and_keeps_the_samples(call: Call, workplace: Path) -> None:
-    locked = np.where(np.arange(1050) < 200, _recording()["speed"], 0.0)
-    writer_of("parquet")(_recording(wheel_speed_3=locked), workplace / "locked.parquet")
+    locked = np.where(np.arange(1050) < 200, rolling_train()["speed"], 0.0)
+    writer_of("parquet")(rolling_train(wheel_speed_3=locked), workplace / "locked.parquet")
     answer = call("evaluate", "locked.parquet", *STATED)
     assert answer.code == 1
     assert "locked-wheels" in answer.err + answer.out or "fail" in answer.out
@@ -102,7 +84,7 @@ def test_a_missed_criterion_exits_1_and_keeps_the_samples(call: Call, workplace:
 def test_a_record_that_is_cut_off_is_inconclusive_and_exits_1(
     call: Call, workplace: Path, end: float
 ) -> None:
-    writer_of("csv")(_recording(end), workplace / "cut.csv")
+    writer_of("csv")(rolling_train(end), workplace / "cut.csv")
     answer = call("evaluate", "cut.csv", *STATED)
     assert answer.code == 1
     assert answer.out.startswith("inconclusive cut outcome=inconclusive expect=pass")
@@ -114,7 +96,7 @@ def test_a_record_that_is_cut_off_is_inconclusive_and_exits_1(
 
 
 def test_a_record_without_wheel_speeds_is_inconclusive_and_exits_1(call: Call, workplace: Path) -> None:
-    whole = _recording()
+    whole = rolling_train()
     speed_only = {name: whole[name] for name in ("time", "speed")}
     recording = Recording(speed_only, {"time": "s", "speed": "m/s"}, whole.metadata)
     writer_of("csv")(recording, workplace / "speed.csv")

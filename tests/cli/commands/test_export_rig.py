@@ -1,7 +1,4 @@
-from __future__ import annotations
-
 import zipfile
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +6,8 @@ import pytest
 
 from uictest.api import rig_fmu
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
+from ..conftest import Call, Write
+
 TWO_CASES = "matrix:\n  brake.command: [80 %, 90 %]\n"
 
 

@@ -1,9 +1,5 @@
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -11,16 +7,20 @@ from uictest.core.recording import write_parquet
 from uictest.plans.scenario import load
 from uictest.rig import simulate
 
-Call = Callable[..., Any]
+from ..conftest import Call, Write
+
 WET = "rail: {condition: wet, friction: 0.07}\ncriteria: [uictest-stop]\n"
 
 
+def simulated(scenario: Path, recording: str) -> None:
+    """Simulate a scenario and write its recording."""
+    [case] = load([scenario])
+    write_parquet(simulate(case, record_every=0.01).recording, Path(recording))
+
+
 @pytest.fixture
-def recorded(scenario: Callable[..., Path]) -> Path:
-    [case] = load([scenario("real", WET)])
-    recording = simulate(case, record_every=0.01).recording
-    assert recording is not None
-    write_parquet(recording, Path("stop.parquet"))
+def recorded(scenario: Write) -> Path:
+    simulated(scenario("real", WET), "stop.parquet")
     return scenario("guess", WET.replace("0.07", "0.12"))
 
 
@@ -53,23 +53,12 @@ def test_steps_and_pads_and_settings_are_kept(call: Call, recorded: Path) -> Non
     assert float(fitted.scenario.brake.command) == pytest.approx(0.95)
 
 
-def test_a_record_that_cannot_tell_exits_1(call: Call, scenario: Callable[..., Path]) -> None:
+def test_a_record_that_cannot_tell_exits_1(call: Call, scenario: Write) -> None:
     path = scenario("dry", "rail: {condition: dry}\n")
-    [case] = load([path])
-    recording = simulate(case, record_every=0.01).recording
-    assert recording is not None
-    write_parquet(recording, Path("stop.parquet"))
+    simulated(path, "stop.parquet")
     answer = call("fit", "stop.parquet", "--scenario", path)
     assert answer.code == 1
     assert "at least" in answer.out
-
-
-@pytest.mark.parametrize(
-    "arguments", [["--break", "10"], ["--break", "20 m", "--break", "10 m"], ["--set", "rail.friction=x"]]
-)
-def test_usage_errors_exit_4(call: Call, recorded: Path, arguments: list[str]) -> None:
-    assert call("fit", "stop.parquet", "--scenario", recorded, *arguments).code == 4
-    assert not Path("reports").exists()
 
 
 CLEANED = """rail:
@@ -81,12 +70,10 @@ criteria: [uictest-stop]
 
 
 @pytest.fixture
-def cleaned(scenario: Callable[..., Path]) -> Path:
+def cleaned(scenario: Write) -> Path:
     for name, friction in (("first", 0.07), ("second", 0.1)):
-        [case] = load([scenario(name, CLEANED.format(friction=friction, energy="8000 J/m", clean=0.22))])
-        recording = simulate(case, record_every=0.01).recording
-        assert recording is not None
-        write_parquet(recording, Path(f"{name}.parquet"))
+        text = CLEANED.format(friction=friction, energy="8000 J/m", clean=0.22)
+        simulated(scenario(name, text), f"{name}.parquet")
     return scenario("guess", CLEANED.format(friction=0.09, energy="5300 J/m", clean=0.28))
 
 
@@ -109,7 +96,6 @@ def test_several_stops_share_the_cleaning_that_is_found(call: Call, cleaned: Pat
         [fitted] = load([folder / path])
         rail = fitted.scenario.rail
         assert rail.friction == pytest.approx(friction, rel=0.03)
-        assert rail.cleaning is not None
         assert float(rail.cleaning.energy) == pytest.approx(8000.0, rel=0.1)
         assert float(rail.cleaning.recovered_friction) == pytest.approx(0.22, rel=0.05)
 
@@ -121,7 +107,6 @@ def test_cleaning_that_is_not_seen_exits_1_and_is_not_written_as_found(
     assert answer.code == 1
     assert "cleaning is not seen" in answer.out
     [fitted] = load(list(Path("reports").glob("*/guess-fitted.yaml")))
-    assert fitted.scenario.rail.cleaning is not None
     assert float(fitted.scenario.rail.cleaning.energy) > 1e5
     assert float(fitted.scenario.rail.cleaning.recovered_friction) == 0.28
 
@@ -129,14 +114,18 @@ def test_cleaning_that_is_not_seen_exits_1_and_is_not_written_as_found(
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [
+        (["stop.parquet", "--break", "10"], "--break"),
+        (["stop.parquet", "--break", "20 m", "--break", "10 m"], "--break"),
+        (["stop.parquet", "--set", "rail.friction=x"], "rail.friction"),
         (["stop.parquet", "stop.parquet"], "only with --cleaning"),
         (["stop.parquet", "--cleaning", "--pads"], "fit the pads first"),
         (["stop.parquet", "--cleaning"], "the library's values"),
     ],
 )
-def test_what_cannot_be_fitted_together_exits_4(
+def test_what_cannot_be_fitted_exits_4_and_leaves_nothing(
     call: Call, recorded: Path, arguments: list[str], what: str
 ) -> None:
     answer = call("fit", *arguments, "--scenario", recorded)
     assert answer.code == 4
     assert what in " ".join(answer.err.split())
+    assert not Path("reports").exists()

@@ -1,7 +1,5 @@
 """`uictest identify`."""
 
-from __future__ import annotations
-
 import hashlib
 import shutil
 from pathlib import Path
@@ -62,18 +60,34 @@ def read(path) -> Compensation:
     return load_compensation(str(path))
 
 
-def test_hysteresis_writes_a_compensation_with_provenance(call, record, workplace):
-    answer = call("identify", "hysteresis", "record.parquet", "-o", "found.yaml", "--date", "2026-01-02")
+def test_hysteresis_writes_a_compensation_with_provenance_and_marks(call, record, workplace):
+    command = "identify hysteresis record.parquet -o found.yaml"
+    answer = call(*command.split(), "--date", "2026-01-02")
     assert answer.code == 0, answer.err
     assert "bc loop width" in answer.out
     found = read(workplace / "found.yaml")
+    assert (found.name, found.title) == ("record", "Compensation record")
     assert found.hysteresis.bc_squeezing.slope == pytest.approx(SQUEEZING.slope, rel=0.01)
     assert found.hysteresis.wsp_releasing.intercept == pytest.approx(RELEASING.intercept, abs=100.0)
+    sha256 = hashlib.sha256(record.read_bytes()).hexdigest()
     assert found.provenance["hysteresis date"] == "2026-01-02"
-    assert found.provenance["hysteresis command"].startswith("uictest identify hysteresis record.parquet")
-    assert found.provenance["hysteresis record sha256"] == hashlib.sha256(record.read_bytes()).hexdigest()
+    assert found.provenance["hysteresis command"].startswith(f"uictest {command}")
+    assert found.provenance["hysteresis record sha256"] == sha256
+    assert found.provenance["hysteresis record origin"] == "recorded, origin not stated"
+    source = found.sources[found.hysteresis.bc_squeezing.slope.source]
+    assert source.mark == "identified"
+    for part in ("record.parquet", sha256, f"uictest {command}", "largest"):
+        assert part in source.text
+    assert found.sources[found.hysteresis.wsp_acting_time.source].mark == "chosen"
     library = load_part("compensations/six-inch")
     assert tuple(found.cylinder.numerator) == tuple(library.cylinder.numerator)
+    # Facts of an earlier identification do not stay; the origin of a record is what its file states.
+    known = read_parquet(record)
+    write_parquet(Recording(known.channels, known.units, {ORIGIN: "test rig of ours"}), record)
+    assert call(*command.split(), "--base", "found.yaml").code == 0
+    provenance = read(workplace / "found.yaml").provenance
+    assert "hysteresis date" not in provenance
+    assert provenance["hysteresis record origin"] == "test rig of ours"
 
 
 def test_cylinder_keeps_the_lines_of_its_base(call, record, workplace):
@@ -91,52 +105,14 @@ def test_cylinder_keeps_the_lines_of_its_base(call, record, workplace):
     assert found.provenance["cylinder record sha256"] == sha256
 
 
-def test_identified_numbers_are_marked_with_record_hash_command_and_fit(call, record, workplace):
-    assert call("identify", "hysteresis", "record.parquet", "-o", "found.yaml").code == 0
-    found = read(workplace / "found.yaml")
-    source = found.sources[found.hysteresis.bc_squeezing.slope.source]
-    assert source.mark == "identified"
-    for part in (
-        "record.parquet",
-        hashlib.sha256(record.read_bytes()).hexdigest(),
-        "uictest identify hysteresis record.parquet -o found.yaml",
-        "largest",
-    ):
-        assert part in source.text
-    assert found.sources[found.hysteresis.wsp_acting_time.source].mark == "chosen"
-
-
-def test_facts_of_an_earlier_identification_do_not_stay(call, record, workplace):
-    arguments = ("identify", "hysteresis", "record.parquet", "-o", "found.yaml")
-    assert call(*arguments, "--date", "2026-01-02").code == 0
-    assert call(*arguments, "--base", "found.yaml").code == 0
-    assert "hysteresis date" not in read(workplace / "found.yaml").provenance
-
-
-def test_the_origin_of_a_record_is_what_its_file_states(call, record, workplace):
-    def origin(file: str) -> str:
-        assert call("identify", "hysteresis", file, "-o", "found.yaml").code == 0
-        return read(workplace / "found.yaml").provenance["hysteresis record origin"]
-
-    assert origin("record.parquet") == "recorded, origin not stated"
-    known = read_parquet(record)
-    write_parquet(Recording(known.channels, known.units, {ORIGIN: "test rig of ours"}), Path("other.parquet"))
-    assert origin("other.parquet") == "test rig of ours"
-
-
-def test_the_result_is_called_like_its_record_and_never_silently_like_a_library_part(call, record, workplace):
-    assert call("identify", "hysteresis", "record.parquet", "-o", "found.yaml").code == 0
-    assert (read(workplace / "found.yaml").name, read(workplace / "found.yaml").title) == (
-        "record",
-        "Compensation record",
-    )
+def test_a_result_is_never_silently_called_like_a_library_part(call, record, workplace):
     record.rename("Six Inch.parquet")
-    refused = call("identify", "hysteresis", "Six Inch.parquet", "-o", "other.yaml")
+    command = ("identify", "hysteresis", "Six Inch.parquet", "-o", "other.yaml")
+    refused = call(*command)
     assert refused.code == 4
     assert "--name" in refused.err
     assert not Path("other.yaml").exists()
-    named = ("identify", "hysteresis", "Six Inch.parquet", "--name", "ours", "-o", "other.yaml")
-    assert call(*named).code == 0
+    assert call(*command, "--name", "ours").code == 0
     assert read(workplace / "other.yaml").name == "ours"
 
 

@@ -1,14 +1,10 @@
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import jsonschema
 import yaml
 
-Call = Callable[..., Any]
+from ..conftest import Call
 
 
 def test_the_first_scenario_is_valid_for_program_and_editor(call: Call) -> None:

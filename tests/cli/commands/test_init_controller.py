@@ -1,10 +1,6 @@
-from __future__ import annotations
-
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
-Call = Callable[..., Any]
+from ..conftest import Call
 
 
 def test_a_first_controller_is_checked_with_the_command_that_is_shown(call: Call) -> None:

@@ -1,12 +1,8 @@
-from __future__ import annotations
-
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-Call = Callable[..., Any]
+from ..conftest import Call
 
 
 def test_every_part_is_listed_with_its_title(call: Call) -> None:

@@ -1,34 +1,22 @@
-from __future__ import annotations
-
 import json
 import re
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
+from ..conftest import Call, Write
 
 
-def test_one_id_per_line(call: Call, scenario: Write) -> None:
-    scenario("a")
+def test_one_id_per_line_that_can_be_run_and_titles_and_tags_on_demand(
+    call: Call, scenario: Write, made_up: list[str]
+) -> None:
+    scenario("a", "title: A dry stop\ntags: [dry, quick]\n")
     scenario("b", "matrix:\n  brake.command: [80 %, 90 %]\n")
     answer = call("list")
     assert (answer.code, answer.out, answer.err) == (0, "a\nb[command=80]\nb[command=90]\n", "")
-
-
-def test_what_is_listed_can_be_run(call: Call, scenario: Write, made_up: list[str]) -> None:
-    scenario("a", "matrix:\n  brake.command: [80 %, 90 %]\n")
-    listed = call("list", "-k", "90").out.split()
-    call("run", "-k", listed[0])
-    assert made_up == listed == ["a[command=90]"]
-
-
-def test_titles_and_tags_on_demand(call: Call, scenario: Write) -> None:
-    scenario("a", "title: A dry stop\ntags: [dry, quick]\n")
-    assert call("list", "-v").out == "a\tA dry stop\tdry quick\n"
+    assert call("list", "-v", "-k", "a and not b").out == "a\tA dry stop\tdry quick\n"
+    call("run", "-k", "b[command=90]")
+    assert made_up == call("list", "-k", "90").out.split() == ["b[command=90]"]
 
 
 def test_json(call: Call, scenario: Write) -> None:
@@ -84,28 +72,23 @@ def test_requirements_are_listed_with_what_verifies_them(call: Call, scenario: W
     assert (answer.code, answer.err) == (0, "uictest: 2 requirements: 2 covered\n")
 
 
-def test_a_list_shows_what_is_uncovered_and_what_it_does_not_know(
-    call: Call, scenario: Write, workplace: Path
+@pytest.mark.parametrize(("listed", "code"), [("BR-1\nBR-2\n", 1), ("BR-1\n", 0)])
+def test_a_list_shows_what_is_uncovered_and_what_it_does_not_know_and_can_fail(
+    call: Call, scenario: Write, listed: str, code: int
 ) -> None:
     scenario("a", "requirements: [BR-1, BR-X]\n")
-    (workplace / "all.txt").write_text("BR-1\nBR-2\n")
-    answer = call("list", "--requirements", "--requirement-list", "all.txt")
+    Path("all.txt").write_text(listed)
+    command = ("list", "--requirements", "--requirement-list", "all.txt")
+    answer = call(*command)
+    uncovered = ["uncovered\tBR-2\t"] * code
     assert answer.out.splitlines() == [
         "covered\tBR-1\tscenario a (1 case)",
-        "uncovered\tBR-2\t",
+        *uncovered,
         "unknown\tBR-X\tscenario a (1 case)",
     ]
-    assert (answer.code, answer.err) == (0, "uictest: 3 requirements: 1 covered, 1 uncovered, 1 unknown\n")
-
-
-@pytest.mark.parametrize(("listed", "code"), [("BR-1\nBR-2\n", 1), ("BR-1\n", 0)])
-def test_an_uncovered_requirement_can_fail(
-    call: Call, scenario: Write, workplace: Path, listed: str, code: int
-) -> None:
-    scenario("a", "requirements: [BR-1, BR-X]\n")
-    (workplace / "all.txt").write_text(listed)
-    answer = call("list", "--requirements", "--requirement-list", "all.txt", "--fail-uncovered")
-    assert answer.code == code
+    counts = "3 requirements: 1 covered, 1 uncovered" if code else "2 requirements: 1 covered"
+    assert (answer.code, answer.err) == (0, f"uictest: {counts}, 1 unknown\n")
+    assert call(*command, "--fail-uncovered").code == code
 
 
 def test_requirements_as_json(call: Call, scenario: Write) -> None:

@@ -1,20 +1,15 @@
-from __future__ import annotations
-
 import os
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from ..conftest import MadeOnce
-
-Call = Callable[..., Any]
+from ..conftest import Call, MadeOnce, Write
 
 
 @pytest.fixture
-def runs(call: Call, scenario: Callable[..., Path], made_up: list[str], made_once: MadeOnce) -> list[str]:
+def runs(call: Call, scenario: Write, made_up: list[str], made_once: MadeOnce) -> list[str]:
     """The names of two runs below `reports`, oldest first."""
 
     def make() -> None:
@@ -85,9 +80,7 @@ def test_what_is_no_run_is_a_usage_error(call: Call, runs: list[str], name: str)
     assert answer.err.startswith("uictest: ")
 
 
-def test_a_run_without_a_page_says_how_to_write_one(
-    call: Call, scenario: Callable[..., Path], made_up: list[str]
-) -> None:
+def test_a_run_without_a_page_says_how_to_write_one(call: Call, scenario: Write, made_up: list[str]) -> None:
     scenario("stop")
     call("run", "--report", "csv")
     answer = call("open", "--last")

@@ -1,13 +1,9 @@
-from __future__ import annotations
-
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
+from ..conftest import Call, Write
+
 pytestmark = pytest.mark.usefixtures("made_up")
 
 

@@ -1,9 +1,5 @@
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import pytest
@@ -11,8 +7,8 @@ import pytest
 from uictest import report
 from uictest.running import campaign
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
+from ..conftest import Call, Write
+
 pytestmark = pytest.mark.usefixtures("made_up")
 
 
@@ -42,17 +38,14 @@ def test_met_cases_exit_0_with_one_line_each_and_reports_on_disk(call: Call, sce
 
 
 def test_a_missed_case_exits_1_and_an_error_3(call: Call, scenario: Write) -> None:
+    scenario("a", "tags: [fail]\nexpect: fail\n")
+    assert call("run").code == 0
     scenario("a", "tags: [fail]\n")
     assert call("run").code == 1
     scenario("b", "tags: [error]\n")
     answer = call("run")
     assert answer.code == 3
     assert "error b outcome=error expect=pass reason=ZeroDivisionError: no wheel load" in answer.out
-
-
-def test_an_expected_failure_is_met(call: Call, scenario: Write) -> None:
-    scenario("a", "tags: [fail]\nexpect: fail\n")
-    assert call("run").code == 0
 
 
 def test_nothing_selected_exits_5_and_writes_nothing(call: Call, scenario: Write) -> None:
@@ -165,21 +158,15 @@ def test_junit_with_no_place_is_refused_before_the_first_case(
     assert not made_up
 
 
-@pytest.mark.parametrize("file", ["out/junit.xml", "out/latest/other.xml"])
-def test_junit_may_go_into_the_folder_of_the_run(
-    call: Call, scenario: Write, made_up: list[str], file: str
+@pytest.mark.parametrize("file", ["junit.xml", "out/junit.xml", "out/latest/other.xml"])
+def test_junit_is_written_where_it_is_wanted_and_in_the_reports(
+    call: Call, scenario: Write, file: str
 ) -> None:
-    scenario()
-    assert call("run", "-o", "out", "--junitxml", file).code == 0
-    assert Path(file).exists()
-
-
-def test_junit_is_written_where_it_is_wanted_and_in_the_reports(call: Call, scenario: Write) -> None:
     scenario("a", "tags: [fail]\n")
-    call("run", "--junitxml", "junit.xml", "-o", "out")
-    root = ElementTree.parse("junit.xml").getroot()
+    call("run", "--junitxml", file, "-o", "out")
+    root = ElementTree.parse(file).getroot()
     assert root.find("testsuite/testcase/failure") is not None
-    assert Path("out/latest/junit.xml").read_text() == Path("junit.xml").read_text()
+    assert Path("out/latest/junit.xml").read_text() == Path(file).read_text()
 
 
 @pytest.mark.parametrize("option", [["-x"], ["--maxfail", "1"]])
@@ -191,37 +178,6 @@ def test_the_first_missed_case_ends_the_run(call: Call, scenario: Write, option:
     assert answer.out.count("outcome=fail expect=pass") == 1
     assert "2 not run" in answer.err
     assert json.loads(Path("reports/latest/results.json").read_text())["complete"] is False
-
-
-def test_lf_selects_what_failed_last(call: Call, scenario: Write, made_up: list[str]) -> None:
-    scenario("a")
-    scenario("b", "tags: [fail]\n")
-    call("run", "-q")
-    made_up.clear()
-    assert call("run", "--lf").code == 1
-    assert made_up == ["b"]
-    scenario("b")
-    assert call("run", "--lf").code == 0
-    made_up.clear()
-    assert "all are selected" in call("run", "--lf").err
-    assert sorted(made_up) == ["a", "b"]
-
-
-def test_lf_without_an_earlier_run_takes_all(call: Call, scenario: Write) -> None:
-    scenario("a")
-    answer = call("run", "--lf")
-    assert answer.code == 0
-    assert "no earlier run" in answer.err
-
-
-@pytest.mark.parametrize("content", ["", "{", "[]", '{"schema": "other"}', '{"schema": "uictest/result/1"}'])
-def test_lf_with_results_that_cannot_be_read_exits_4(call: Call, scenario: Write, content: str) -> None:
-    scenario("a")
-    call("run")
-    Path("reports/latest/results.json").write_text(content)
-    answer = call("run", "--lf")
-    assert answer.code == 4
-    assert "results.json" in answer.err
 
 
 def test_quiet_shows_only_what_is_not_met(call: Call, scenario: Write) -> None:
@@ -255,27 +211,6 @@ def test_the_manifest_holds_command_seed_and_inputs(call: Call, scenario: Write)
     assert manifest["seed"] == 7
     assert "scenarios/a.yaml" in manifest["inputs"]
     assert str(Path.cwd()) not in json.dumps(manifest)
-
-
-def test_results_do_not_depend_on_threads_or_on_when(call: Call, scenario: Write) -> None:
-    scenario("a", "matrix:\n  rail.friction: [0.1, 0.2, 0.3]\n")
-    texts = []
-    for jobs in ("1", "2", "auto"):
-        call("run", "-n", jobs, "-o", jobs)
-        texts.append([Path(jobs, "latest", name).read_text() for name in ("summary.csv", "wheelsets.csv")])
-    assert texts[0] == texts[1] == texts[2]
-
-
-def test_an_unusable_output_folder_exits_4_before_anything_runs(
-    call: Call, scenario: Write, made_up: list[str]
-) -> None:
-    scenario("a")
-    Path("file").write_text("")
-    answer = call("run", "-o", "file/reports")
-    assert (answer.code, answer.out) == (4, "")
-    assert "file" in answer.err
-    assert "Not a directory" in answer.err
-    assert made_up == []
 
 
 def test_an_internal_error_is_one_line_and_a_traceback_only_with_v(

@@ -1,18 +1,14 @@
 """`uictest run` on cases that repeat their stop, and the commands to which repeats mean nothing."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from ..conftest import Answer
+from ..conftest import Call, Write
 
-Call = Callable[..., Answer]
-Write = Callable[..., Path]
+Call = Call
 
 WET = "rail: {condition: wet, friction: 0.05}\ncriteria: uictest-stop\n"
 
@@ -36,15 +32,6 @@ def test_the_option_repeats_every_stop(call: Call, scenario: Write) -> None:
     call("run", path, "--repeat", "1")
     assert "repeats" not in results()[0]
     assert not Path("reports/latest/repeats.csv").exists()
-
-
-def test_the_number_of_threads_changes_nothing(call: Call, scenario: Write) -> None:
-    path = scenario("stop", WET)
-    documents = []
-    for jobs in ("1", "3"):
-        call("run", path, "--repeat", "4", "-n", jobs)
-        documents.append(results())
-    assert documents[0] == documents[1]
 
 
 def test_reports_are_written_again_from_the_results(call: Call, scenario: Write) -> None:
@@ -102,24 +89,30 @@ def test_a_recording_is_one_stop(call: Call, scenario: Write) -> None:
     assert "stops=" not in answer.out
 
 
-def test_a_sweep_runs_one_stop_per_case(call: Call, scenario: Write) -> None:
-    scenario("stop", f"{WET}repeat: 2\n")
-    head = "schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\n"
+@pytest.mark.parametrize(
+    ("repeat", "grid", "said"),
+    [
+        (2, "seed: [0, 1]", ["'stop.yaml' repeats its stop 2 times", "list or sample `seed`"]),
+        (
+            1,
+            "repeat: [1, 2], outcome_of_repeats: [all, median]",
+            [
+                f"grid.{key}: '{key}' cannot vary: a sweep runs one stop per case"
+                for key in ("repeat", "outcome_of_repeats")
+            ],
+        ),
+    ],
+)
+def test_a_sweep_runs_one_stop_per_case(
+    call: Call, scenario: Write, repeat: int, grid: str, said: list[str]
+) -> None:
+    scenario("stop", f"{WET}repeat: {repeat}\n")
     sweep = Path("scenarios/study.sweep.yaml")
-    sweep.write_text(f"{head}grid: {{seed: [0, 1]}}\n", "utf-8")
+    sweep.write_text(
+        f"schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\ngrid: {{{grid}}}\n", "utf-8"
+    )
     answer = call("sweep", sweep, "--dry-run")
     assert answer.code == 4
-    assert "'stop.yaml' repeats its stop 2 times" in answer.err
-    assert "list or sample `seed`" in answer.err
-    assert call("sweep", sweep, "--dry-run", "--set", "repeat=1").code == 0
-
-
-def test_repeats_cannot_vary_in_a_sweep(call: Call, scenario: Write) -> None:
-    scenario("stop", WET)
-    sweep = Path("scenarios/study.sweep.yaml")
-    head = "schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\n"
-    sweep.write_text(f"{head}grid: {{repeat: [1, 2], outcome_of_repeats: [all, median]}}\n", "utf-8")
-    answer = call("sweep", sweep, "--dry-run")
-    assert answer.code == 4
-    for key in ("repeat", "outcome_of_repeats"):
-        assert f"grid.{key}: '{key}' cannot vary: a sweep runs one stop per case" in answer.err
+    for each in said:
+        assert each in answer.err
+    assert (call("sweep", sweep, "--dry-run", "--set", "repeat=1").code == 0) is (repeat == 2)

@@ -1,13 +1,9 @@
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import jsonschema
 
-Call = Callable[..., Any]
+from ..conftest import Call
 
 
 def test_the_schema_is_draft_07_and_the_same_on_stdout_and_in_a_file(call: Call) -> None:

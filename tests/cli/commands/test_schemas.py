@@ -1,7 +1,5 @@
 """Every kind of file has a schema that its shipped files keep to and that mistakes do not."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 from pathlib import Path

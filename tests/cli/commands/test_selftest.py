@@ -1,12 +1,9 @@
 """`uictest selftest`: exit codes, and the findings as text, JSON and JUnit."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import junitparser
 import pytest
@@ -14,7 +11,7 @@ import pytest
 from uictest import report, selftest
 from uictest.selftest import examination
 
-Call = Callable[..., Any]
+from ..conftest import Call
 
 
 def no_answer(stops: selftest.KnownStops) -> selftest.Answer:
@@ -105,25 +102,23 @@ def test_a_narrow_table_keeps_the_verdict_and_says_what_it_leaves_out(
     )
 
 
-def test_json_has_numbers_as_numbers_and_none_for_what_is_none(call: Call, asks: Callable[..., None]) -> None:
-    asks("met", "nothing")
-    met, nothing = json.loads(call("selftest", "--format", "json").out)["checks"]
-    assert (met["expected"], met["found"], met["tolerance"]) == (1.0, 1.001, 0.01)
-    assert (nothing["status"], nothing["expected"], nothing["found"]) == ("fail", 300.0, None)
-
-
 def test_numbers_that_differ_in_the_tenth_digit_are_told_apart(call: Call, asks: Callable[..., None]) -> None:
     asks("close")
     assert "1.000000001" in call("selftest").out
 
 
-def test_json_has_the_installation_and_every_finding(call: Call, asks: Callable[..., None]) -> None:
-    asks(*FOUR)
+def test_json_has_the_installation_and_every_finding_with_numbers_as_numbers(
+    call: Call, asks: Callable[..., None]
+) -> None:
+    asks(*FOUR, "nothing")
     document = json.loads(call("selftest", "--format", "json").out)
     assert (document["schema"], document["status"]) == ("uictest/selftest/2", "error")
     assert {"uictest", "python", "processor", "numpy"} <= set(document["about"])
-    assert [each["status"] for each in document["checks"]] == ["pass", "fail", "error", "skipped"]
-    assert document["checks"][1] == {
+    met, missed, *_, nothing = document["checks"]
+    assert [each["status"] for each in document["checks"]] == ["pass", "fail", "error", "skipped", "fail"]
+    assert (met["expected"], met["found"], met["tolerance"]) == (1.0, 1.001, 0.01)
+    assert (nothing["expected"], nothing["found"]) == (300.0, None)
+    assert missed == {
         "id": "stop",
         "group": "numerics",
         "requirement": "a stop",
@@ -136,21 +131,15 @@ def test_json_has_the_installation_and_every_finding(call: Call, asks: Callable[
     }
 
 
-def test_junit_has_a_testcase_for_every_question(call: Call, asks: Callable[..., None]) -> None:
-    asks(*FOUR)
-    call("selftest", "--junitxml", "selftest.xml")
-    [suite] = junitparser.JUnitXml.fromfile(str(Path("selftest.xml")))
-    assert (suite.tests, suite.failures, suite.errors, suite.skipped) == (4, 1, 1, 1)
-    kinds = [type(case.result[0]).__name__ if case.result else "" for case in suite]
-    assert kinds == ["", "Failure", "Error", "Skipped"]
-    assert {"uictest", "processor", "stored stops"} <= {each.name for each in suite.properties()}
-
-
-def test_the_message_of_a_failure_is_its_reason_or_else_what_was_expected_and_found(
+def test_junit_has_a_testcase_for_every_question_that_says_why_it_failed(
     call: Call, asks: Callable[..., None]
 ) -> None:
-    asks("missed", "nothing")
+    asks(*FOUR, "nothing")
     call("selftest", "--junitxml", "selftest.xml")
     [suite] = junitparser.JUnitXml.fromfile(str(Path("selftest.xml")))
-    messages = [case.result[0].message for case in suite]
-    assert messages == ["1 differs", "air: expected 300, found nan"]
+    assert (suite.tests, suite.failures, suite.errors, suite.skipped) == (5, 2, 1, 1)
+    kinds = [type(case.result[0]).__name__ if case.result else "" for case in suite]
+    assert kinds == ["", "Failure", "Error", "Skipped", "Failure"]
+    messages = [case.result[0].message for case in suite if case.result]
+    assert (messages[0], messages[-1]) == ("1 differs", "air: expected 300, found nan")
+    assert {"uictest", "processor", "stored stops"} <= {each.name for each in suite.properties()}

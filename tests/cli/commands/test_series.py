@@ -1,9 +1,6 @@
 """Series as users meet them: run, listed, checked, reported again, evaluated from recordings."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -14,8 +11,8 @@ from uictest.core import recording
 from uictest.core.recording.formats import writer_of
 from uictest.judging import series
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
+from ..conftest import Call, Write
+
 DRY = "tags: [reference]\nrail: {condition: dry}\ncriteria: uictest-stop\n"
 WET = "rail: {condition: wet, friction: 0.06}\ncriteria: uictest-stop\n"
 PROFILE = """schema: uictest/criteria/1
@@ -34,7 +31,7 @@ criteria: own.yaml
 
 
 @pytest.fixture
-def campaign(scenario: Write) -> Callable[..., Path]:
+def campaign(scenario: Write) -> Write:
     """scenarios/small.series.yaml with a dry stop and two wet ones from 30 km/h, and its own criteria."""
 
     def write(limit: str = "900 % of the dry stop", text: str = "") -> Path:
@@ -48,7 +45,7 @@ def campaign(scenario: Write) -> Callable[..., Path]:
     return write
 
 
-def test_requirements_of_series_are_listed(call: Call, campaign: Callable[..., Path]) -> None:
+def test_requirements_of_series_are_listed(call: Call, campaign: Write) -> None:
     path = campaign(text="requirements: [BR-1, BR-2]\n")
     answer = call("list", path, "--requirements")
     assert answer.out == "covered\tBR-1\tseries small (1 series)\ncovered\tBR-2\tseries small (1 series)\n"
@@ -56,17 +53,11 @@ def test_requirements_of_series_are_listed(call: Call, campaign: Callable[..., P
     assert first["verified_by"] == [{"series": "small", "cases": [], "series_ids": ["small"]}]
 
 
-def test_an_id_that_a_series_names_twice_is_refused(call: Call, campaign: Callable[..., Path]) -> None:
-    answer = call("check", campaign(text="requirements: [BR-1, BR-1]\n"))
-    assert answer.code == 4
-    assert "small.series.yaml:8:22: requirements.1: 'BR-1' appears twice" in answer.err
-
-
 def results() -> Any:
     return json.loads(Path("reports/latest/results.json").read_text())
 
 
-def test_a_series_is_run_judged_and_reported(call: Call, campaign: Callable[..., Path]) -> None:
+def test_a_series_is_run_judged_and_reported(call: Call, campaign: Write) -> None:
     answer = call("run", campaign(), "--report", "csv,html,md,xlsx")
     assert answer.code == 0
     assert answer.out.splitlines()[0].startswith("pass small outcome=pass expect=pass k_wet=0.")
@@ -81,14 +72,16 @@ def test_a_series_is_run_judged_and_reported(call: Call, campaign: Callable[...,
     assert results()["cases"] == []
 
 
-def test_a_series_that_misses_a_criterion_is_a_miss(call: Call, campaign: Callable[..., Path]) -> None:
-    answer = call("run", campaign("101 % of the dry stop"))
+def test_a_series_that_misses_a_criterion_is_a_miss(call: Call, campaign: Write) -> None:
+    answer = call("run", campaign("101 % of the dry stop"), "--format", "github")
     assert answer.code == 1
     assert "fail small" in answer.out
+    assert "::error file=scenarios/small.series.yaml,title=fail small::fail: " in answer.out
+    assert call("run", "scenarios", "--lf", "--dry-run").out.splitlines()[0] == "small"
     assert call("run", campaign("101 % of the dry stop", "expect: fail\n")).code == 0
 
 
-def test_a_series_stands_beside_the_scenarios_of_a_folder(call: Call, campaign: Callable[..., Path]) -> None:
+def test_a_series_stands_beside_the_scenarios_of_a_folder(call: Call, campaign: Write) -> None:
     campaign()
     answer = call("run", "scenarios")
     assert answer.code == 0
@@ -101,19 +94,14 @@ def test_a_series_stands_beside_the_scenarios_of_a_folder(call: Call, campaign: 
     assert [case["id"] for case in results()["cases"]] == ["dry", "wet"]
 
 
-def test_the_document_is_all_that_json_prints(call: Call, campaign: Callable[..., Path]) -> None:
+def test_the_document_is_all_that_json_prints(call: Call, campaign: Write) -> None:
     document = json.loads(call("run", campaign(), "--format", "json").out)
     (read,) = series.series_results_of(document["series"])
     assert (read.id, read.outcome) == ("small", "pass")
     assert [stop.seed for stop in series.observed_stops(read.cases, 3.0)] == [None, 0, 1]
 
 
-def test_github_gets_an_annotation(call: Call, campaign: Callable[..., Path]) -> None:
-    answer = call("run", campaign("101 % of the dry stop"), "--format", "github")
-    assert "::error file=scenarios/small.series.yaml,title=fail small::fail: " in answer.out
-
-
-def test_a_dry_run_and_a_list_name_the_stops(call: Call, campaign: Callable[..., Path]) -> None:
+def test_a_dry_run_and_a_list_name_the_stops(call: Call, campaign: Write) -> None:
     path = campaign()
     for arguments in (("run", path, "--dry-run"), ("list", path)):
         assert call(*arguments).out.splitlines() == ["small", "  dry small.dry", "  wet small.wet x 2"]
@@ -131,20 +119,20 @@ def test_a_dry_run_and_a_list_name_the_stops(call: Call, campaign: Callable[...,
     ],
 )
 def test_series_are_selected_like_cases(
-    call: Call, campaign: Callable[..., Path], options: tuple[str, str], ids: list[str]
+    call: Call, campaign: Write, options: tuple[str, str], ids: list[str]
 ) -> None:
     campaign()
     listed = call("list", "scenarios", *options).out.splitlines()
     assert [line for line in listed if not line.startswith(" ")] == ids
 
 
-def test_nothing_selected_names_the_tags_of_series(call: Call, campaign: Callable[..., Path]) -> None:
+def test_nothing_selected_names_the_tags_of_series(call: Call, campaign: Write) -> None:
     answer = call("run", campaign(), "-k", "nothing")
     assert answer.code == 5
     assert "0 cases and 1 series; their tags: acceptance" in answer.err
 
 
-def test_set_seed_and_repeat_reach_all_stops(call: Call, campaign: Callable[..., Path]) -> None:
+def test_set_seed_and_repeat_reach_all_stops(call: Call, campaign: Write) -> None:
     path = campaign()
     assert call("run", path, "--set", "rig.wsp=bypassed", "--seed", "40", "--repeat", "3").code in (0, 1)
     (read,) = series.series_results_of(results()["series"])
@@ -159,7 +147,7 @@ def test_set_seed_and_repeat_reach_all_stops(call: Call, campaign: Callable[...,
     assert values == {"bypassed"}
 
 
-def test_the_first_series_that_is_missed_ends_the_run(call: Call, campaign: Callable[..., Path]) -> None:
+def test_the_first_series_that_is_missed_ends_the_run(call: Call, campaign: Write) -> None:
     path = campaign("101 % of the dry stop", "matrix: {controller: [threshold, slip-band]}\n")
     assert "fail small[controller=slip-band]" not in call("run", path, "-x").out
     (read,) = series.series_results_of(results()["series"])
@@ -169,7 +157,7 @@ def test_the_first_series_that_is_missed_ends_the_run(call: Call, campaign: Call
 
 @pytest.mark.parametrize(("maxfail", "series_run"), [(1, 0), (2, 1), (3, 2)])
 def test_cases_that_are_missed_count_towards_the_series_that_may_be(
-    call: Call, scenario: Write, campaign: Callable[..., Path], maxfail: int, series_run: int
+    call: Call, scenario: Write, campaign: Write, maxfail: int, series_run: int
 ) -> None:
     path = campaign("101 % of the dry stop", "matrix: {controller: [threshold, slip-band]}\n")
     alone = scenario("alone", "criteria: uictest-stop\nexpect: fail\n")
@@ -180,29 +168,30 @@ def test_cases_that_are_missed_count_towards_the_series_that_may_be(
     assert ("series" in written) == (series_run > 0)
 
 
-def test_missed_series_are_selected_again(call: Call, campaign: Callable[..., Path]) -> None:
-    campaign("101 % of the dry stop")
-    call("run", "scenarios")
-    assert call("run", "scenarios", "--lf", "--dry-run").out.splitlines()[0] == "small"
-
-
-def test_check_finds_the_errors_of_series(call: Call, campaign: Callable[..., Path]) -> None:
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("wet.yaml", "wett.yaml", "6:6: wet: no such file: 'wett.yaml'"),
+        ("tags: [acceptance]", "requirements: [BR-1, BR-1]", "3:22: requirements.1: 'BR-1' appears twice"),
+    ],
+)
+def test_check_finds_the_errors_of_series(call: Call, campaign: Write, old: str, new: str, said: str) -> None:
     path = campaign()
     assert "and 1 series, no error" in call("check", "scenarios").err
-    path.write_text(SERIES.replace("wet.yaml", "wett.yaml"))
+    path.write_text(SERIES.replace(old, new))
     answer = call("check", "scenarios")
     assert answer.code == 4
-    assert "scenarios/small.series.yaml:6:6: wet: no such file: 'wett.yaml'" in answer.err
+    assert f"scenarios/small.series.yaml:{said}" in answer.err
 
 
-def test_a_finished_run_is_reported_again(call: Call, campaign: Callable[..., Path]) -> None:
+def test_a_finished_run_is_reported_again(call: Call, campaign: Write) -> None:
     call("run", campaign())
     assert call("report", "reports/latest", "--format", "junit,md,csv", "-o", "again").code == 0
     for name in ("series.csv", "series-stops.csv", "series-criteria.csv"):
         assert Path("again", name).read_text() == Path("reports/latest", name).read_text()
 
 
-def test_a_series_is_compared_with_its_baseline(call: Call, campaign: Callable[..., Path]) -> None:
+def test_a_series_is_compared_with_its_baseline(call: Call, campaign: Write) -> None:
     path = campaign()
     assert call("run", path, "--baseline", "kept", "--accept").code == 0
     same = call("run", path, "--baseline", "kept")
@@ -219,15 +208,23 @@ def test_a_series_is_compared_with_its_baseline(call: Call, campaign: Callable[.
     assert call("run", path, "--baseline", "kept").code == 0
 
 
-def test_series_are_not_run_in_real_time(call: Call, campaign: Callable[..., Path]) -> None:
-    answer = call("run", campaign(), "--real-time")
-    assert answer.code == 4
-    assert "is a series" in answer.err
-
-
-def test_recorded_stops_give_the_figures_of_the_simulated_ones(
-    call: Call, campaign: Callable[..., Path]
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        (("run", "--real-time"), "is a series"),
+        (("evaluate",), "small.dry names no recording: list them under `recordings`"),
+        (("evaluate", "--rail", "wet"), "a series says itself"),
+    ],
+)
+def test_what_a_series_cannot_be_used_for_is_said(
+    call: Call, campaign: Write, command: tuple[str, ...], said: str
 ) -> None:
+    answer = call(command[0], campaign(), *command[1:])
+    assert answer.code == 4
+    assert said in answer.err
+
+
+def test_recorded_stops_give_the_figures_of_the_simulated_ones(call: Call, campaign: Write) -> None:
     path = campaign()
     call("run", path, "--repeat", "1", "--record", "all", "--record-rate", "1000")
     (simulated,) = series.series_results_of(results()["series"])
@@ -250,15 +247,3 @@ def test_recorded_stops_give_the_figures_of_the_simulated_ones(
         if other is not None:  # no record holds every measure
             assert other.value == pytest.approx(one.value, rel=5e-3), name
     assert recorded.measures["k_wet"].estimate is not None
-
-
-def test_a_recorded_series_needs_recordings(call: Call, campaign: Callable[..., Path]) -> None:
-    answer = call("evaluate", campaign())
-    assert answer.code == 4
-    assert "small.dry names no recording: list them under `recordings`" in answer.err
-
-
-def test_a_recorded_series_says_itself_what_was_tested(call: Call, campaign: Callable[..., Path]) -> None:
-    answer = call("evaluate", campaign(), "--rail", "wet")
-    assert answer.code == 4
-    assert "a series says itself" in answer.err

@@ -1,11 +1,9 @@
 """`uictest validate` and `uictest run --validated`: hand-made recordings with a known bias."""
 
-from __future__ import annotations
-
 import csv
 import json
 import shutil
-from collections.abc import Callable
+from html import unescape
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -17,10 +15,8 @@ from openpyxl import load_workbook
 from uictest.analysis.validation import read_validation
 from uictest.running.campaign import batch
 
-from ..conftest import FIGURES, MadeOnce
+from ..conftest import FIGURES, Call, MadeOnce, Write
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
 SIMULATED = FIGURES["braking_distance_m"]
 """What every simulation comes to here, m."""
 
@@ -37,7 +33,7 @@ def record(name: str, distance: float, speed_kmh: float = 30.0) -> str:
 
 
 @pytest.fixture
-def validate(call: Call, scenario: Write, made_up: list[str]) -> Callable[..., Any]:
+def validate(call: Call, scenario: Write, made_up: list[str]) -> Call:
     """Validate records, whose simulation is made up, against a stop from 30 km/h."""
     scenario("stop", "rail: {condition: wet, friction: 0.1}\n")
     Path("map.yaml").write_text(
@@ -54,8 +50,7 @@ def validate(call: Call, scenario: Write, made_up: list[str]) -> Callable[..., A
 
 
 def newest() -> Path:
-    [folder] = Path("reports").glob("validation-*")
-    return folder
+    return max(Path("reports").glob("validation-*"), key=lambda folder: folder.stat().st_mtime_ns)
 
 
 def rows(name: str) -> list[dict[str, str]]:
@@ -63,12 +58,23 @@ def rows(name: str) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_a_known_bias_of_the_distance_is_found(validate: Callable[..., Any]) -> None:
+def distance(table: str = "figures.csv") -> dict[str, str]:
+    """The row of the braking distance."""
+    [row] = [row for row in rows(table) if row["figure"] == "braking_distance_m"]
+    return row
+
+
+def run_results() -> dict[str, Any]:
+    document: dict[str, Any] = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+    return document
+
+
+def test_a_known_bias_of_the_distance_is_found(validate: Call) -> None:
     """Simulated stops are 5, 10 and 15 m longer than these records: bias 10 m, deviation 5 m."""
     files = [record(f"r{error}.csv", SIMULATED - error) for error in (5, 10, 15)]
     answer = validate(f"recordings: [{', '.join(files)}]")
     assert answer.code == 0
-    [figure] = [row for row in rows("figures.csv") if row["figure"] == "braking_distance_m"]
+    figure = distance()
     assert figure["stops"] == "3"
     assert float(figure["bias"]) == pytest.approx(10.0, abs=1e-3)
     assert float(figure["deviation"]) == pytest.approx(5.0, abs=1e-3)
@@ -82,35 +88,35 @@ def test_a_known_bias_of_the_distance_is_found(validate: Callable[..., Any]) -> 
     assert any(line.startswith("braking_distance_m") and "+10" in line for line in lines)
 
 
-def test_every_stop_is_in_the_table_of_stops_with_its_difference(validate: Callable[..., Any]) -> None:
+def test_every_stop_is_in_the_table_of_stops_with_its_difference(validate: Call) -> None:
     validate(f"recordings: [{record('a.csv', SIMULATED - 5.0)}]")
-    [row] = [each for each in rows("stops.csv") if each["figure"] == "braking_distance_m"]
+    row = distance("stops.csv")
     assert (row["stop"], row["recording"], row["counted"]) == ("my-train.stop.a", "a.csv", "true")
     assert float(row["simulated"]) == SIMULATED
     assert float(row["difference"]) == pytest.approx(5.0, abs=1e-3)
 
 
-def test_one_stop_claims_no_spread(validate: Callable[..., Any]) -> None:
+def test_one_stop_claims_no_spread(validate: Call) -> None:
     answer = validate(f"recordings: [{record('a.csv', SIMULATED)}]")
     assert "not compared, as no counted stop has both: " in answer.out
     assert "maximum_disc_temperature_degc_1" not in answer.out
     assert "one stop: it shows a difference, and nothing of bias or spread" in answer.out
-    [figure] = [row for row in rows("figures.csv") if row["figure"] == "braking_distance_m"]
+    figure = distance()
     assert (figure["deviation"], figure["bias_low"], figure["limits_high"]) == ("", "", "")
 
 
-def test_a_stop_that_the_numbers_come_from_is_listed_and_not_counted(validate: Callable[..., Any]) -> None:
+def test_a_stop_that_the_numbers_come_from_is_listed_and_not_counted(validate: Call) -> None:
     used, other = record("used.csv", SIMULATED - 100.0), record("other.csv", SIMULATED - 5.0)
     answer = validate(f"recordings: [{used}], tuned: true", f"recordings: [{other}]")
     assert answer.code == 0
     assert "not counted: numbers of its scenario were found with it" in answer.out
-    [figure] = [row for row in rows("figures.csv") if row["figure"] == "braking_distance_m"]
+    figure = distance()
     assert (figure["stops"], float(figure["bias"])) == ("1", pytest.approx(5.0, abs=1e-3))
     assert "1 of 2 recorded stops counted" in answer.err
 
 
 def test_every_recorded_stop_has_a_draw_of_its_own_whatever_the_others_are(
-    validate: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+    validate: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """One draw for all stops of a speed would make the interval of the bias too narrow."""
     simulated: dict[str, int] = {}
@@ -137,7 +143,7 @@ def test_every_recorded_stop_has_a_draw_of_its_own_whatever_the_others_are(
     assert simulated == {"r15": seeds["r15"], "r5": seeds["r5"]}
 
 
-def test_two_files_of_one_name_are_not_compared_with_one_simulation(validate: Callable[..., Any]) -> None:
+def test_two_files_of_one_name_are_not_compared_with_one_simulation(validate: Call) -> None:
     for folder in ("monday", "tuesday"):
         Path(folder).mkdir()
         record(f"{folder}/run.csv", SIMULATED)
@@ -147,43 +153,32 @@ def test_two_files_of_one_name_are_not_compared_with_one_simulation(validate: Ca
     assert list(Path("reports").glob("*")) == []
 
 
-def test_a_copy_of_a_record_is_no_second_stop(validate: Callable[..., Any]) -> None:
+def test_a_copy_of_a_record_is_no_second_stop(validate: Call) -> None:
     copy = Path(shutil.copy(record("a.csv", SIMULATED - 5.0), "b.csv"))
     answer = validate(f"recordings: [a.csv, {copy}]")
     assert answer.code == 1
     assert "stop my-train.stop.b from 30 km/h" in answer.out
     assert "not counted: a copy of a.csv" in answer.out
-    [figure] = [row for row in rows("figures.csv") if row["figure"] == "braking_distance_m"]
-    assert (figure["stops"], figure["deviation"]) == ("1", "")
-
-
-def test_a_copy_of_a_record_that_the_numbers_come_from_does_not_count(validate: Callable[..., Any]) -> None:
-    copy = Path(shutil.copy(record("used.csv", SIMULATED), "again.csv"))
-    answer = validate(f"recordings: [{copy}]", "recordings: [used.csv], tuned: true")
+    assert (distance()["stops"], distance()["deviation"]) == ("1", "")
+    answer = validate(f"recordings: [{copy}]", "recordings: [a.csv], tuned: true")
     assert answer.code == 1
-    assert "not counted: a copy of used.csv" in answer.out
+    assert "not counted: a copy of a.csv" in answer.out
     assert "0 of 2 recorded stops counted" in answer.err
 
 
-def test_a_stop_from_another_speed_than_its_scenario_is_not_counted(validate: Callable[..., Any]) -> None:
+def test_a_stop_from_another_speed_than_its_scenario_is_not_counted(validate: Call) -> None:
     near, far = record("near.csv", SIMULATED, 32.0), record("far.csv", SIMULATED, 34.0)
-    slow = record("slow.csv", SIMULATED, 26.0)
-    answer = validate(f"recordings: [{near}, {far}, {slow}]")
+    slow, copy = record("slow.csv", SIMULATED, 26.0), shutil.copy("far.csv", "copy.csv")
+    answer = validate(f"recordings: [{near}, {far}, {slow}, {copy}]")
     assert answer.code == 1
     why = "not counted: its scenario begins at 30 km/h, more than 3 km/h away"
-    assert f"stop my-train.stop.far from 34 km/h: {why}" in answer.out
-    assert f"stop my-train.stop.slow from 26 km/h: {why}" in answer.out
+    for name, speed in (("far", 34), ("slow", 26), ("copy", 34)):
+        assert f"stop my-train.stop.{name} from {speed} km/h: {why}" in answer.out
     validation = read_validation(newest() / "validation.json").validation
     assert [stop.id for stop in validation.counted] == ["my-train.stop.near"]
 
 
-def test_copies_that_cannot_be_compared_say_why_all_the_same(validate: Callable[..., Any]) -> None:
-    copy = Path(shutil.copy(record("far.csv", SIMULATED, 34.0), "further.csv"))
-    answer = validate(f"recordings: [far.csv, {copy}]")
-    assert answer.out.count("not counted: its scenario begins at 30 km/h") == 2
-
-
-def test_a_record_without_an_end_is_named_and_the_others_count(validate: Callable[..., Any]) -> None:
+def test_a_record_without_an_end_is_named_and_the_others_count(validate: Call) -> None:
     Path("bad.csv").write_text("time [s],speed [m/s]\n0,8\n1,nan\n")
     answer = validate(f"recordings: [bad.csv, {record('good.csv', SIMULATED)}]")
     assert answer.code == 1
@@ -194,9 +189,7 @@ def test_a_record_without_an_end_is_named_and_the_others_count(validate: Callabl
     assert [domain.stops for domain in validation.domains] == [1]
 
 
-def test_a_simulation_that_fails_is_an_error_and_never_a_figure(
-    validate: Callable[..., Any], scenario: Write
-) -> None:
+def test_a_simulation_that_fails_is_an_error_and_never_a_figure(validate: Call, scenario: Write) -> None:
     scenario("stop", "tags: [error]\n")
     answer = validate(f"recordings: [{record('a.csv', SIMULATED)}]")
     assert answer.code == 3
@@ -204,7 +197,7 @@ def test_a_simulation_that_fails_is_an_error_and_never_a_figure(
     assert rows("figures.csv") == []
 
 
-def test_json_is_the_document_that_is_written(validate: Callable[..., Any]) -> None:
+def test_json_is_the_document_that_is_written(validate: Call) -> None:
     answer = validate(f"recordings: [{record('a.csv', SIMULATED)}]", options=("--format", "json"))
     assert answer.out == (newest() / "validation.json").read_text("utf-8")
     document = json.loads(answer.out)
@@ -223,7 +216,7 @@ def test_a_series_without_recordings_says_what_to_write(call: Call, scenario: Wr
 
 
 @pytest.fixture
-def validated(validate: Callable[..., Any], made_once: MadeOnce) -> Path:
+def validated(validate: Call, made_once: MadeOnce) -> Path:
     """The document of a validation from 29 to 31 km/h."""
 
     def make() -> None:
@@ -234,32 +227,31 @@ def validated(validate: Callable[..., Any], made_once: MadeOnce) -> Path:
     return newest() / "validation.json"
 
 
-def test_cases_outside_of_what_was_validated_are_flagged_everywhere(call: Call, validated: Path) -> None:
+def test_cases_outside_of_what_was_validated_are_flagged(call: Call, validated: Path) -> None:
     changes = ("--set", "initial_speed=30 km/h,40 km/h")
     answer = call("run", "scenarios/stop.yaml", *changes, "--validated", validated, "--report", "html,xlsx")
     assert answer.code == 0
     flags = [line for line in answer.out.splitlines() if line.startswith("outside")]
-    assert flags == [
-        "outside stop[initial_speed=40kmh] of what my-train validated: initial_speed 40 km/h > 31 km/h"
-    ]
-    assert "1 of 2 cases outside of what my-train validated" in answer.err
-    folder = Path("reports/latest")
-    results = json.loads((folder / "results.json").read_text("utf-8"))
-    inside, outside = (case["domain_of_validity"] for case in results["cases"])
+    why = "initial_speed 40 km/h > 31 km/h"
+    assert flags == [f"outside stop[initial_speed=40kmh] of what my-train validated: {why}"]
+    count = "1 of 2 cases outside of what my-train validated"
+    flag = f"outside of what my-train validated: {why}"
+    assert count in answer.err
+    inside, outside = (case["domain_of_validity"] for case in run_results()["cases"])
     assert (inside["validation"], inside["outside"]) == ("my-train", [])
     assert [each["key"] for each in outside["outside"]] == ["initial_speed"]
-    page = (folder / "index.html").read_text("utf-8")
-    assert "1 of 2 cases outside of what my-train validated" in page
-    assert page.count("outside of what my-train validated: initial_speed 40 km/h &gt; 31 km/h") == 1
-    flag = "outside of what my-train validated: initial_speed 40 km/h > 31 km/h"
+    folder = Path("reports/latest")
+    manifest = json.loads((folder / "manifest.json").read_text("utf-8"))
+    assert inside["sha256"] in manifest["inputs"].values()
+    page = unescape((folder / "index.html").read_text("utf-8"))
+    assert count in page
+    assert page.count(flag) == 1
     said = [each.text or "" for each in ElementTree.parse(folder / "junit.xml").iter("system-out")]
     assert sum(flag in text for text in said) == 1
     workbook = load_workbook(folder / "report.xlsx", read_only=True)
     cells = {name: [cell for row in workbook[name].values for cell in row] for name in ("Cover", "Cases")}
-    assert "1 of 2 cases outside of what my-train validated" in cells["Cover"]
+    assert count in cells["Cover"]
     assert cells["Cases"].count(flag) == 1
-    manifest = json.loads((folder / "manifest.json").read_text("utf-8"))
-    assert inside["sha256"] in manifest["inputs"].values()
 
 
 def test_without_the_option_nothing_is_said(call: Call, validated: Path) -> None:
@@ -277,30 +269,29 @@ def test_results_with_a_domain_are_read_back(call: Call, validated: Path) -> Non
     assert Path("reports/latest/results.json").read_text("utf-8") == before
 
 
+@pytest.mark.parametrize("named", ["option", "scenario"])
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda document: document.update(kind="run"), "not the result of a validation"),
-        (lambda document: document.update(domains=[]), "none of its stops is counted"),
-        (lambda document: document["domains"][0].update(stops="two"), "domains"),
-        (lambda document: document.update(verdict="pass"), "verdict"),
+        ({"schema": "uictest/result/1"}, "not the result of a validation"),
+        ({"domains": []}, "none of its stops is counted"),
+        ({"domains": [{"stops": "two"}]}, "domains"),
+        ({"verdict": "pass"}, "verdict"),
+        (None, "other.json"),
     ],
 )
 def test_a_document_that_is_none_is_refused(
-    call: Call, validated: Path, change: Callable[[dict[str, Any]], None], message: str
+    call: Call, validated: Path, scenario: Write, change: dict[str, Any] | None, message: str, named: str
 ) -> None:
-    document = json.loads(validated.read_text("utf-8"))
-    change(document)
-    validated.write_text(json.dumps(document), "utf-8")
-    answer = call("run", "scenarios/stop.yaml", "--validated", validated)
+    if change is not None:
+        document = json.loads(validated.read_text("utf-8")) | change
+        Path("scenarios/other.json").write_text(json.dumps(document), "utf-8")
+    if named == "scenario":
+        scenario("stop", "validated: other.json\n")
+    options = ("--validated", "scenarios/other.json") if named == "option" else ()
+    answer = call("run", "scenarios/stop.yaml", *options)
     assert answer.code == 4
-    assert message in answer.err
-
-
-def test_a_missing_document_is_refused(call: Call, scenario: Write) -> None:
-    scenario()
-    answer = call("run", "scenarios/stop.yaml", "--validated", "none.json")
-    assert (answer.code, "none.json: No such file" in answer.err) == (4, True)
+    assert (message if named == "option" else "other.json") in answer.err
 
 
 def test_a_scenario_names_the_validation_that_its_cases_are_held_against(
@@ -312,7 +303,7 @@ def test_a_scenario_names_the_validation_that_its_cases_are_held_against(
     scenario("other", friction)
     answer = call("run", "scenarios", "--set", "initial_speed=40 km/h")
     assert answer.code == 0
-    results = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+    results = run_results()
     asked = {case["id"]: "domain_of_validity" in case for case in results["cases"]}
     assert asked == {"fast": True, "other": False, "stop": False}
     assert "outside fast of what my-train validated: initial_speed 40 km/h > 31 km/h" in answer.out
@@ -329,7 +320,7 @@ def test_the_option_takes_the_place_of_what_a_scenario_names(
     scenario("stop", "rail: {condition: wet, friction: 0.1}\nvalidated: another.json\n")
     for options, name in (((), "another-train"), (("--validated", validated), "my-train")):
         call("run", "scenarios/stop.yaml", *options)
-        results = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+        results = run_results()
         assert results["cases"][0]["domain_of_validity"]["validation"] == name
 
 
@@ -357,17 +348,6 @@ def test_what_a_scenario_names_is_checked_on_loading(
     assert message in shown
 
 
-def test_a_validation_that_is_damaged_inside_is_refused_when_it_is_needed(
-    call: Call, validated: Path, scenario: Write
-) -> None:
-    document = json.loads(validated.read_text("utf-8"))
-    document["domains"][0]["stops"] = "two"
-    Path("scenarios/damaged.json").write_text(json.dumps(document), "utf-8")
-    scenario("stop", "validated: damaged.json\n")
-    answer = call("run", "scenarios/stop.yaml")
-    assert (answer.code, "damaged.json: " in answer.err) == (4, True)
-
-
 @pytest.fixture
 def study(validated: Path) -> Path:
     """A sweep of four stops, of which three are outside of the validation."""
@@ -384,7 +364,7 @@ NOTE = (
 
 
 def test_a_sweep_counts_and_names_the_cases_outside(call: Call, validated: Path, study: Path) -> None:
-    answer = call("sweep", study, "--validated", validated, "--report", "csv,html,md,xlsx")
+    answer = call("sweep", study, "--validated", validated, "--report", "csv,html,xlsx")
     assert answer.code in (0, 1)
     assert f"note: {NOTE}" in answer.out
     folder = Path("reports/study")
@@ -394,14 +374,10 @@ def test_a_sweep_counts_and_names_the_cases_outside(call: Call, validated: Path,
     assert list(outside.values()) == [set(), {command}, {speed}, {speed, command}]
     found = json.loads((folder / "sweep.json").read_text("utf-8"))["domain_of_validity"]
     assert (found["validation"], found["outside"]) == ("my-train", 3)
-    assert [(each["deviation"]["key"], each["cases"]) for each in found["conditions"]] == [
-        (speed, 2),
-        (command, 2),
-    ]
-    assert NOTE.replace(">", "&gt;").replace("<", "&lt;") in (folder / "index.html").read_text("utf-8")
-    assert "3 of 4 cases outside of what my-train validated" in (folder / "summary.md").read_text("utf-8")
+    counts = [(each["deviation"]["key"], each["cases"]) for each in found["conditions"]]
+    assert counts == [(speed, 2), (command, 2)]
+    assert NOTE in unescape((folder / "index.html").read_text("utf-8"))
     workbook = load_workbook(folder / "report.xlsx", read_only=True)
-    assert NOTE in [cell for row in workbook["Summary"].values for cell in row]
     assert "outside" in next(workbook["Cases"].values)
 
 

@@ -1,10 +1,7 @@
 """Which controller from outside a run was made with: in the terminal, its folder and a baseline."""
 
-from __future__ import annotations
-
 import json
 import zipfile
-from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -12,8 +9,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
+from ..conftest import Call, Write
 
 PROGRAM = """__version__ = "1.2.0"
 from uictest.controllers import Outputs
@@ -47,43 +43,75 @@ def stop(scenario: Write) -> Path:
     return path
 
 
-def test_every_report_names_the_program(call: Call, stop: Path) -> None:
-    answer = call("run", stop, "-v", "--report", "csv,html,md", "-o", "out")
-    digest = sha256(PROGRAM.encode()).hexdigest()
+def properties_in(junit: str) -> dict[str, str]:
+    return {
+        str(each.get("name")): str(each.get("value")) for each in ElementTree.parse(junit).iter("property")
+    }
+
+
+def result_in(folder: Path) -> Any:
+    (case,) = json.loads((folder / "results.json").read_text("utf-8"))["cases"]
+    return case
+
+
+@pytest.mark.parametrize(("program", "options"), [(PROGRAM, ()), (TELLING, ()), (TELLING, ("--in-process",))])
+def test_every_report_names_the_program_and_its_version_though_it_tells_it_only_when_run(
+    call: Call, stop: Path, program: str, options: tuple[str, ...]
+) -> None:
+    (stop.parent / "wsp.py").write_text(program, "utf-8")
+    answer = call("run", stop, "-v", *options, "--report", "csv,html,md,xlsx", "-o", "out")
+    digest = sha256(program.encode()).hexdigest()
     told = f"version 1.2.0, python wsp.py, SHA-256 {digest[:12]}"
     assert f"part controller: Wsp, {told}, with gain 2" in answer.out
     folder = Path("out/latest")
+    for name in ("summary.csv", "summary.md"):
+        assert f"controller Wsp ({told})" in (folder / name).read_text("utf-8")
+    page = (folder / "index.html").read_text("utf-8")
+    assert page.count(told) == 3  # in the row of the case, above its plots, and among its parts
+    assert digest in page
+    with zipfile.ZipFile(folder / "report.xlsx") as workbook:
+        assert any(told in workbook.read(name).decode() for name in workbook.namelist() if "sheet" in name)
+    properties = properties_in("out/latest/junit.xml")
+    assert properties["controller.sha256"] == digest
+    assert properties["controller.version"] == "1.2.0"
+    assert "controller.told_version" not in properties
+    assert told in (ElementTree.parse(folder / "junit.xml").findtext(".//system-out") or "")
+
+
+def test_the_documents_of_a_run_name_the_program(call: Call, stop: Path) -> None:
+    call("run", stop, "-o", "out")
+    digest = sha256(PROGRAM.encode()).hexdigest()
+    folder = Path("out/latest")
     manifest = json.loads((folder / "manifest.json").read_text("utf-8"))
     assert manifest["inputs"]["scenarios/wsp.py"] == digest
-    assert f"Wsp, {told}, with gain 2" in manifest["parts"].values()
-    assert f"controller Wsp ({told})" in (folder / "summary.csv").read_text("utf-8")
-    assert digest[:12] in (folder / "summary.md").read_text("utf-8")
-    assert digest in (folder / "index.html").read_text("utf-8")
-    properties = {
-        each.get("name"): each.get("value")
-        for each in ElementTree.parse(folder / "junit.xml").iter("property")
-    }
-    assert properties["controller.sha256"] == digest
+    named = f"Wsp, version 1.2.0, python wsp.py, SHA-256 {digest[:12]}, with gain 2"
+    assert named in manifest["parts"].values()
     document = json.loads((folder / "results.json").read_text("utf-8"))
     part = document["parts"][document["cases"][0]["parts"]["controller"]]
-    values = {each["key"]: each["value"] for each in part["parameters"]}
     assert part["name"] == "Wsp"
-    assert values["controller.python"] == "wsp.py"
-    assert values["controller.class"] == "Wsp"
-    assert values["controller.version"] == "1.2.0"
-    assert values["controller.sha256"] == digest
-    assert values["controller.parameters.gain"] == 2
+    assert {
+        each["key"].removeprefix("controller."): each["value"] for each in part["parameters"]
+    }.items() >= {
+        "python": "wsp.py",
+        "class": "Wsp",
+        "version": "1.2.0",
+        "sha256": digest,
+        "parameters.gain": 2,
+    }.items()
     assert document["subjects"]["stop"]["settings"]["WSP"] == "active, controller Wsp 1.2.0 (python wsp.py)"
 
 
-def test_a_baseline_says_that_it_is_of_another_build(call: Call, stop: Path) -> None:
+@pytest.mark.parametrize("program", [PROGRAM, TELLING])
+def test_a_baseline_and_compare_say_that_it_is_of_another_build(call: Call, stop: Path, program: str) -> None:
     """Even where every measure agrees."""
+    (stop.parent / "wsp.py").write_text(program, "utf-8")
     assert call("run", stop, "--baseline", "kept", "--accept").code == 0
-    (stop.parent / "wsp.py").write_text(PROGRAM.replace("1.2.0", "1.3.0"), "utf-8")
-    answer = call("run", stop, "--baseline", "kept")
+    (stop.parent / "wsp.py").write_text(program.replace(".2.0", ".3.0"), "utf-8")
+    answer = call("run", stop, "--baseline", "kept", "-o", "out")
     assert answer.code == 0
     assert "parameter controller.version: 1.2.0 -> 1.3.0" in answer.err
-    assert f"parameter controller.sha256: {sha256(PROGRAM.encode()).hexdigest()} -> " in answer.err
+    assert f"parameter controller.sha256: {sha256(program.encode()).hexdigest()} -> " in answer.err
+    assert "parameter controller.version: 1.2.0 -> 1.3.0" in call("compare", "kept", "out/latest").out
 
 
 def test_a_recording_of_such_a_stop_can_be_judged_and_drawn(call: Call, stop: Path) -> None:
@@ -96,48 +124,17 @@ def test_a_recording_of_such_a_stop_can_be_judged_and_drawn(call: Call, stop: Pa
     assert call("report", "out/latest", "--format", "html,xlsx").code == 0
 
 
-def result_in(folder: Path) -> Any:
-    (case,) = json.loads((folder / "results.json").read_text("utf-8"))["cases"]
-    return case
-
-
-@pytest.mark.parametrize("where", [(), ("--in-process",)])
-def test_every_report_says_the_version_that_only_a_running_program_tells(
-    call: Call, stop: Path, where: tuple[str, ...]
+@pytest.mark.parametrize(("fails", "code", "version"), [(False, 0, "1.2.0"), (True, 3, None)])
+def test_a_result_has_the_digest_that_the_program_was_given_though_it_failed(
+    call: Call, stop: Path, fails: bool, code: int, version: str | None
 ) -> None:
-    (stop.parent / "wsp.py").write_text(TELLING, "utf-8")
-    answer = call("run", stop, "-v", *where, "--report", "csv,html,md,xlsx", "-o", "out")
-    told = f"version 1.2.0, python wsp.py, SHA-256 {sha256(TELLING.encode()).hexdigest()[:12]}"
-    assert f"part controller: Wsp, {told}, with gain 2" in answer.out
-    folder = Path("out/latest")
-    assert result_in(folder)["controller_version"] == "1.2.0"
-    assert f"controller Wsp ({told})" in (folder / "summary.csv").read_text("utf-8")
-    assert f"controller Wsp ({told})" in (folder / "summary.md").read_text("utf-8")
-    page = (folder / "index.html").read_text("utf-8")
-    assert page.count(told) == 3  # in the row of the case, above its plots, and among its parts
-    with zipfile.ZipFile(folder / "report.xlsx") as workbook:
-        assert any(told in workbook.read(name).decode() for name in workbook.namelist() if "sheet" in name)
-    (suite,) = ElementTree.parse(folder / "junit.xml").iter("testsuite")
-    properties = {each.get("name"): each.get("value") for each in suite.iter("property")}
-    assert properties["controller.version"] == "1.2.0"
-    assert "controller.told_version" not in properties
-    assert told in (suite.findtext(".//system-out") or "")
-
-
-def test_a_result_has_the_digest_that_the_program_was_given(call: Call, stop: Path) -> None:
     """So that its log can be matched with the result."""
-    (stop.parent / "wsp.py").write_text(TELLING, "utf-8")
-    call("run", stop, "-o", "out")
-    assert result_in(Path("out/latest"))["case_sha256"] == Path("stops").read_text("utf-8")
-
-
-def test_the_digest_is_there_where_the_program_failed(call: Call, stop: Path) -> None:
     broken = TELLING.replace("        return Outputs", "        raise MemoryError\n        return Outputs")
-    (stop.parent / "wsp.py").write_text(broken, "utf-8")
-    assert call("run", stop, "-o", "out").code == 3
+    (stop.parent / "wsp.py").write_text(broken if fails else TELLING, "utf-8")
+    assert call("run", stop, "-o", "out").code == code
     result = result_in(Path("out/latest"))
     assert result["case_sha256"] == Path("stops").read_text("utf-8")
-    assert "controller_version" not in result
+    assert result.get("controller_version") == version
 
 
 def test_a_program_that_contradicts_its_scenario_is_quoted(call: Call, scenario: Write) -> None:
@@ -145,20 +142,9 @@ def test_a_program_that_contradicts_its_scenario_is_quoted(call: Call, scenario:
     (path.parent / "wsp.py").write_text(TELLING, "utf-8")
     answer = call("run", path, "-v", "-o", "out")
     assert "part controller: Wsp, version 1.1.9 (the program says 1.2.0), python wsp.py" in answer.out
-    junit = ElementTree.parse("out/latest/junit.xml")
-    properties = {each.get("name"): each.get("value") for each in junit.iter("property")}
+    properties = properties_in("out/latest/junit.xml")
     assert properties["controller.version"] == "1.1.9"
     assert properties["controller.told_version"] == "1.2.0"
-
-
-def test_a_baseline_and_compare_show_another_told_version(call: Call, stop: Path) -> None:
-    (stop.parent / "wsp.py").write_text(TELLING, "utf-8")
-    assert call("run", stop, "--baseline", "kept", "--accept").code == 0
-    (stop.parent / "wsp.py").write_text(TELLING.replace(".2.0", ".3.0"), "utf-8")
-    answer = call("run", stop, "--baseline", "kept", "-o", "out")
-    assert answer.code == 0
-    assert "parameter controller.version: 1.2.0 -> 1.3.0" in answer.err
-    assert "parameter controller.version: 1.2.0 -> 1.3.0" in call("compare", "kept", "out/latest").out
 
 
 def test_a_built_in_controller_has_neither_version_nor_digest(call: Call, scenario: Write) -> None:

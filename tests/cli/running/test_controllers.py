@@ -1,24 +1,21 @@
 """Two controllers on the same cases: the noise belongs to the case, not to the controller."""
 
-from __future__ import annotations
-
 import shutil
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
+
+from ..conftest import Call, Write
 
 TWIN = Path(__file__).parents[2] / "sweeps" / "controllers" / "slip_band.py"
 """The built-in slip-band as a controller from outside."""
 CASES = "rail: {condition: wet}\nmatrix: {rail.friction: [0.08, 0.10], seed: [1, 2]}\n"
 OUTSIDE = "controller={python: slip_band.py, class: SlipBand, parameters: {lower_slide: %s}}"
 BUILT_IN = "controller=slip-band"
-Call = Callable[..., Any]
 
 
 @pytest.fixture
-def run(call: Call, scenario: Callable[..., Path]) -> Call:
+def run(call: Call, scenario: Write) -> Call:
     """Run four cases with a controller into a folder."""
     scenario("stop", CASES)
     shutil.copy(TWIN, ".")

@@ -1,7 +1,5 @@
 """Controllers from outside in a batch: what one does wrong is an error of its case."""
 
-from __future__ import annotations
-
 import json
 import signal
 import subprocess
@@ -12,10 +10,9 @@ from typing import Any
 
 import pytest
 
-from ..conftest import HANGING, Answer
+from ..conftest import HANGING, Call, Write
 
-Call = Callable[..., Answer]
-Write = Callable[..., Path]
+Call = Call
 
 WSP = """
 import os

@@ -1,68 +1,73 @@
-"""`--lf` after other commands have left their results beside the runs."""
+"""`--lf`: what failed last, also after other commands have left their results beside the runs."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
 
-from uictest.core.recording import Recording
 from uictest.core.recording.formats import writer_of
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
-STATED = ("--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop")
+from ..conftest import STATED, Call, Write, rolling_train
 
 
 @pytest.fixture
-def recording(workplace: Path) -> Path:
-    """A train of rolling wheels that stops from 10 m/s."""
-    time = np.arange(0.0, 10.5, 0.01)
-    speed = np.maximum(10.0 - time, 0.0)
-    channels = {"time": time, "speed": speed, **{f"wheel_speed_{n}": speed for n in (1, 2, 3, 4)}}
-    units = {name: "s" if name == "time" else "m/s" for name in channels}
-    path = workplace / "recorded.csv"
-    writer_of("csv")(Recording(channels, units, {"brake_command_time": "0 s"}), path)
-    return path
+def evaluate(call: Call) -> Call:
+    """Evaluate a recording, whose results lie beside those of the runs."""
+
+    def run() -> None:
+        writer_of("csv")(rolling_train(), Path("recorded.csv"))
+        assert call("evaluate", "recorded.csv", *STATED).code == 0
+        assert '"recorded"' in Path("reports/latest/results.json").read_text()
+
+    return run
 
 
-def evaluate(call: Call, recording: Path) -> None:
-    assert call("evaluate", recording, *STATED).code == 0
-    assert '"recorded"' in Path("reports/latest/results.json").read_text()
-
-
-def test_an_evaluation_in_between_is_not_the_newest_run(
-    call: Call, scenario: Write, made_up: list[str], recording: Path
+def test_what_failed_last_is_selected_whatever_was_evaluated_since(
+    call: Call, scenario: Write, made_up: list[str], evaluate: Call
 ) -> None:
     scenario("a")
     scenario("b", "tags: [fail]\n")
-    call("run")
-    evaluate(call, recording)
+    call("run", "-q")
+    evaluate()
     made_up.clear()
     assert call("run", "--lf").code == 1
     assert made_up == ["b"]
+    scenario("b")
+    assert call("run", "--lf").code == 0
+    made_up.clear()
+    assert "all are selected" in call("run", "--lf").err
+    assert sorted(made_up) == ["a", "b"]
 
 
-def test_evaluations_alone_are_no_run(
-    call: Call, scenario: Write, made_up: list[str], recording: Path
+def test_without_an_earlier_run_all_are_selected_and_evaluations_are_none(
+    call: Call, scenario: Write, made_up: list[str], evaluate: Call
 ) -> None:
     scenario("a")
-    evaluate(call, recording)
-    assert "no earlier run" in call("run", "--lf").err
+    evaluate()
+    answer = call("run", "--lf")
+    assert (answer.code, made_up) == (0, ["a"])
+    assert "no earlier run" in answer.err
+
+
+@pytest.mark.usefixtures("made_up")
+@pytest.mark.parametrize("content", ["", "{", "[]", '{"schema": "other"}', '{"schema": "uictest/result/1"}'])
+def test_results_that_cannot_be_read_exit_4(call: Call, scenario: Write, content: str) -> None:
+    scenario("a")
+    call("run")
+    Path("reports/latest/results.json").write_text(content)
+    answer = call("run", "--lf")
+    assert answer.code == 4
+    assert "results.json" in answer.err
 
 
 def test_of_several_runs_the_newest_counts(
-    call: Call, scenario: Write, made_up: list[str], recording: Path
+    call: Call, scenario: Write, made_up: list[str], evaluate: Call
 ) -> None:
     """Within a second, too, and whatever the hash in their names."""
     for failing in ("a", "b", "c"):
         for name in ("a", "b", "c"):
             scenario(name, "tags: [fail]\n" if name == failing else "")
         call("run")
-    evaluate(call, recording)
+    evaluate()
     made_up.clear()
     call("run", "--lf")
     assert made_up == ["c"]

@@ -1,7 +1,5 @@
 """Batches with a controller in a program at a socket, with and without a clock."""
 
-from __future__ import annotations
-
 import json
 import signal
 import subprocess
@@ -14,10 +12,9 @@ from xml.etree import ElementTree
 
 import pytest
 
-from ..conftest import HANGING, Answer
+from ..conftest import HANGING, Call, Write
 
-Call = Callable[..., Answer]
-Write = Callable[..., Path]
+Call = Call
 EXAMPLE = Path(__file__).parents[3] / "examples" / "socket" / "wsp.py"
 
 IN_REAL_TIME = ("run", "--real-time", "--set", "initial_speed=10 km/h")
@@ -65,7 +62,6 @@ def faults(scenario: Write) -> Iterator[Callable[..., None]]:
     """Start a program, and write a scenario with a case for each of its faults."""
     command = [sys.executable, "-c", PROGRAM, str(EXAMPLE)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
         address = process.stdout.readline().removeprefix("listening on ").strip()
         yield lambda *names: scenario("stop", CASES % (address, ", ".join(names)))
         process.kill()

@@ -1,20 +1,16 @@
 """One sweep at a time works in a folder."""
 
-from __future__ import annotations
-
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from uictest.core.files import FolderLock
 
+from ..conftest import Call, Write
+
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such locks")
 
-Call = Callable[..., Any]
-Write = Callable[..., Path]
 SWEEP = """schema: uictest/sweep/1
 name: study
 scenario: stop.yaml

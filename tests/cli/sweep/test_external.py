@@ -1,7 +1,5 @@
 """Sweeps over controllers from outside, as their users meet them."""
 
-from __future__ import annotations
-
 import csv
 import json
 from collections.abc import Callable
@@ -10,7 +8,8 @@ from typing import Any
 
 import pytest
 
-Call = Callable[..., Any]
+from ..conftest import Call, Write
+
 FILE = "study.sweep.yaml"
 CONTROLLER = """\
 from uictest.controllers import Config, Inputs, Outputs
@@ -36,7 +35,7 @@ PARAMETERS = {"share": {"default": 0.0, "unit": "1"}}
 
 
 @pytest.fixture
-def study(scenario: Callable[..., Path]) -> Callable[[str], Path]:
+def study(scenario: Write) -> Callable[[str], Path]:
     """A sweep of a stop from 30 km/h with that controller; it says the given text after its head."""
     scenario("stop", "controller: {python: ../share.py, class: Share}\nmeasures: {extends: standard}\n")
     Path("share.py").write_text(CONTROLLER)
@@ -107,13 +106,3 @@ def test_the_frontier_of_a_parameter_is_found(call: Call, study: Any) -> None:
         (flip,) = csv.DictReader(lines)
     assert 0.0 < float(flip["from"]) < float(flip["to"]) <= 1.0
     assert float(flip["to"]) - float(flip["from"]) <= 0.1
-
-
-def test_a_dry_run_loads_no_controller(call: Call, study: Any) -> None:
-    file = study("grid: {controller.parameters.share: [0, 1]}\n")
-    declared = 'PARAMETERS = {"share": {"default": 0.0, "unit": "1"}}\n'
-    Path("share.py").write_text(f"open('loaded', 'w')\n{declared}")
-    assert call("sweep", file, "--dry-run").code == 0
-    assert call("check", file).code == 0
-    assert call("list", file).code == 0
-    assert not Path("loaded").exists()

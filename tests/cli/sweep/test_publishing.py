@@ -1,20 +1,17 @@
 """`uictest sweep` and `uictest report`: what a sweep leaves for people and for GitHub."""
 
-from __future__ import annotations
-
 import html
 import json
 import re
 import shlex
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pyarrow.parquet as pq
 import pytest
 import yaml
 
-Call = Callable[..., Any]
+from ..conftest import Call, Write
+
 FOLDER = Path("reports/pads")
 TEXT = """\
 schema: uictest/sweep/1
@@ -27,21 +24,30 @@ grid:
 
 
 @pytest.fixture
-def pads(scenario: Callable[..., Path]) -> Path:
+def pads(scenario: Write) -> Path:
     """A sweep of four stops that are expected to fail and do not."""
     scenario("stop", "expect: fail\n")
     Path("pads.sweep.yaml").write_text(TEXT)
     return Path("pads.sweep.yaml")
 
 
-def test_reports_are_written_in_the_formats_asked_for(call: Call, pads: Path) -> None:
-    assert call("sweep", pads, "--report", "md,xlsx").code == 1
-    assert (
-        (FOLDER / "summary.md")
-        .read_text()
-        .startswith("## uictest sweep: 4 cases: 4 pass; 4 not as expected\n")
-    )
-    assert (FOLDER / "report.xlsx").read_bytes().startswith(b"PK")
+HEADLINE = "## uictest sweep: 4 cases: 4 pass; 4 not as expected\n"
+
+
+def test_reports_are_written_in_the_formats_asked_for_and_in_others_later(
+    call: Call, pads: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Path("summary").write_text("# Before\n")
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", "summary")
+    assert call("sweep", pads, "--report", "md").code == 1
+    assert (FOLDER / "summary.md").read_text().startswith(HEADLINE)
+    assert Path("summary").read_text().startswith(f"# Before\n{HEADLINE}")
+    answer = call("report", FOLDER, "--format", "csv,xlsx,md", "-o", "elsewhere")
+    assert answer.code == 0
+    written = {Path(line).name for line in answer.out.splitlines()}
+    assert {"summary.csv", "rates.csv", "map-met.csv", "report.xlsx", "summary.md"} <= written
+    assert written == {path.name for path in Path("elsewhere").iterdir()}
+    assert Path("elsewhere/report.xlsx").read_bytes().startswith(b"PK")
 
 
 def test_a_format_there_is_not_is_rejected_before_anything_runs(call: Call, pads: Path) -> None:
@@ -61,15 +67,6 @@ def test_nothing_of_an_earlier_result_stays_beside_another(call: Call, pads: Pat
     assert (FOLDER / "index.html").exists()
 
 
-def test_a_finished_sweep_gives_further_formats(call: Call, pads: Path) -> None:
-    call("sweep", pads, "--report", "csv")
-    answer = call("report", FOLDER, "--format", "csv,xlsx,md", "-o", "elsewhere")
-    assert answer.code == 0
-    written = {Path(line).name for line in answer.out.splitlines()}
-    assert {"summary.csv", "rates.csv", "map-met.csv", "report.xlsx", "summary.md"} <= written
-    assert written == {path.name for path in Path("elsewhere").iterdir()}
-
-
 @pytest.mark.parametrize("name", ["sweep.json", "summary.parquet"])
 def test_a_damaged_sweep_is_rejected(call: Call, pads: Path, name: str) -> None:
     call("sweep", pads, "--report", "csv")
@@ -79,34 +76,15 @@ def test_a_damaged_sweep_is_rejected(call: Call, pads: Path, name: str) -> None:
     assert "cannot be read as a sweep" in answer.err
 
 
-def test_github_gets_annotations_below_the_findings(call: Call, pads: Path) -> None:
+def test_github_gets_annotations_below_the_findings_and_alone_with_q(call: Call, pads: Path) -> None:
     lines = call("sweep", pads, "--format", "github").out.splitlines()
     errors = [line for line in lines if line.startswith("::error ")]
     assert len(errors) == 4
     assert "file=pads.sweep.yaml,title=unexpected pass pads[" in errors[0]
-    assert (
-        lines[-1]
-        == "::notice file=pads.sweep.yaml,title=uictest sweep pads::4 cases: 4 pass; 4 not as expected"
-    )
+    notice = "::notice file=pads.sweep.yaml,title=uictest sweep pads::4 cases: 4 pass; 4 not as expected"
+    assert lines[-1] == notice
     assert any("Cases met" in line for line in lines)
-
-
-def test_annotations_are_shown_when_nothing_else_is(call: Call, pads: Path) -> None:
-    lines = call("sweep", pads, "--format", "github", "-q").out.splitlines()
-    assert {line.split(" ")[0] for line in lines} == {"::error", "::notice"}
-
-
-def test_the_summary_is_appended_where_github_wants_it(
-    call: Call, pads: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    Path("summary").write_text("# Before\n")
-    monkeypatch.setenv("GITHUB_STEP_SUMMARY", "summary")
-    call("sweep", pads, "--report", "csv")
-    assert (
-        Path("summary")
-        .read_text()
-        .startswith("# Before\n## uictest sweep: 4 cases: 4 pass; 4 not as expected\n")
-    )
+    assert call("sweep", pads, "--format", "github", "-q").out.splitlines() == [*errors, notice]
 
 
 def test_a_summary_that_cannot_be_written_undoes_nothing(
@@ -133,7 +111,6 @@ def test_the_page_draws_the_worst_cases_and_can_be_made_again(call: Call, pads: 
 def test_the_command_for_one_stop_works_as_printed_beside_the_sweep(call: Call, pads: Path) -> None:
     call("sweep", pads, "--seed", "7", "--set", "brake.command=80 %,90 %", "--report", "html,csv")
     written = re.search(r"<code>([^<]* -k [^<]*)</code>", (FOLDER / "index.html").read_text("utf-8"))
-    assert written is not None
     for command in ("80", "90"):
         case = f"pads[command={command},pad_friction=0.30]"
         words = shlex.split(html.unescape(written[1]).replace("CASE", case))
@@ -144,13 +121,16 @@ def test_the_command_for_one_stop_works_as_printed_beside_the_sweep(call: Call, 
         assert row in of_sweep
 
 
-def test_a_case_that_cannot_be_simulated_is_named_and_not_drawn(call: Call, pads: Path) -> None:
+def test_a_case_in_error_is_3_and_a_row_and_not_drawn(call: Call, pads: Path) -> None:
     steps = "grid: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n"
     pads.write_text(TEXT.split("grid")[0] + steps)
     assert call("sweep", pads).code == 3
-    html = (FOLDER / "index.html").read_text()
-    assert 'class="word word-odd"' in html
-    assert html.count('<details class="stop"') == 3
+    document = json.loads((FOLDER / "sweep.json").read_text())
+    assert document["outcomes"]["error"] == 1
+    assert any("does not divide" in case["reason"] for case in document["missed"])
+    page = (FOLDER / "index.html").read_text()
+    assert 'class="word word-odd"' in page
+    assert page.count('<details class="stop"') == 3
 
 
 K_DRY = """\
@@ -166,7 +146,7 @@ k_dry: {measure: mean_deceleration}
 
 
 @pytest.fixture
-def k_dry(scenario: Callable[..., Path], two_worst_cases: None) -> Path:
+def k_dry(scenario: Write, two_worst_cases: None) -> Path:
     """A sweep of 32 stops on dry rail for K_dry."""
     scenario("stop", "rail: {condition: dry}\n")
     Path("pads.sweep.yaml").write_text(K_DRY)
