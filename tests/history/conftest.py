@@ -1,7 +1,5 @@
 """Runs in a folder, published as commands publish them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 

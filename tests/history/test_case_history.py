@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Literal
@@ -24,13 +22,9 @@ def test_a_case_is_followed_by_its_id_from_run_to_run(publish: Publish, reports:
     assert (found.change, found.turned, found.newest.word) == (5.5, True, "fail")
 
 
-def test_one_run_alone_has_no_change(publish: Publish, reports: Path) -> None:
+def test_one_run_alone_and_a_stop_without_a_distance_have_no_change(publish: Publish, reports: Path) -> None:
     publish(case("a"))
     assert histories(reports)["a"].change is None
-
-
-def test_a_stop_without_a_distance_has_no_change(publish: Publish, reports: Path) -> None:
-    publish(case("a"))
     publish(case("a", "error", float("nan")))
     assert histories(reports)["a"].change is None
 

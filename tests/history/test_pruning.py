@@ -1,8 +1,7 @@
-from __future__ import annotations
-
 import hashlib
 import os
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -47,42 +46,60 @@ def test_at_least_one_run_stays(publish: Publish, reports: Path) -> None:
     assert run.exists()
 
 
-def _add_a_note(run: Path) -> None:
-    (run / "review.md").write_text("seen by me")
+@pytest.fixture
+def two(publish: Publish) -> tuple[Path, Path]:
+    """An old run and the newest."""
+    return publish(), publish()
 
 
-def _add_a_recording_of_the_user(run: Path) -> None:
-    (run / "recordings").mkdir(exist_ok=True)
-    (run / "recordings" / "mine.csv").write_text("time")
+def _write(run: Path, name: str) -> None:
+    (run / name).parent.mkdir(parents=True, exist_ok=True)
+    with (run / name).open("a") as file:
+        file.write("\n")
 
 
-def _add_a_link(run: Path) -> None:
+def _replace_by_a_link(run: Path) -> None:
     (run / "summary.csv").unlink()
     (run / "summary.csv").symlink_to("wheelsets.csv")
 
 
-def _link_to_it(run: Path) -> None:
-    (run.parent / "accepted").symlink_to(run.name)
+NOT_OURS = "it holds {}, which uictest did not write"
+REASONS: list[tuple[Callable[[Path], object], str]] = [
+    # Files of the user were removed that had a name which uictest gives as well.
+    *(
+        (partial(_write, name=name), NOT_OURS.format(name))
+        for name in (
+            "review.md",
+            "notes.csv",
+            "index.html.bak",
+            "sub/run.json",
+            "recordings/mine.csv",
+            "recordings/track-test.parquet",
+            "recordings/a/b.parquet",
+            # Ours, but changed.
+            "summary.csv",
+            "manifest.json",
+            "junit.xml",
+        )
+    ),
+    (lambda run: (run / files.LIST).write_text("mine\n"), NOT_OURS.format(files.LIST)),
+    (_replace_by_a_link, NOT_OURS.format("summary.csv")),
+    (lambda run: (run / "mine").mkdir(), NOT_OURS.format("mine")),
+    (lambda run: (run / "recordings").mkdir(), NOT_OURS.format("recordings")),
+    (lambda run: (run / files.LIST).unlink(), "it has no SHA256SUMS: an earlier version wrote it"),
+    (lambda run: (run.parent / "accepted").symlink_to(run.name), "the link accepted refers to it"),
+    (
+        lambda run: (run.parent / "figures.csv").symlink_to(run / "summary.csv"),
+        "the link figures.csv refers to it",
+    ),
+]
 
 
-def _link_into_it(run: Path) -> None:
-    (run.parent / "figures.csv").symlink_to(run / "summary.csv")
-
-
-@pytest.mark.parametrize(
-    ("change", "reason"),
-    [
-        (_add_a_note, "it holds review.md, which uictest did not write"),
-        (_add_a_recording_of_the_user, "it holds recordings/mine.csv, which uictest did not write"),
-        (_add_a_link, "it holds summary.csv, which uictest did not write"),
-        (_link_to_it, "the link accepted refers to it"),
-        (_link_into_it, "the link figures.csv refers to it"),
-    ],
-)
-def test_what_somebody_may_need_stays_and_the_reason_is_given(
-    publish: Publish, reports: Path, change: Callable[[Path], None], reason: str
+@pytest.mark.parametrize(("change", "reason"), REASONS)
+def test_what_somebody_may_need_stays_as_it_is_and_the_reason_is_given(
+    two: tuple[Path, Path], reports: Path, change: Callable[[Path], object], reason: str
 ) -> None:
-    old, newest = publish(), publish()
+    old, newest = two
     change(old)
     before = sorted(old.rglob("*"))
     assert fates(reports, 1, newest) == {old.name: reason}
@@ -106,14 +123,9 @@ def test_what_a_run_that_stays_for_a_reason_refers_to_stays_too(publish: Publish
     source = publish()
     middle = publish(inputs={f"reports/{source.name}/results.json": "00"})
     newest = publish()
-    _add_a_note(middle)
+    _write(middle, "review.md")
     found = fates(reports, 1, newest)
     assert found[source.name] == f"{middle.name} refers to it"
-
-
-def test_what_no_path_can_be_is_no_reference(publish: Publish, reports: Path) -> None:
-    old, newest = publish(), publish(inputs={"a\0b": "00"})
-    assert fates(reports, 1, newest) == {old.name: ""}
 
 
 def test_the_baseline_of_a_run_that_stays_stays(publish: Publish, reports: Path) -> None:
@@ -122,9 +134,9 @@ def test_the_baseline_of_a_run_that_stays_stays(publish: Publish, reports: Path)
     assert fates(reports, 1, newest) == {source.name: f"{newest.name} refers to it"}
 
 
-def test_a_folder_with_a_name_of_the_user_stays(publish: Publish, reports: Path) -> None:
+def test_a_folder_with_a_name_of_the_user_stays(two: tuple[Path, Path], reports: Path) -> None:
     """A baseline has nothing but files that uictest wrote."""
-    old, newest = publish(), publish()
+    old, newest = two
     for name in ("index.html", "index-entry.json", "junit.xml"):
         (old / name).unlink(missing_ok=True)
     baseline = old.rename(reports / "baseline")
@@ -181,8 +193,8 @@ def test_an_incomplete_run_stays(publish: Publish, reports: Path) -> None:
     assert fates(reports, 1, newest) == {old.name: "it is incomplete"}
 
 
-def test_a_folder_in_use_stays_as_it_is(publish: Publish, reports: Path) -> None:
-    old, newest = publish(), publish()
+def test_a_folder_in_use_stays_as_it_is(two: tuple[Path, Path], reports: Path) -> None:
+    old, newest = two
     with FolderLock(old):
         # The file of the lock is ours, and no reason of its own.
         assert "it is in use by" in fates(reports, 1, newest)[old.name]
@@ -211,15 +223,15 @@ def test_what_uictest_did_not_write_is_never_touched(
     assert foreign.is_dir()
 
 
-def test_damaged_runs_stay(publish: Publish, reports: Path) -> None:
-    old, newest = publish(), publish()
+def test_damaged_runs_stay(two: tuple[Path, Path], reports: Path) -> None:
+    old, newest = two
     (old / "results.json").write_text("{")
     assert fates(reports, 1, newest) == {}
     assert old.is_dir()
 
 
-def test_a_run_behind_a_link_stays(publish: Publish, reports: Path, tmp_path: Path) -> None:
-    old, newest = publish(), publish()
+def test_a_run_behind_a_link_stays(two: tuple[Path, Path], reports: Path, tmp_path: Path) -> None:
+    old, newest = two
     elsewhere = old.rename(tmp_path / "archive")
     (reports / old.name).symlink_to(elsewhere)
     assert fates(reports, 1, newest) == {}
@@ -227,9 +239,9 @@ def test_a_run_behind_a_link_stays(publish: Publish, reports: Path, tmp_path: Pa
 
 
 def test_a_removal_that_fails_is_a_reason(
-    publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
+    two: tuple[Path, Path], reports: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    old, newest = publish(), publish()
+    old, newest = two
 
     def refuse(*_: object, **__: object) -> None:
         raise PermissionError(13, "Permission denied")
@@ -240,10 +252,10 @@ def test_a_removal_that_fails_is_a_reason(
 
 
 def test_a_removal_cut_short_is_completed_by_the_next_run(
-    publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
+    publish: Publish, two: tuple[Path, Path], reports: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The rest has a hidden name, which no list shows, and belongs to nobody."""
-    old, newest = publish(), publish()
+    old, newest = two
 
     def stop(*_: object) -> None:
         raise KeyboardInterrupt
@@ -264,57 +276,10 @@ def test_every_file_of_a_run_is_listed(publish: Publish, reports: Path) -> None:
     assert fates(reports, 1, publish()) == {old.name: ""}
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "notes.csv",
-        "recordings/a/b.parquet",
-        "index.html.bak",
-        "sub/run.json",
-        "recordings/track-test.parquet",
-    ],
-)
-def test_a_file_that_is_not_listed_stays_whatever_its_name(
-    publish: Publish, reports: Path, name: str
-) -> None:
-    """Files of the user were removed that had a name which uictest gives as well."""
-    old, newest = publish(), publish()
-    (old / name).parent.mkdir(parents=True, exist_ok=True)
-    (old / name).write_text("mine")
-    before = sorted(old.rglob("*"))
-    assert fates(reports, 1, newest) == {old.name: f"it holds {name}, which uictest did not write"}
-    assert sorted(old.rglob("*")) == before
-
-
-@pytest.mark.parametrize("name", ["summary.csv", "manifest.json", "junit.xml"])
-def test_a_file_that_has_changed_stays(publish: Publish, reports: Path, name: str) -> None:
-    old, newest = publish(), publish()
-    with (old / name).open("a") as file:
-        file.write("\n")
-    assert fates(reports, 1, newest) == {old.name: f"it holds {name}, which uictest did not write"}
-    assert (old / name).is_file()
-
-
-@pytest.mark.parametrize("made", ["mine", "recordings"])
-def test_an_empty_folder_is_not_of_uictest_either(publish: Publish, reports: Path, made: str) -> None:
-    old, newest = publish(), publish()
-    (old / made).mkdir()
-    assert fates(reports, 1, newest) == {old.name: f"it holds {made}, which uictest did not write"}
-
-
-def test_a_run_without_a_list_stays(publish: Publish, reports: Path) -> None:
-    old, newest = publish(), publish()
-    (old / files.LIST).unlink()
-    assert fates(reports, 1, newest) == {old.name: "it has no SHA256SUMS: an earlier version wrote it"}
-    (old / files.LIST).write_text("a list of the user's\n")
-    found = fates(reports, 1, newest)[old.name]
-    assert found == "it holds SHA256SUMS, which uictest did not write"
-
-
 def test_what_comes_while_a_run_is_removed_stays_under_its_name(
-    publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
+    two: tuple[Path, Path], reports: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    old, newest = publish(), publish()
+    old, newest = two
     rename = os.rename
 
     def written_first(path: str, *arguments: str, **places: int) -> None:

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Callable
@@ -107,90 +105,59 @@ def test_what_other_commands_write_is_listed(tmp_path: Path, file: str, schema: 
     assert (run.kind, run.page) == (kind, f"{tmp_path.name}/{file}")
 
 
-def _remove_results(folder: Path) -> None:
-    (folder / "results.json").unlink()
+OTHERS_MANIFEST = '{"name": "my web app", "icons": []}'
+DAMAGED_MANIFEST = '{"schema": "uictest/manifest/1", "command": 3}'
 
 
-def _cut_results(folder: Path) -> None:
-    (folder / "results.json").write_text("{")
+def _make_a_pipe(file: Path) -> None:
+    file.unlink()
+    os.mkfifo(file)
 
 
-def _make_manifest_a_pipe(folder: Path) -> None:
-    (folder / "manifest.json").unlink()
-    os.mkfifo(folder / "manifest.json")
+def _make_a_folder(file: Path) -> None:
+    file.unlink()
+    file.mkdir()
 
 
-def _make_results_of_an_earlier_version_a_pipe(folder: Path) -> None:
-    for name in ("index-entry.json", "results.json"):
-        (folder / name).unlink()
-    os.mkfifo(folder / "results.json")
-
-
-def _make_manifest_a_folder(folder: Path) -> None:
-    (folder / "manifest.json").unlink()
-    (folder / "manifest.json").mkdir()
-
-
-def _let_manifest_lead_nowhere(folder: Path) -> None:
-    (folder / "manifest.json").unlink()
-    (folder / "manifest.json").symlink_to("gone")
-
-
-def _nest_manifest(folder: Path) -> None:
-    (folder / "manifest.json").write_text("[" * 100_000)
-
-
-def _make_manifest_a_list(folder: Path) -> None:
-    (folder / "manifest.json").write_text("[]")
-
-
-def _give_the_manifest_to_somebody_else(folder: Path) -> None:
-    (folder / "manifest.json").write_text('{"name": "my web app", "icons": []}')
-
-
-def _let_the_command_be_a_number(folder: Path) -> None:
-    (folder / "manifest.json").write_text('{"schema": "uictest/manifest/1", "command": 3}')
-
-
-def _damage_the_entry(folder: Path) -> None:
-    (folder / ENTRY).write_text("{}")
-
-
-def _write_a_huge_manifest(folder: Path) -> None:
-    with (folder / "manifest.json").open("wb") as file:
-        file.truncate(1 << 40)
+def _let_it_lead_nowhere(file: Path) -> None:
+    file.unlink()
+    file.symlink_to("gone")
 
 
 @pytest.mark.parametrize(
-    ("damage", "reason"),
+    ("file", "damage", "reason"),
     [
-        (_remove_results, "there is no results.json"),
-        (_cut_results, "results.json is not what the run wrote: 1 bytes, expected"),
-        (_make_manifest_a_pipe, "manifest.json is no file"),
-        (_make_results_of_an_earlier_version_a_pipe, "results.json is no file"),
-        (_make_manifest_a_folder, "manifest.json is no file"),
-        (_let_manifest_lead_nowhere, "manifest.json is no file"),
-        (_nest_manifest, "manifest.json is damaged"),
-        (_make_manifest_a_list, "manifest.json is damaged: expected an object"),
-        (_give_the_manifest_to_somebody_else, "not of uictest: manifest.json has schema None"),
-        (_let_the_command_be_a_number, "manifest.json is damaged"),
-        (_damage_the_entry, "index-entry.json is damaged"),
-        (_write_a_huge_manifest, "manifest.json of 1048576 MB is not read"),
+        ("results.json", Path.unlink, "there is no results.json"),
+        ("results.json", "{", "results.json is not what the run wrote: 1 bytes, expected"),
+        ("manifest.json", _make_a_pipe, "manifest.json is no file"),
+        ("manifest.json", _make_a_folder, "manifest.json is no file"),
+        ("manifest.json", _let_it_lead_nowhere, "manifest.json is no file"),
+        ("manifest.json", "[" * 100_000, "manifest.json is damaged"),
+        ("manifest.json", "[]", "manifest.json is damaged: expected an object"),
+        ("manifest.json", OTHERS_MANIFEST, "not of uictest: manifest.json has schema None"),
+        ("manifest.json", DAMAGED_MANIFEST, "manifest.json is damaged"),
+        (ENTRY, "{}", "index-entry.json is damaged"),
+        ("manifest.json", lambda file: os.truncate(file, 1 << 40), "manifest.json of 1048576 MB is not read"),
     ],
 )
 def test_a_damaged_folder_is_no_run_and_the_reason_is_given(
-    publish: Publish, damage: Callable[[Path], None], reason: str
+    publish: Publish, file: str, damage: str | Callable[[Path], None], reason: str
 ) -> None:
     folder = publish()
-    damage(folder)
+    if isinstance(damage, str):
+        (folder / file).write_text(damage)
+    else:
+        damage(folder / file)
     assert reason in reason_of(read_folder(folder))
 
 
 def test_damaged_results_of_an_earlier_version_are_damaged(publish: Publish) -> None:
     folder = publish()
     (folder / ENTRY).unlink()
-    _cut_results(folder)
+    (folder / "results.json").write_text("{")
     assert reason_of(read_folder(folder)).startswith("damaged: ")
+    _make_a_pipe(folder / "results.json")
+    assert "results.json is no file" in reason_of(read_folder(folder))
 
 
 def test_an_empty_folder_is_not_of_uictest(tmp_path: Path) -> None:
