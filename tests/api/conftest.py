@@ -1,7 +1,5 @@
 """Short stops in a working folder of their own, run by the command and in Python."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`set`: a value in Python is the value that the text of `--set` is."""
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 from pathlib import Path

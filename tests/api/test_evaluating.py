@@ -1,9 +1,6 @@
 """Recorded stops, judged in Python as the command judges them."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +13,8 @@ from uictest.core.recording import write_parquet
 from uictest.core.recording.formats import writer_of
 from uictest.judging import evaluation
 
-Write = Callable[..., Path]
-Command = Callable[..., int]
+from .conftest import Command, Write
+
 STATED: dict[str, Any] = {"rail": "dry", "position": "R", "wsp": "active", "criteria": "uictest-stop"}
 
 
@@ -37,7 +34,6 @@ def test_digits_are_those_of_the_command(train: Path, command: Command) -> None:
     options = ["--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop"]
     assert command("evaluate", train, *options, "-o", "out") == 0
     folder = latest_run(Path("out"))
-    assert folder is not None
     results = uictest.evaluate(train, **STATED)
     written = json.loads((folder / "results.json").read_text())["cases"]
     assert json.loads(evaluation.to_json(evaluation.cases_document(results))) == written
@@ -47,7 +43,6 @@ def test_digits_are_those_of_the_command(train: Path, command: Command) -> None:
 
 def test_output_gets_the_reports(train: Path) -> None:
     results = uictest.evaluate([train], **STATED, output="out", record="all")
-    assert results.folder is not None
     files = {path.relative_to(results.folder).as_posix() for path in results.folder.rglob("*")}
     assert {"index.html", "results.json", "recordings/stop-1.parquet"} <= files
     assert uictest.read_results("out/latest")[0].outcome == results[0].outcome
@@ -86,24 +81,25 @@ def test_an_argument_that_cannot_be_used_is_named(
         uictest.evaluate(train, **STATED, **arguments)
 
 
-def test_without_files_nothing_is_judged() -> None:
-    with pytest.raises(ValueError, match="nothing to evaluate: name recordings"):
-        uictest.evaluate([], **STATED)
+@pytest.mark.parametrize(
+    ("files", "message"),
+    [
+        ([], "nothing to evaluate: name recordings"),
+        (["a.csv", "b.csv"], r"(?s)a\.csv: .*b\.csv: No such file"),
+    ],
+)
+def test_every_file_that_cannot_be_read_is_named(files: list[str], message: str) -> None:
+    Path("a.csv").write_text("nothing")
+    with pytest.raises(ValueError, match=message):
+        uictest.evaluate(files, **STATED)
 
 
 def test_the_manifest_names_the_command_that_does_the_same(train: Path, write: Write) -> None:
     path = write(rail="{condition: dry}")
     folder = uictest.evaluate(train.name, scenario=path, low_pass="5 Hz", record="all", output="out").folder
-    assert folder is not None
     words = ["evaluate", "Stop 1.csv", "--scenario", "scenarios/stop.yaml", "--low-pass", "5 Hz"]
     command = json.loads((folder / "manifest.json").read_text())["command"]
     assert command == ["uictest", *words, "--record", "all", "-o", "out"]
-
-
-def test_every_file_that_cannot_be_read_is_named(train: Path) -> None:
-    Path("a.csv").write_text("nothing")
-    with pytest.raises(ValueError, match=r"(?s)a\.csv: .*b\.csv: No such file"):
-        uictest.evaluate(["a.csv", "b.csv"], **STATED)
 
 
 def test_a_simulated_stop_comes_out_as_it_was_judged(write: Write) -> None:

@@ -1,8 +1,5 @@
 """Load cases as the commands do, with their messages."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from decimal import Decimal
 from pathlib import Path
 
@@ -10,7 +7,7 @@ import pytest
 
 import uictest
 
-Write = Callable[..., Path]
+from .conftest import Write
 
 
 def test_lists_are_axes_and_the_default_is_the_folder(write: Write) -> None:

@@ -1,7 +1,5 @@
 """docs/python.md: every public name and argument is there, and its examples are typed."""
 
-from __future__ import annotations
-
 import inspect
 import re
 import subprocess

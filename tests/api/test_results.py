@@ -1,12 +1,9 @@
 """Results as data frames: nothing that the CSV files have is lost."""
 
-from __future__ import annotations
-
 import contextlib
 import csv
 import io
 import math
-from collections.abc import Callable
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -19,9 +16,8 @@ from uictest import report
 from uictest.api.results import column_units
 from uictest.core import measures
 
-from .conftest import write_stop
+from .conftest import Write, write_stop
 
-Write = Callable[..., Path]
 HOSTILE = "<script>alert(1)</script> & \x1b[31m"
 
 

@@ -1,12 +1,10 @@
 """Runs in Python are those of the command: the same digits, the same files, no output."""
 
-from __future__ import annotations
-
 import json
 import math
 import signal
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +18,8 @@ from uictest.report import read_run
 from uictest.running import campaign
 from uictest.running.campaign import batch
 
-Write = Callable[..., Path]
-Command = Callable[..., int]
+from .conftest import Command, Write
+
 AXIS = {"rail.friction": [0.06, 0.1]}
 FAILING = "expect: fail\n"
 
@@ -47,8 +45,6 @@ def test_digits_and_files_are_those_of_the_command(write: Write, command: Comman
     assert command("run", path, "--set", "rail.friction=0.06,0.1", "--seed", "5", "-o", "out") == 1
     there = latest_run(Path("out").rename("there"))
     results = uictest.run(path, set=AXIS, seed=5, output="out")
-    assert there is not None
-    assert results.folder is not None
     ours = contents(results.folder)
     assert ours == contents(there)
     assert {"recordings/stop[friction=0.06].parquet", "summary.csv", "index.html"} <= set(ours)
@@ -79,8 +75,6 @@ def test_the_page_of_loaded_cases_offers_no_command_that_would_run_others(write:
     path = write()
     by_file = uictest.run(path, seed=2, record="all", output="out").folder
     loaded = uictest.run(uictest.load(path, seed=2), record="all", output="out").folder
-    assert by_file is not None
-    assert loaded is not None
     assert "--seed 2 -k stop" in (by_file / "index.html").read_text()
     assert "Copy command" not in (loaded / "index.html").read_text()
 
@@ -103,7 +97,6 @@ def test_saving_later_writes_what_output_writes(write: Write, monkeypatch: pytes
     path = write(text=FAILING)
     at_once = uictest.run(path, set=AXIS, output="out").folder
     later = uictest.run(path, set=AXIS).save("out")
-    assert at_once is not None
     assert contents(at_once) == contents(later)
     assert contents(uictest.read_results(later).save("out")) == contents(later)
 
@@ -119,7 +112,6 @@ def test_what_is_recorded(write: Write, record: Any, recorded: list[str]) -> Non
     for name in recorded:
         assert results.recording(name)["time"][1] == pytest.approx(0.02)
     folder = uictest.run(record=record, output="out").folder
-    assert folder is not None
     assert sorted(path.stem for path in folder.glob("recordings/*")) == recorded
 
 
@@ -260,25 +252,12 @@ def test_threads_may_run_side_by_side(write: Write) -> None:
 def test_the_manifest_names_the_command_that_does_the_same(write: Write) -> None:
     path = write("a", "tags: [wet]\n")
     folder = uictest.run(path, set={"rail.friction": [0.06, 0.1]}, seed=3, tag="wet", output="out").folder
-    assert folder is not None
-    words = [
-        "run",
-        "scenarios/a.yaml",
-        "--set",
-        "rail.friction=0.06,0.1",
-        "--seed",
-        "3",
-        "-m",
-        "wet",
-        "-o",
-        "out",
-    ]
-    assert json.loads((folder / "manifest.json").read_text())["command"] == ["uictest", *words]
+    words = "uictest run scenarios/a.yaml --set rail.friction=0.06,0.1 --seed 3 -m wet -o out"
+    assert json.loads((folder / "manifest.json").read_text())["command"] == words.split()
 
 
 def test_reports_are_read_back(write: Write) -> None:
     results = uictest.run(write(text=FAILING), output="out")
-    assert results.folder is not None
     for place in (results.folder, results.folder / "results.json", Path("out/latest")):
         again = uictest.read_results(place)
         assert figures(again) == figures(results)

@@ -1,8 +1,5 @@
 """Simulated stops as recordings: data frames and figures."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +9,7 @@ import pytest
 import uictest
 from uictest.controllers import ControllerError
 
-Write = Callable[..., Path]
+from .conftest import Write
 
 
 def test_the_rate_is_that_of_the_samples(write: Write) -> None:
@@ -48,13 +45,12 @@ def test_a_rate_is_one_that_a_run_can_have(write: Write, rate: float) -> None:
 
 def test_a_controller_that_fails_is_an_error(write: Write) -> None:
     path = write(text="controller: {python: wsp.py, class: Wsp}\n")
-    lines = (
-        "class Wsp:",
-        "def __init__(self, config): pass",
-        "def reset(self): pass",
-        "def step(self, i): 1 / 0",
+    Path("scenarios/wsp.py").write_text(
+        "class Wsp:\n"
+        "    def __init__(self, config): pass\n"
+        "    def reset(self): pass\n"
+        "    def step(self, i): 1 / 0\n"
     )
-    Path("scenarios/wsp.py").write_text("\n    ".join(lines))
     with pytest.raises(ControllerError, match="ZeroDivisionError"):
         uictest.simulate(path)
 

@@ -1,9 +1,6 @@
 """Sweeps in Python are those of the command."""
 
-from __future__ import annotations
-
 import csv
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +9,8 @@ import pytest
 import uictest
 from uictest.running.chunked import ChunkStore
 
-Write = Callable[..., Path]
-Command = Callable[..., int]
+from .conftest import Command, Write
+
 TEXT = """schema: uictest/sweep/1
 name: study
 scenario: scenarios/stop.yaml

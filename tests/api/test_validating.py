@@ -1,17 +1,15 @@
 """Validations in Python are those of the command."""
 
-from __future__ import annotations
-
 import csv
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import uictest
 
-Write = Callable[..., Path]
-Command = Callable[..., int]
+from .conftest import Command, Write
+
+ENTRY = "{scenario: scenarios/stop.yaml, map: map.yaml, recordings: [run-1.csv, run-2.csv]}"
 
 
 @pytest.fixture
@@ -28,8 +26,7 @@ def file(write: Write) -> Path:
         "schema: uictest/channel-map/1\nname: m\nextends: uictest\npreparation: {trigger_time: 0 s}\n"
     )
     path = Path("my.validation.yaml")
-    entry = "{scenario: scenarios/stop.yaml, map: map.yaml, recordings: [run-1.csv, run-2.csv]}"
-    path.write_text(f"schema: uictest/validation/1\nname: my-train\nstops: [{entry}]\n")
+    path.write_text(f"schema: uictest/validation/1\nname: my-train\nstops: [{ENTRY}]\n")
     return path
 
 
@@ -53,9 +50,7 @@ def test_figures_are_those_of_the_command(file: Path, command: Command) -> None:
 
 def test_what_is_written_flags_runs_and_sweeps(file: Path) -> None:
     validation = uictest.validate(file, output="validations")
-    assert validation.folder is not None
     assert {path.name for path in validation.folder.iterdir()} >= {"validation.json", "stops.csv"}
-    assert validation.file is not None
     changes = {"initial_speed": ["30 km/h", "36 km/h"]}
     results = uictest.run("scenarios/stop.yaml", set=changes, validated=validation.file)
     outside = [[each.key for each in result.domain_of_validity.outside] for result in results]  # type: ignore[union-attr]
@@ -65,7 +60,6 @@ def test_what_is_written_flags_runs_and_sweeps(file: Path) -> None:
         "grid: {initial_speed: [30 km/h, 36 km/h]}\n"
     )
     swept = uictest.sweep("study.sweep.yaml", validated=validation.file)
-    assert swept.result.domain_of_validity is not None
     assert swept.result.domain_of_validity.outside == 1
     assert list(swept.frame()["outside"]) == ["", "initial_speed"]
 
@@ -74,10 +68,9 @@ def test_a_file_of_several_series_is_refused(file: Path, write: Write, command: 
     """Each series is a validation of its own: one result, or one JSON document, cannot have them all."""
     assert file.exists()  # its recordings are those of the series
     write("reference", rail="{condition: dry}")
-    entry = "{scenario: scenarios/stop.yaml, map: map.yaml, recordings: [run-1.csv, run-2.csv]}"
     Path("two.series.yaml").write_text(
         "schema: uictest/series/1\nname: two\ndry: {scenario: scenarios/reference.yaml}\n"
-        f"wet: [{entry}]\ninclude: [{{controller: threshold}}, {{controller: slip-band}}]\n"
+        f"wet: [{ENTRY}]\ninclude: [{{controller: threshold}}, {{controller: slip-band}}]\n"
     )
     with pytest.raises(ValueError, match=r"found two\[controller=threshold\], two\[controller=slip-band\]:"):
         uictest.validate("two.series.yaml")

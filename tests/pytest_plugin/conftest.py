@@ -1,7 +1,5 @@
 """A project of somebody else, with scenarios, that is tested by pytest; with workers in processes."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import os

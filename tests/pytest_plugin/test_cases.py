@@ -1,7 +1,5 @@
 """One item per case: outcomes, messages, selection."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -79,7 +77,6 @@ def test_figures_and_test_ids_are_properties(run: Run) -> None:
     ids = {"polarion-testcase-id": "TC-7", "test_key": "TC-7", "requirements": "BR-1"}
     assert found["full"].items() >= ids.items()
     assert found["weak[command=100]"]["requirements"] == "BR-2"
-    assert result.measures is not None
     assert float(found["full"]["braking_distance_m"]) == pytest.approx(
         result.measures["braking_distance_m"], rel=1e-4
     )
@@ -135,7 +132,6 @@ def test_options_change_every_scenario(run: Run, scenario: Scenario) -> None:
     cases = load([Path("scenarios/stop.yaml")], ["brake.command=90 %", "repeat=2"], seed=7)
     [result] = run_cases(cases).results
     [testcase] = junit_testcases(Path("junit.xml")).values()
-    assert result.measures is not None
     assert properties(testcase)["braking_time_s"] == report.number(result.measures["braking_time_s"])
 
 

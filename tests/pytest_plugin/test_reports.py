@@ -1,7 +1,5 @@
 """`--uictest-output`: the reports of a session are those of the command."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -42,7 +40,6 @@ def test_they_are_those_of_the_command(run: Run, workers: list[str]) -> None:
     assert done.code == 1
     [place] = [line.split()[-1] for line in done.lines if line.startswith("uictest: reports in ")]
     folder = uictest.run("scenarios", output="expected").folder
-    assert folder is not None
     assert document(Path(place)) == document(folder)
     assert sorted(path.name for path in Path(place).rglob("*")) == sorted(
         path.name for path in folder.rglob("*")

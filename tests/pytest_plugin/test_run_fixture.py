@@ -1,7 +1,5 @@
 """`uictest_run`: the results of scenarios in tests that people write."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Which files are collected."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast

@@ -1,7 +1,5 @@
 """Series files: one item per criterion."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
