@@ -1,5 +1,7 @@
 """A folder to write scenario files into, which is also the working folder."""
 
+import io
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -43,6 +45,12 @@ def loaded(write: Write) -> Callable[..., list[Case]]:
 
 
 @pytest.fixture
+def case(loaded: Callable[..., list[Case]], head: str) -> Callable[..., Case]:
+    """The stop of `head`, which a module may replace, changed by `key=value` overrides."""
+    return lambda *overrides: loaded(head, *overrides)[0]
+
+
+@pytest.fixture
 def refused(write: Write) -> Callable[..., tuple[Diagnostic, ...]]:
     """The diagnostics of a scenario that must be refused."""
 
@@ -52,3 +60,16 @@ def refused(write: Write) -> Callable[..., tuple[Diagnostic, ...]]:
         return caught.value.diagnostics
 
     return _refused
+
+
+@pytest.fixture(scope="session")
+def fmu() -> Callable[[str], bytes]:
+    """An FMU that holds nothing but its description."""
+
+    def _fmu(description: str) -> bytes:
+        content = io.BytesIO()
+        with zipfile.ZipFile(content, "w") as archive:
+            archive.writestr("modelDescription.xml", description)
+        return content.getvalue()
+
+    return _fmu

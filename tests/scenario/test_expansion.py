@@ -20,46 +20,39 @@ def ids(cases: list[Case]) -> list[str]:
     return [case.id for case in cases]
 
 
-def test_the_first_key_of_a_matrix_is_the_slowest(loaded: Loaded, head: str) -> None:
-    cases = loaded(head + "matrix:\n  rail.friction: [0.10, 0.2]\n  brake.command: [80 %, 100 %]\n")
-
-    assert ids(cases) == [
-        "stop[friction=0.10,command=80]",
-        "stop[friction=0.10,command=100]",
-        "stop[friction=0.2,command=80]",
-        "stop[friction=0.2,command=100]",
-    ]
-    assert cases[1].parameters == {"rail.friction": "0.10", "brake.command": "100 %"}
-    assert (cases[1].scenario.rail.friction, cases[1].scenario.brake.command) == (0.1, 1.0)
+COMMANDS = "brake.command: [80 %, 90 %]"
+FRICTIONS = "rail.friction: [0.10, 0.2]"
+ANOTHER = "include: [{seed: 9, initial_speed: 80 km/h}]"
 
 
-def test_zip_goes_in_step_and_within_the_matrix(loaded: Loaded, head: str) -> None:
-    cases = loaded(head + "matrix: {seed: [1, 2]}\nzip: {rail.friction: [0.1, 0.2], expect: [pass, fail]}\n")
+@pytest.mark.parametrize(
+    ("sections", "expected"),
+    [
+        ("include: [{seed: 1}, {seed: 2}]", ["seed=1", "seed=2"]),
+        (
+            f"matrix: {{{COMMANDS}, {FRICTIONS}}}",
+            [f"command={command},friction={mu}" for command in (80, 90) for mu in ("0.10", "0.2")],
+        ),
+        (
+            f"matrix: {{seed: [1, 2]}}\nzip: {{{COMMANDS}, expect: [pass, fail]}}",
+            [f"seed={n},command={each}" for n in (1, 2) for each in ("80,expect=pass", "90,expect=fail")],
+        ),
+        (
+            f"matrix: {{seed: [1, 2], {COMMANDS}}}\nexclude: [{{seed: 1, brake.command: 80%}}]\n{ANOTHER}",
+            ["seed=1,command=90", "seed=2,command=80", "seed=2,command=90", "seed=9,initial_speed=80kmh"],
+        ),
+    ],
+)
+def test_the_first_key_is_the_slowest_zip_goes_within_the_matrix_and_include_comes_last(
+    loaded: Loaded, head: str, sections: str, expected: list[str]
+) -> None:
+    assert ids(loaded(f"{head}{sections}\n")) == [f"stop[{each}]" for each in expected]
 
-    assert ids(cases) == [
-        "stop[seed=1,friction=0.1,expect=pass]",
-        "stop[seed=1,friction=0.2,expect=fail]",
-        "stop[seed=2,friction=0.1,expect=pass]",
-        "stop[seed=2,friction=0.2,expect=fail]",
-    ]
 
-
-def test_exclude_removes_matches_and_include_appends(loaded: Loaded, head: str) -> None:
-    cases = loaded(
-        head + "matrix: {seed: [1, 2], brake.command: [80 %, 90 %]}\n"
-        "exclude: [{seed: 1, brake.command: 80%}]\ninclude: [{seed: 9, initial_speed: 80 km/h}]\n"
-    )
-
-    assert ids(cases) == [
-        "stop[seed=1,command=90]",
-        "stop[seed=2,command=80]",
-        "stop[seed=2,command=90]",
-        "stop[seed=9,initial_speed=80kmh]",
-    ]
-
-
-def test_include_alone_lists_the_cases(loaded: Loaded, head: str) -> None:
-    assert ids(loaded(head + "include: [{seed: 1}, {seed: 2}]\n")) == ["stop[seed=1]", "stop[seed=2]"]
+def test_a_case_has_the_values_of_its_id(loaded: Loaded, head: str) -> None:
+    _, case, *_ = loaded(head + "matrix: {rail.friction: [0.10, 0.2], brake.command: [80 %, 100 %]}\n")
+    assert case.parameters == {"rail.friction": "0.10", "brake.command": "100 %"}
+    assert (case.scenario.rail.friction, case.scenario.brake.command) == (0.1, 1.0)
 
 
 def test_a_key_below_a_reference_changes_the_part(loaded: Loaded, head: str) -> None:

@@ -23,18 +23,21 @@ HEAD: dict[str, Any] = {"schema": "uictest/scenario/1", "name": "stop", "initial
 
 
 @pytest.fixture(scope="module")
-def validator() -> Draft7Validator:
-    return Draft7Validator(json_schema())
+def schema() -> dict[str, Any]:
+    return json_schema()
 
 
-def test_the_committed_schema_is_that_of_the_models() -> None:
+@pytest.fixture(scope="module")
+def validator(schema: dict[str, Any]) -> Draft7Validator:
+    return Draft7Validator(schema)
+
+
+def test_the_committed_schema_is_that_of_the_models(schema: dict[str, Any]) -> None:
     # Written by `uictest schema --output schema/scenario.schema.json`.
-    assert json.loads(COMMITTED.read_text()) == json_schema()
+    assert json.loads(COMMITTED.read_text()) == schema
 
 
-def test_it_is_a_draft_07_schema() -> None:
-    schema = json_schema()
-
+def test_it_is_a_draft_07_schema(schema: dict[str, Any]) -> None:
     Draft7Validator.check_schema(schema)
     assert schema["$schema"] == "http://json-schema.org/draft-07/schema#"
     newer = ("$defs", "prefixItems", "x-quantity", '"discriminator"', "unevaluatedProperties")
@@ -58,22 +61,20 @@ def described(field: dict[str, Any], schema: dict[str, Any]) -> bool:
     return bool(field.get("description") or schema["definitions"].get(name, {}).get("description"))
 
 
-def test_every_field_is_described() -> None:
-    schema = json_schema()
+def test_every_field_is_described(schema: dict[str, Any]) -> None:
     fields = dict(properties(schema))
 
     assert len(fields) > 150
     assert [path for path, field in fields.items() if not described(field, schema)] == []
 
 
-def test_it_knows_every_key_of_the_model() -> None:
+def test_it_knows_every_key_of_the_model(schema: dict[str, Any]) -> None:
     keys = {field.alias or name for name, field in Scenario.model_fields.items()}
 
-    assert set(json_schema()["properties"]) == keys
+    assert set(schema["properties"]) == keys
 
 
-def test_references_resolve() -> None:
-    schema = json_schema()
+def test_references_resolve(schema: dict[str, Any]) -> None:
     used = {word for word in json.dumps(schema).split('"') if word.startswith("#/definitions/")}
 
     assert used

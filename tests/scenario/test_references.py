@@ -63,14 +63,8 @@ def test_a_changed_part_knows_the_library_part_at_the_root_of_its_extends(
 
     controller = case.scenario.controller
     assert (controller.name, controller.based_on) == ("mine", "threshold")
-    assert (controller.original.slip_threshold, controller.original.hold_limit) == (0.9993, 2.0)
-
-
-def test_a_copy_with_another_number_still_knows_what_it_was_changed_from(loaded: Loaded, head: str) -> None:
-    (case,) = loaded(head)
-
-    controller = case.scenario.controller.model_copy(update={"hold_limit": 9.0})
-    assert (controller.based_on, controller.original.hold_limit) == ("threshold", 2.0)
+    for each in (controller, controller.model_copy(update={"hold_limit": 9.0})):
+        assert (each.original.slip_threshold, each.original.hold_limit) == (0.9993, 2.0)
 
 
 def test_a_part_without_a_library_part_is_based_on_its_users_file_or_on_nothing(
@@ -91,7 +85,7 @@ def test_the_errors_of_all_references_are_told(refused: Refused, head: str) -> N
     assert [each.key for each in diagnostics] == ["vehicle", "controller", "criteria.0", "criteria.1"]
 
 
-def test_an_error_in_a_part_file_points_into_it(write: Callable[[str, str], Path], head: str) -> None:
+def test_an_error_in_a_part_file_points_into_it(write: Write, head: str) -> None:
     write("car.yaml", "schema: uictest/vehicle/1\nextends: crh380a\nbody: {mass: 40}\n")
 
     with pytest.raises(ScenarioErrors) as caught:
@@ -102,7 +96,7 @@ def test_an_error_in_a_part_file_points_into_it(write: Callable[[str, str], Path
     assert (*place, diagnostic.key) == ("car.yaml", 3, 14, "body.mass")
 
 
-def test_a_part_of_another_kind_is_refused(write: Callable[[str, str], Path], head: str) -> None:
+def test_a_part_of_another_kind_is_refused(write: Write, head: str) -> None:
     write("rail.yaml", "schema: uictest/rail/1\nextends: wet\n")
 
     with pytest.raises(ScenarioErrors, match="expected uictest/vehicle/1, found 'uictest/rail/1'"):

@@ -1,30 +1,33 @@
 """Repeats in a scenario file, and what is said of wrong ones."""
 
-from pathlib import Path
+from collections.abc import Callable
 
 import pytest
 
-from uictest.plans.scenario import ScenarioErrors, ShareOfStops, load
+from uictest.plans.scenario import Case, Diagnostic, ShareOfStops
 
-HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 80 km/h\n"
-
-
-def read(tmp_path: Path, text: str, *overrides: str):
-    path = tmp_path / "stop.yaml"
-    path.write_text(HEAD + text, "utf-8")
-    (case,) = load([path], overrides)
-    return case.scenario
+Loaded = Callable[..., list[Case]]
 
 
-def test_one_stop_unless_the_file_says_more(tmp_path: Path) -> None:
-    assert read(tmp_path, "").repeat == 1
-    assert read(tmp_path, "").outcome_of_repeats == "all"
-    assert read(tmp_path, "repeat: 10\noutcome_of_repeats: median").outcome_of_repeats == "median"
-    assert read(tmp_path, "repeat: 10", "repeat=3").repeat == 3
+@pytest.mark.parametrize(
+    ("text", "overrides", "repeat", "outcome"),
+    [
+        ("", [], 1, "all"),
+        ("repeat: 10\noutcome_of_repeats: median", [], 10, "median"),
+        ("repeat: 10", ["repeat=3"], 3, "all"),
+        ("seed: 4294967286\nrepeat: 10", [], 10, "all"),  # the last seed is the largest
+    ],
+)
+def test_one_stop_unless_the_file_says_more(
+    loaded: Loaded, head: str, text: str, overrides: list[str], repeat: int, outcome: str
+) -> None:
+    (case,) = loaded(head + text, *overrides)
+    assert (case.scenario.repeat, case.scenario.outcome_of_repeats) == (repeat, outcome)
 
 
-def test_a_share_of_the_stops(tmp_path: Path) -> None:
-    share = read(tmp_path, "repeat: 10\noutcome_of_repeats: {at_least: 90 %}").outcome_of_repeats
+def test_a_share_of_the_stops(loaded: Loaded, head: str) -> None:
+    (case,) = loaded(head + "repeat: 10\noutcome_of_repeats: {at_least: 90 %}")
+    share = case.scenario.outcome_of_repeats
     assert isinstance(share, ShareOfStops)
     assert share.at_least == pytest.approx(0.9)
 
@@ -57,14 +60,9 @@ def test_a_share_of_the_stops(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_what_is_wrong_is_said(tmp_path: Path, text: str, message: str, hint: str) -> None:
-    with pytest.raises(ScenarioErrors) as raised:
-        read(tmp_path, text)
-    (diagnostic,) = raised.value.diagnostics
-    shown = str(diagnostic)
-    assert message in shown
-    assert hint in shown
-
-
-def test_the_last_seed_may_be_the_largest(tmp_path: Path) -> None:
-    assert read(tmp_path, "seed: 4294967286\nrepeat: 10").repeat == 10
+def test_what_is_wrong_is_said(
+    refused: Callable[..., tuple[Diagnostic, ...]], head: str, text: str, message: str, hint: str
+) -> None:
+    (diagnostic,) = refused(head + text)
+    assert f"{diagnostic.key}: {diagnostic.message}" == message
+    assert diagnostic.hint.startswith(hint)

@@ -91,7 +91,7 @@ def test_ids_are_listed_by_their_numbers() -> None:
     ]
 
 
-@given(st.sets(st.from_regex(r"[A-Za-z0-9][A-Za-z0-9._:/-]{0,9}", fullmatch=True)))
+@given(st.sets(st.text("019AZaz._:/-", min_size=1, max_size=10)))
 def test_any_ids_have_an_order_that_their_first_order_does_not_change(ids: set[str]) -> None:
     ordered = in_order_of_ids(ids)
     assert set(ordered) == ids

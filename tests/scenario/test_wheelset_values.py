@@ -2,25 +2,19 @@
 
 from collections.abc import Callable
 from operator import attrgetter
-from pathlib import Path
 
 import pytest
 
-from uictest.plans.scenario import Case, ScenarioErrors, load, wheelset_value
+from uictest.plans.scenario import Case, ScenarioErrors, wheelset_value
 from uictest.plans.scenario.parts.wheelsets import REGULAR
 
 Load = Callable[..., Case]
 FOUR_CALIPERS = "rig.topology=four-caliper"
 
 
-@pytest.fixture(name="case")
-def _case(tmp_path: Path) -> Load:
-    path = tmp_path / "stop.yaml"
-    path.write_text(
-        "schema: uictest/scenario/1\nname: stop\ninitial_speed: 80 km/h\n"
-        "vehicle: {extends: intercity-180, wheelsets: {2: {wheel_radius: 0.42 m}}}\n"
-    )
-    return lambda *overrides: load([path], overrides)[0]
+@pytest.fixture
+def head(head: str) -> str:
+    return f"{head}vehicle: {{extends: intercity-180, wheelsets: {{2: {{wheel_radius: 0.42 m}}}}}}\n"
 
 
 def test_a_wheelset_has_its_own_value_where_it_says_one(case: Load) -> None:
@@ -66,10 +60,7 @@ def test_every_own_value_replaces_one_of_the_same_kind(case: Load, name: str) ->
         ("vehicle.wheelsets.2.wheel_radius=42 bar", "wheel_radius"),
         ("vehicle.wheelsets.2.brake_force=0.9", "write `90 %`"),
         ("vehicle.wheelsets.3.wheel_radius=1.5 m", "out of range"),
-        (
-            "vehicle.wheelsets.3.wsp_valve.switching_delay=900 ms",
-            "wheelsets.3.wsp_valve.switching_delay: .*too long",
-        ),
+        ("vehicle.wheelsets.3.wsp_valve.switching_delay=900 ms", "wsp_valve.switching_delay: .*too long"),
         ("vehicle.wheelsets.2.wheel_radius={value: 0.42 m, source: scales}", "unknown source 'scales'"),
     ],
 )
@@ -98,31 +89,19 @@ def test_a_brake_may_be_too_strong_on_single_wheelsets(case: Load) -> None:
 
 
 @pytest.mark.parametrize(
-    ("overrides", "message"),
+    ("sensors", "key", "value", "message"),
     [
-        (
-            ("rig.sensors=pole-wheel", "vehicle.wheelsets.3.sensors.speed.method=momentary"),
-            r"wheelsets\.3\.sensors\.speed\.method: .*wheelset 3 has 1 missing",
-        ),
-        (
-            ("rig.sensors=pole-wheel", "vehicle.wheelsets.2.sensors.speed.teeth=1"),
-            r"wheelsets\.2\.sensors\.speed\.teeth: 1 of 1 teeth",
-        ),
-        (
-            ("rig.sensors.speed.missing_teeth=2",),
-            r"rig\.sensors\.speed\.missing_teeth: a momentary speed counts no teeth",
-        ),
-        (
-            ("rig.sensors=pole-wheel", "rig.sensors.speed.minimum_speed=0 km/h"),
-            r"rig\.sensors\.speed\.minimum_speed: 0 km/h is out of range",
-        ),
+        ("pole-wheel", "vehicle.wheelsets.3.sensors.speed.method", "momentary", "wheelset 3 has 1 missing"),
+        ("pole-wheel", "vehicle.wheelsets.2.sensors.speed.teeth", "1", "1 of 1 teeth"),
+        ("pole-wheel", "rig.sensors.speed.minimum_speed", "0 km/h", "0 km/h is out of range"),
+        ("standard", "rig.sensors.speed.missing_teeth", "2", "a momentary speed counts no teeth"),
     ],
 )
 def test_pole_wheels_that_cannot_be_are_rejected(
-    case: Load, overrides: tuple[str, ...], message: str
+    case: Load, sensors: str, key: str, value: str, message: str
 ) -> None:
-    with pytest.raises(ScenarioErrors, match=message):
-        case(*overrides)
+    with pytest.raises(ScenarioErrors, match=f"{key}: .*{message}"):
+        case(f"rig.sensors={sensors}", f"{key}={value}")
 
 
 def test_pads_that_brake_better_somewhere_may_be_too_strong(case: Load) -> None:

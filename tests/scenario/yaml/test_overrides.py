@@ -139,18 +139,12 @@ WET = "rail: {condition: wet, friction: 0.09}\n"
 WET_SWEPT = "rail: {condition: wet}\nmatrix: {rail.friction: [0.09, 0.1]}\n"
 
 
+@pytest.mark.parametrize("more", [WET, WET_SWEPT])
 @pytest.mark.parametrize(
-    ("more", "override"),
-    [
-        (WET, "rail.condition=dry"),
-        (WET, "rail.condition=wet,dry"),
-        (WET, "rail.condition.friction=0.2"),
-        (WET_SWEPT, "rail.condition=dry"),
-        (WET_SWEPT, "rail.condition=wet,dry"),
-    ],
+    "override", ["rail.condition=dry", "rail.condition=wet,dry", "rail.condition.friction=0.2"]
 )
 def test_another_rail_condition_does_not_keep_the_friction_of_the_file(
-    refused: Callable[..., tuple[Diagnostic, ...]], head: str, more: str, override: str
+    refused: Refused, head: str, more: str, override: str
 ) -> None:
     over_time = "rail.friction_over_time={points: [{time: 0 s, factor: 1}]}"
 
@@ -160,9 +154,7 @@ def test_another_rail_condition_does_not_keep_the_friction_of_the_file(
     assert "rail.friction stays '0.09'" in diagnostic.message or "stays '[0.09, 0.1]'" in diagnostic.message
 
 
-def test_a_matrix_of_rail_conditions_does_not_keep_one_friction(
-    refused: Callable[..., tuple[Diagnostic, ...]], head: str
-) -> None:
+def test_a_matrix_of_rail_conditions_does_not_keep_one_friction(refused: Refused, head: str) -> None:
     (diagnostic,) = refused(head + WET + "matrix: {rail.condition: [wet, dry]}\n")
 
     assert (diagnostic.line, diagnostic.column, diagnostic.key) == (5, 32, "rail.condition")
@@ -170,7 +162,7 @@ def test_a_matrix_of_rail_conditions_does_not_keep_one_friction(
 
 @pytest.mark.parametrize("more", [WET, WET_SWEPT, WET + "matrix: {rail.condition: [wet, dry]}\n"])
 def test_another_rail_condition_is_accepted_with_a_friction_or_without_any(
-    loaded: Callable[..., list[Case]], head: str, more: str
+    loaded: Loaded, head: str, more: str
 ) -> None:
     own = loaded(head + more, "rail.condition=dry", "rail.friction=null")
     given = loaded(head + more, "rail.condition=dry,wet", "rail.friction=0.2")
@@ -179,16 +171,14 @@ def test_another_rail_condition_is_accepted_with_a_friction_or_without_any(
     assert [case.scenario.rail.friction for case in given] == [0.2, 0.2]
 
 
-def test_other_numbers_of_a_rail_condition_may_change_alone(
-    loaded: Callable[..., list[Case]], head: str
-) -> None:
+def test_other_numbers_of_a_rail_condition_may_change_alone(loaded: Loaded, head: str) -> None:
     rail = loaded(head + WET, "rail.condition=wet", "rail.condition.friction_decay=0.3 s/m")[0].scenario.rail
 
     assert (rail.friction, rail.condition.friction_decay) == (0.09, 0.3)
 
 
 def test_the_cleaning_of_a_condition_is_changed_key_by_key_that_of_the_rail_as_a_whole(
-    loaded: Callable[..., list[Case]], refused: Callable[..., tuple[Diagnostic, ...]], head: str
+    loaded: Loaded, refused: Refused, head: str
 ) -> None:
     cleaned = "rail: {condition: wet-cleaning, friction: 0.09}\n"
     swept = loaded(head + cleaned, "rail.condition.cleaning.energy=4 kJ/m,8 kJ/m")
@@ -210,7 +200,7 @@ def test_the_cleaning_of_a_condition_is_changed_key_by_key_that_of_the_rail_as_a
 
 
 def test_a_rail_that_cleaning_improves_is_long_enough_for_a_stop(
-    loaded: Callable[..., list[Case]], refused: Callable[..., tuple[Diagnostic, ...]], head: str
+    loaded: Loaded, refused: Refused, head: str
 ) -> None:
     """Whether a stop can end is asked of the best friction that a wheelset may meet."""
     slippery = "rail: {condition: wet, friction: 0.002}\nsimulation: {maximum_duration: 100 s}\n"
