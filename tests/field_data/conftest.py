@@ -86,6 +86,12 @@ def channels_of(recording: Recording) -> dict[str, RawChannel]:
     }
 
 
+def kept(channels: Mapping[str, RawChannel], chosen: np.ndarray) -> dict[str, RawChannel]:
+    """Return channels of one time axis with some of their samples."""
+    time = next(iter(channels.values())).time[chosen]
+    return {name: replace(each, time=time, samples=each.samples[chosen]) for name, each in channels.items()}
+
+
 @pytest.fixture(scope="session")
 def prepared(recording: Recording) -> Callable[..., RecordedStop]:
     """Prepare channels with the facts of the recording, or others."""

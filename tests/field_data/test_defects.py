@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -11,9 +12,10 @@ import pytest
 
 from uictest.recorded.field_data import UnusableError, unusable_result
 
-from .conftest import judge_stop
+from .conftest import judge_stop, kept
 
 Channels = dict[str, Any]
+Damage = Callable[[np.ndarray], np.ndarray]
 
 
 def _kinds(stop: Any) -> set[tuple[str, str]]:
@@ -31,12 +33,6 @@ def _change(channels: Channels, name: str, samples: np.ndarray) -> None:
 def _retime(channels: Channels, time: np.ndarray) -> None:
     for name, channel in channels.items():
         channels[name] = replace(channel, time=time)
-
-
-def _keep(channels: Channels, kept: np.ndarray) -> None:
-    time = channels["speed"].time[kept]
-    for name, channel in channels.items():
-        channels[name] = replace(channel, time=time, samples=channel.samples[kept])
 
 
 def test_a_sound_record_has_none(channels: Channels, prepared: Any) -> None:
@@ -67,8 +63,7 @@ def test_a_time_axis_that_is_none_makes_the_record_unusable(
 
 def test_a_gap_in_all_channels(case: Any, channels: Channels, prepared: Any) -> None:
     time = channels["speed"].time
-    _keep(channels, (time < 3.0) | (time > 3.805))
-    stop = prepared(channels)
+    stop = prepared(kept(channels, (time < 3.0) | (time > 3.805)))
     assert [defect.kind for defect in stop.defects] == ["gap"]
     assert "from 2.99 to 3.81 s" in str(stop.defects[0])
     reasons = _reasons(case, stop)
@@ -79,38 +74,56 @@ def test_a_gap_in_all_channels(case: Any, channels: Channels, prepared: Any) -> 
 def test_a_gap_leaves_no_integrated_distance(channels: Channels, prepared: Any, case: Any) -> None:
     del channels["distance"]
     time = channels["speed"].time
-    _keep(channels, (time < 3.0) | (time > 3.805))
-    result = judge_stop(case, prepared(channels))
+    result = judge_stop(case, prepared(kept(channels, (time < 3.0) | (time > 3.805))))
     assert np.isnan(result.measures["braking_distance_m"])
     assert np.isfinite(result.measures["braking_time_s"])
 
 
-def test_missing_samples(case: Any, channels: Channels, prepared: Any) -> None:
-    samples = channels["wheel_speed_3"].samples.copy()
-    samples[200:210] = np.nan
-    _change(channels, "wheel_speed_3", samples)
-    stop = prepared(channels)
-    assert _kinds(stop) == {("not-a-number", "wheel_speed_3")}
-    assert "wheel_speed_3 is not known from 2 to 2.09 s" in _reasons(case, stop)["locked-wheels"]
+def _between(first: int, last: int, value: float) -> Damage:
+    """Set samples to a value."""
+    return lambda samples: np.concatenate((samples[:first], np.full(last - first, value), samples[last:]))
 
 
-def test_a_dropout_of_a_wheel_speed(case: Any, channels: Channels, prepared: Any) -> None:
-    samples = channels["wheel_speed_2"].samples.copy()
-    samples[100:104] = 0.0
-    _change(channels, "wheel_speed_2", samples)
+@pytest.mark.parametrize(
+    ("name", "damage", "kind", "text"),
+    [
+        ("tank_pressure_4", lambda samples: 0.0 * samples, "stuck", ""),
+        ("wheel_speed_4", lambda samples: 1.05 * samples, "offset", "+5.0 % from the train before it brakes"),
+        ("speed", lambda samples: 1.06 * samples, "offset", ""),
+        ("cylinder_pressure_2", lambda samples: samples + 0.4e5, "offset", ""),
+    ],
+)
+def test_a_damaged_channel_is_the_only_one_that_is_named(
+    channels: Channels, prepared: Any, name: str, damage: Damage, kind: str, text: str
+) -> None:
+    _change(channels, name, damage(channels[name].samples))
     stop = prepared(channels)
-    assert _kinds(stop) == {("dropout", "wheel_speed_2")}
-    assert (
-        "dropout: wheel_speed_2 falls and returns at once, 1 times from 1 to 1.03 s"
-        in (_reasons(case, stop)["locked-wheels"])
-    )
+    assert _kinds(stop) == {(kind, name)}
+    assert text in str(stop.defects[0])
+
+
+@pytest.mark.parametrize(
+    ("damage", "kind", "reason"),
+    [
+        (_between(200, 210, np.nan), "not-a-number", "wheel_speed_2 is not known from 2 to 2.09 s"),
+        (
+            _between(100, 104, 0.0),
+            *("dropout", "dropout: wheel_speed_2 falls and returns at once, 1 times from 1 to 1.03 s"),
+        ),
+    ],
+)
+def test_wheels_that_are_not_known_for_a_while_may_have_locked(
+    case: Any, channels: Channels, prepared: Any, damage: Damage, kind: str, reason: str
+) -> None:
+    _change(channels, "wheel_speed_2", damage(channels["wheel_speed_2"].samples))
+    stop = prepared(channels)
+    assert _kinds(stop) == {(kind, "wheel_speed_2")}
+    assert reason in _reasons(case, stop)["locked-wheels"]
 
 
 def test_a_dropout_of_the_train_speed_is_no_standstill(channels: Channels, prepared: Any) -> None:
     standstill = prepared(channels).standstill
-    samples = channels["speed"].samples.copy()
-    samples[100:104] = 0.0
-    _change(channels, "speed", samples)
+    _change(channels, "speed", _between(100, 104, 0.0)(channels["speed"].samples))
     stop = prepared(channels)
     assert stop.standstill[0] == standstill[0]
     assert ("dropout", "speed") in _kinds(stop)
@@ -124,37 +137,14 @@ def test_a_stuck_speed(channels: Channels, prepared: Any, name: str) -> None:
     assert ("stuck", name) in _kinds(prepared(channels))
 
 
-def test_a_stuck_pressure(channels: Channels, prepared: Any) -> None:
-    _change(channels, "tank_pressure_4", np.zeros_like(channels["speed"].samples))
-    assert _kinds(prepared(channels)) == {("stuck", "tank_pressure_4")}
-
-
 def test_a_stuck_loadcell_is_no_clamping_force(case: Any, channels: Channels, prepared: Any) -> None:
     _change(channels, "clamping_force_1", np.zeros_like(channels["speed"].samples))
     result = judge_stop(case, prepared(channels))
     assert all(np.isnan(wheelset["maximum_clamping_force_n"]) for wheelset in result.wheelsets)
 
 
-def test_an_offset_wheel_speed(channels: Channels, prepared: Any) -> None:
-    _change(channels, "wheel_speed_4", 1.05 * channels["wheel_speed_4"].samples)
-    stop = prepared(channels)
-    assert _kinds(stop) == {("offset", "wheel_speed_4")}
-    assert "+5.0 % from the train before it brakes" in str(stop.defects[0])
-
-
-def test_an_offset_train_speed_is_told_from_offset_wheels(channels: Channels, prepared: Any) -> None:
-    _change(channels, "speed", 1.06 * channels["speed"].samples)
-    assert _kinds(prepared(channels)) == {("offset", "speed")}
-
-
-def test_an_offset_pressure(channels: Channels, prepared: Any) -> None:
-    _change(channels, "cylinder_pressure_2", channels["cylinder_pressure_2"].samples + 0.4e5)
-    assert _kinds(prepared(channels)) == {("offset", "cylinder_pressure_2")}
-
-
 def test_a_record_that_starts_late(case: Any, channels: Channels, prepared: Any) -> None:
-    _keep(channels, channels["speed"].time >= 2.0)
-    stop = prepared(channels)
+    stop = prepared(kept(channels, channels["speed"].time >= 2.0))
     assert ("starts-late", "the record") in _kinds(stop)
     result = judge_stop(case, stop)
     assert np.isnan(result.measures["braking_time_s"])
@@ -162,15 +152,13 @@ def test_a_record_that_starts_late(case: Any, channels: Channels, prepared: Any)
 
 
 def test_a_record_that_starts_late_without_a_stated_command(channels: Channels, prepared: Any) -> None:
-    _keep(channels, channels["speed"].time >= 2.0)
-    stop = prepared(channels, {})
+    stop = prepared(kept(channels, channels["speed"].time >= 2.0), {})
     assert stop.trigger.late
     assert ("starts-late", "the record") in _kinds(stop)
 
 
 def test_a_record_that_ends_before_standstill(case: Any, channels: Channels, prepared: Any) -> None:
-    _keep(channels, channels["speed"].time <= 5.0)
-    stop = prepared(channels)
+    stop = prepared(kept(channels, channels["speed"].time <= 5.0))
     assert _kinds(stop) == {("ends-before-standstill", "the record")}
     reason = _reasons(case, stop)["standstill"]
     assert re.fullmatch(r"no standstill; the record ends after 5 s with the train at [0-9.]+ km/h", reason)
@@ -181,8 +169,7 @@ def test_a_record_too_damaged_to_judge_is_inconclusive_not_a_skip(
     case: Any, channels: Channels, prepared: Any
 ) -> None:
     only = {"speed": channels["speed"]}
-    _keep(only, only["speed"].time <= 5.0)
-    result = judge_stop(case, prepared(only))
+    result = judge_stop(case, prepared(kept(only, only["speed"].time <= 5.0)))
     assert result.outcome == "inconclusive"
     assert "the record ends after 5 s" in result.reason
     assert "not recorded: wheel_speed_1" in result.reason

@@ -19,42 +19,26 @@ from uictest.plans.scenario.parts.criteria import Criteria, Criterion
 from uictest.recorded.field_data import stated_case
 from uictest.recorded.field_data.observation import observe
 
-from .conftest import channels_of, judge_stop
+from .conftest import channels_of, judge_stop, kept
 
 Channels = dict[str, Any]
 ROUNDING = 1e-9
-DEFINITION = {
-    "first_phase_duration": 3.0,
-    "low_speed_cutoff": 10.0 / 3.6,
-    "sliding_below": 0.9,
-    "end_speed": 20.0 / 3.6,
+_WRITTEN = {
+    "first_phase_duration": (3.0, "3 s"),
+    "low_speed_cutoff": (10.0 / 3.6, "10 km/h"),
+    "sliding_below": (0.9, "90 %"),
+    "end_speed": (20.0 / 3.6, "20 km/h"),
 }
-_WORDS = {
-    "first_phase_duration": {"value": "3 s", "range": ["3 s", "3 s"]},
-    "low_speed_cutoff": {"value": "10 km/h", "range": ["10 km/h", "10 km/h"]},
-    "sliding_below": {"value": "90 %", "range": ["90 %", "90 %"]},
-    "end_speed": {"value": "20 km/h", "range": ["20 km/h", "20 km/h"]},
-}
-
-
-def _keep(channels: Channels, kept: np.ndarray) -> Channels:
-    time = channels["speed"].time
-    return {
-        name: replace(channel, time=time[kept], samples=channel.samples[kept])
-        for name, channel in channels.items()
-    }
+DEFINITION = {name: value for name, (value, _) in _WRITTEN.items()}
+_WORDS = {name: {"value": text, "range": [text, text]} for name, (_, text) in _WRITTEN.items()}
 
 
 def _of_part(part: str, channels: Channels) -> Channels:
     time = channels["speed"].time
     name, _, number = part.partition(" ")
     at = float(number)
-    kept = {
-        "until": time <= at,
-        "from": time >= at,
-        "without": (time < at) | (time > at + 0.5),
-    }[name]
-    return _keep(channels, kept)
+    chosen = {"until": time <= at, "from": time >= at, "without": (time < at) | (time > at + 0.5)}
+    return kept(channels, chosen[name])
 
 
 def _values(stop: Any, case: Case) -> dict[str, tuple[float, ...]]:
@@ -173,7 +157,7 @@ def test_locks_on_either_side_of_a_gap_are_not_one(case: Case, channels: Channel
     wheel = channels["wheel_speed_1"]
     samples = np.where((time > 1.0) & (time < 2.6), 0.0, channels["speed"].samples)
     channels["wheel_speed_1"] = replace(wheel, samples=samples)
-    broken = _keep(channels, (time < 1.6) | (time > 2.0))
+    broken = kept(channels, (time < 1.6) | (time > 2.0))
     observed = observe(prepared(broken), case.scenario)
     assert observed.wheelset_measures[0].longest_lock == pytest.approx(0.6, abs=0.03)
 
@@ -185,13 +169,9 @@ def test_a_record_without_a_released_brake_shows_no_offsets(channels: Channels, 
 
 
 def test_a_record_that_begins_late_does_not_know_its_initial_speed(channels: Channels, prepared: Any) -> None:
-    statements = (
-        "rail.condition=dry",
-        "brake.position=R",
-        "rig.wsp=active",
-        "criteria=[uic-541-05-appendix-b]",
-    )
-    result = judge_stop(stated_case("late", 40.0 / 3.6, statements), prepared(_of_part("from 2", channels)))
+    statements = ("rail.condition=dry", "brake.position=R", "rig.wsp=active")
+    case = stated_case("late", 40.0 / 3.6, (*statements, "criteria=[uic-541-05-appendix-b]"))
+    result = judge_stop(case, prepared(_of_part("from 2", channels)))
     verdicts = {each.id: (each.status, each.reason) for each in result.criteria}
     assert verdicts["braking-distance"] == (
         "inconclusive",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
@@ -136,18 +138,22 @@ def test_nothing_marks_the_brake_command() -> None:
         find_trigger({"speed": SPEED}, {}, Preparation())
 
 
+def stood(time: np.ndarray, speed: np.ndarray) -> Any:
+    found = find_standstill(time, speed, 0.0, slow=0.3)
+    assert found is not None
+    return found
+
+
 def test_standstill_between_samples() -> None:
     time = np.arange(0.0, 12.0, 0.1)
-    found = find_standstill(time, 10.03 - time, 0.0, slow=0.3)
-    assert found is not None
+    found = stood(time, 10.03 - time)
     assert found.time == pytest.approx(10.03)
     assert found.beyond == 0.0
 
 
 def test_standstill_just_beyond_the_record_is_run_out() -> None:
     time = np.arange(0.0, 9.95, 0.1)
-    found = find_standstill(time, 10.03 - time, 0.0, slow=0.3)
-    assert found is not None
+    found = stood(time, 10.03 - time)
     assert found.time == pytest.approx(10.03)
     assert found.beyond == pytest.approx(0.5 * 0.13**2)
     assert "run out" in found.text
@@ -160,8 +166,7 @@ def test_a_record_that_ends_faster_holds_no_standstill() -> None:
 
 def test_a_sensor_that_reads_a_little_at_rest_does_not_delay_standstill() -> None:
     time = np.arange(0.0, 30.0, 0.1)
-    found = find_standstill(time, np.maximum(10.03 - time, 0.05), 0.0, slow=0.3)
-    assert found is not None
+    found = stood(time, np.maximum(10.03 - time, 0.05))
     assert found.time == pytest.approx(10.03, abs=0.06)
 
 
@@ -169,8 +174,7 @@ def test_a_zero_long_after_the_fall_is_another_stop() -> None:
     """The train creeps for three seconds, then stands: what it ran out to is the standstill."""
     time = np.arange(0.0, 15.0, 0.1)
     speed = np.where(time < 13.0, np.maximum(10.03 - time, 0.05), 0.0)
-    found = find_standstill(time, speed, 0.0, slow=0.3)
-    assert found is not None
+    found = stood(time, speed)
     assert found.time == pytest.approx(10.03, abs=0.06)
     assert "run out" in found.text
 
@@ -179,8 +183,7 @@ def test_the_train_runs_out_at_the_deceleration_of_the_last_half_second() -> Non
     """It brakes twice as hard from then on."""
     time = np.arange(0.0, 9.75, 0.05)
     speed = np.where(time < 9.2, 10.2 - time, 1.0 - 2.0 * (time - 9.2)) + 0.25
-    found = find_standstill(time, speed, 0.0, slow=0.3)
-    assert found is not None
+    found = stood(time, speed)
     assert found.time == pytest.approx(time[-1] + speed[-1] / 2.0)
     assert found.beyond == pytest.approx(speed[-1] ** 2 / 4.0)
 
