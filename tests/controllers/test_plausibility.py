@@ -1,6 +1,6 @@
 """Which readings the threshold controller believes, and what becomes of a wheelset without a speed."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import groupby
 from typing import Any
 
@@ -27,12 +27,22 @@ def train(cycle: int) -> float:
     return 30.0 - TRAIN * CYCLE * cycle
 
 
+Reads = Callable[[int, float], float | None]
+
+
+def driven(controller: Any, cycles: int, reads: Reads) -> Iterator[tuple[float, list[int]]]:
+    """Yield the train's speed and the commands of each cycle; the second sensor says nothing where None."""
+    for cycle in range(cycles):
+        speed = train(cycle)
+        read = reads(cycle, speed)
+        speeds = (speed, 60.0 if read is None else read, speed, speed)
+        yield speed, controller.commands_of(*speeds, valid=(1, int(read is not None), 1, 1))
+
+
 def test_a_flagged_sensor_is_out_of_the_estimate_at_once(watching: Callable[..., Any]) -> None:
     """Whatever it reads: neither the estimate nor the others see anything of it."""
     controller = watching()
-    for cycle in range(500):
-        speed = train(cycle)
-        commands = controller.commands_of(speed, 60.0, speed, speed, valid=(1, 0, 1, 1))
+    for _, commands in driven(controller, 500, lambda cycle, speed: None):
         assert commands == [FILL] * 4
     assert controller.reference == pytest.approx(train(499), abs=0.05)
 
@@ -63,56 +73,48 @@ def test_a_bogie_without_any_speed_gets_its_brake_force(watching: Callable[..., 
 
 
 def test_a_reading_that_falls_to_zero_at_once_is_no_lock(watching: Callable[..., Any]) -> None:
-    controller = watching()
-    commands = set()
-    for cycle in range(500):
-        speed = train(cycle)
-        commands.add(tuple(controller.commands(speed, 0.0 if cycle > 100 else speed, speed, speed)))
-    assert commands == {(FILL,) * 4}
+    for _, commands in driven(watching(), 500, lambda cycle, speed: 0.0 if cycle > 100 else speed):
+        assert commands == [FILL] * 4
 
 
 def test_a_wheel_that_locks_as_fast_as_a_brake_can_is_vented(watching: Callable[..., Any]) -> None:
     controller = watching()
-    speeds = [max(30.0 - 25.0 * CYCLE * cycle, 0.0) for cycle in range(200)]
-    commands = [controller.commands(train(k), speed, train(k), train(k))[1] for k, speed in enumerate(speeds)]
+    locking = driven(controller, 200, lambda cycle, speed: max(30.0 - 25.0 * CYCLE * cycle, 0.0))
+    commands = [all_four[1] for _, all_four in locking]
     assert [command for command, _ in groupby(commands)][:2] == [FILL, VENT]
     assert commands.index(VENT) * CYCLE < 0.2
 
 
-def test_a_jump_upwards_does_not_raise_the_estimate(watching: Callable[..., Any]) -> None:
-    controller = watching()
-    for cycle in range(500):
-        speed = train(cycle)
-        controller.commands(speed, speed + 6.0 if cycle > 100 else speed, speed, speed)
-        assert controller.reference < speed + 0.05
-
-
-def test_readings_that_jump_about_do_not_raise_the_estimate(watching: Callable[..., Any]) -> None:
+@pytest.mark.parametrize(
+    ("reads", "excess"),
+    [
+        (lambda cycle, speed: speed + 6.0 if cycle > 100 else speed, 0.05),
+        (lambda cycle, speed: speed + (-8.0, 5.0, 8.0, -5.0, 2.0)[cycle % 5], 2.1),
+    ],
+    ids=["up and stays there", "up and down"],
+)
+def test_readings_that_jump_do_not_raise_the_estimate(
+    watching: Callable[..., Any], reads: Reads, excess: float
+) -> None:
     """Some of them are plausible after others; while there is doubt, none counts."""
     controller = watching()
-    for cycle in range(500):
-        speed = train(cycle)
-        controller.commands(speed, speed + (-8.0, 5.0, 8.0, -5.0, 2.0)[cycle % 5], speed, speed)
-        assert controller.reference < speed + 2.1
+    for speed, _ in driven(controller, 500, reads):
+        assert controller.reference < speed + excess
     assert controller.wheelsets[1].distrusted == 1
 
 
 def test_a_single_bad_reading_does_nothing(watching: Callable[..., Any]) -> None:
     """As the gap of a pole wheel gives one in every turn."""
     controller = watching()
-    for cycle in range(1000):
-        speed = train(cycle)
-        assert (
-            controller.commands(speed, 0.9 * speed if cycle % 8 == 0 else speed, speed, speed) == [FILL] * 4
-        )
+    for _, commands in driven(controller, 1000, lambda cycle, speed: speed * (1.0 if cycle % 8 else 0.9)):
+        assert commands == [FILL] * 4
     assert controller.wheelsets[1].distrusted == 0
 
 
 def test_a_reading_that_stands_still_while_others_fall_is_distrusted(watching: Callable[..., Any]) -> None:
     controller = watching()
-    for cycle in range(1000):
-        speed = train(cycle)
-        assert controller.commands(speed, train(min(cycle, 100)), speed, speed) == [FILL] * 4
+    for speed, commands in driven(controller, 1000, lambda cycle, speed: train(min(cycle, 100))):
+        assert commands == [FILL] * 4
         assert controller.reference < speed + TRAIN * SHIPPED["stuck_time"] + 0.05
 
 
@@ -125,11 +127,8 @@ def test_a_train_at_a_steady_speed_has_no_stuck_sensor(watching: Callable[..., A
 
 def test_a_sensor_that_comes_back_is_trusted_after_a_while(watching: Callable[..., Any]) -> None:
     controller = watching()
-    distrusted = []
-    for cycle in range(600):
-        speed, valid = train(cycle), int(not 100 <= cycle < 200)
-        controller.commands_of(speed, speed if valid else 0.0, speed, speed, valid=(1, valid, 1, 1))
-        distrusted.append(controller.wheelsets[1].distrusted)
+    cycles = driven(controller, 600, lambda cycle, speed: None if 100 <= cycle < 200 else speed)
+    distrusted = [controller.wheelsets[1].distrusted for _ in cycles]
     first, last = distrusted.index(1), len(distrusted) - distrusted[::-1].index(1)
     assert first == 100
     assert last == pytest.approx(200 + SHIPPED["trust_time"] / CYCLE, abs=2)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import sys
 from collections.abc import Iterator
@@ -27,12 +26,13 @@ from uictest.plans.scenario import ScenarioErrors, load, load_controller, load_p
 from uictest.selftest.conformance.situations import anything
 
 ENTRY_POINTS = """\
-[uictest.controllers]
 acme-copy = acme_wsp.copy_of_threshold:CONTROLLER
 acme-class = acme_wsp.in_python:Acme
 acme-broken = acme_wsp.broken:Anything
+acme-declares = acme_wsp.declares:Acme
 acme-number = acme_wsp.in_python:NUMBER
 """
+PARAMETERS = 'PARAMETERS = {"gain": {"default": 2.0, "unit": "1"}}\n'
 IN_PYTHON = """
 from uictest.controllers import Outputs
 
@@ -52,47 +52,56 @@ class Acme:
 """
 
 
-@pytest.fixture
-def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """Install the package acme-wsp 2.1.0; return its folder of modules."""
-    site = tmp_path / "site"
-    modules, metadata = site / "acme_wsp", site / "acme_wsp-2.1.0.dist-info"
-    modules.mkdir(parents=True)
-    metadata.mkdir()
-    (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: acme-wsp\nVersion: 2.1.0\n", "utf-8")
-    (metadata / "entry_points.txt").write_text(ENTRY_POINTS, "utf-8")
-    (modules / "__init__.py").write_text("", "utf-8")
-    (modules / "in_python.py").write_text(IN_PYTHON, "utf-8")
-    (modules / "broken.py").write_text("import no_such_module\n", "utf-8")
+@pytest.fixture(scope="module")
+def _site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """Install the package acme-wsp 2.1.0."""
+    site = tmp_path_factory.mktemp("site")
+    modules = site / "acme_wsp"
+    modules.mkdir()
+    describe(site / "acme_wsp-2.1.0.dist-info", "acme-wsp", ENTRY_POINTS)
     copy = Path(threshold.__file__).read_text("utf-8").replace('name="threshold"', 'name="acme-copy"')
-    (modules / "copy_of_threshold.py").write_text(copy, "utf-8")
-    monkeypatch.syspath_prepend(str(site))
-    monkeypatch.setenv("PYTHONPATH", str(site))
-    importlib.invalidate_caches()
+    texts = {"__init__": "", "in_python": IN_PYTHON, "broken": "import no_such_module\n"}
+    texts |= {"copy_of_threshold": copy, "declares": IN_PYTHON + PARAMETERS}
+    for name, text in texts.items():
+        (modules / f"{name}.py").write_text(text, "utf-8")
     registered._loaded.cache_clear()
-    yield modules
+    yield site
     registered._loaded.cache_clear()
+
+
+@pytest.fixture(autouse=True)
+def _package(_site: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Begin with the package on the path and none of its modules imported."""
+    monkeypatch.syspath_prepend(str(_site))
+    monkeypatch.setenv("PYTHONPATH", str(_site))
+    yield
     for name in [name for name in sys.modules if name.partition(".")[0] == "acme_wsp"]:
         del sys.modules[name]
 
 
-def test_its_part_has_name_and_version_of_the_package_which_is_not_imported(package: Path) -> None:
+def describe(metadata: Path, package: str, entry_points: str) -> None:
+    metadata.mkdir(parents=True)
+    version = metadata.name.removesuffix(".dist-info").partition("-")[2]
+    text = f"Metadata-Version: 2.1\nName: {package}\nVersion: {version}\n"
+    (metadata / "METADATA").write_text(text, "utf-8")
+    (metadata / "entry_points.txt").write_text(f"[uictest.controllers]\n{entry_points}", "utf-8")
+
+
+def test_its_part_has_name_and_version_of_the_package_which_is_not_imported() -> None:
     part = load_controller("acme-broken")
     assert (part.version, "acme_wsp" in sys.modules) == ("acme-wsp 2.1.0", False)
     assert opened("acme-class").version == load_controller("acme-class").version
 
 
-def test_parameters_of_a_class_are_read_from_its_module_which_is_not_imported(package: Path) -> None:
-    module = package / "in_python.py"
-    module.write_text(IN_PYTHON + 'PARAMETERS = {"gain": {"default": 2.0, "unit": "1"}}\n', "utf-8")
-    part = load_controller("acme-class")
+def test_parameters_of_a_class_are_read_from_its_module_which_is_not_imported() -> None:
+    part = load_controller("acme-declares")
     assert part.parameters == {"gain": 2.0}  # type: ignore[attr-defined]
     with pytest.raises(ScenarioErrors, match="did you mean gain"):
         with_parameters(part, {"gian": 1.0})  # type: ignore[arg-type]
     assert "acme_wsp" not in sys.modules
 
 
-def test_a_class_that_declares_nothing_takes_no_parameters_once_it_runs(package: Path) -> None:
+def test_a_class_that_declares_nothing_takes_no_parameters_once_it_runs() -> None:
     program = ControllerProgram("registered", "acme-class", "", '{"gian": 1.0}', {"parameters": "asked"})
     config = Config(4, 0.01, 30.0, (0.46,) * 4, {"gian": 1.0})
     with pytest.raises(ControllerError, match=r"controller.parameters.gian: .*free_parameters: true"):
@@ -100,13 +109,12 @@ def test_a_class_that_declares_nothing_takes_no_parameters_once_it_runs(package:
     assert open_controller(replace(program, options={"parameters": "free"}), config)
 
 
-def test_a_name_that_nobody_or_two_packages_registered_has_no_version(package: Path) -> None:
+def test_a_name_that_nobody_or_two_packages_registered_has_no_version(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     assert installed_version("no-such") == ""
-    other = package.parent / "other_wsp-1.0.dist-info"
-    other.mkdir()
-    (other / "METADATA").write_text("Metadata-Version: 2.1\nName: other-wsp\nVersion: 1.0\n", "utf-8")
-    (other / "entry_points.txt").write_text("[uictest.controllers]\nacme-class = other:Acme\n", "utf-8")
-    importlib.invalidate_caches()
+    describe(tmp_path / "other_wsp-1.0.dist-info", "other-wsp", "acme-class = other:Acme\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
     assert installed_version("acme-class") == ""
     assert installed_version("acme-number") == "acme-wsp 2.1.0"
 
@@ -131,7 +139,7 @@ def stop(folder: Path, controller: str) -> Any:
     return load([folder / "stop.yaml"])[0]
 
 
-def test_a_copy_of_a_built_in_controller_gives_its_bits(package: Path, tmp_path: Path) -> None:
+def test_a_copy_of_a_built_in_controller_gives_its_bits(tmp_path: Path) -> None:
     ours = rig.simulate(stop(tmp_path, "threshold"))
     parameters = json.dumps(shipped())
     theirs = rig.simulate(stop(tmp_path, f"{{registered: acme-copy, parameters: {parameters}}}"))
@@ -139,7 +147,7 @@ def test_a_copy_of_a_built_in_controller_gives_its_bits(package: Path, tmp_path:
     assert theirs.wheelset_measures.tobytes() == ours.wheelset_measures.tobytes()
 
 
-def test_reset_leaves_nothing_of_the_stop_before(package: Path) -> None:
+def test_reset_leaves_nothing_of_the_stop_before() -> None:
     instance = opened("acme-copy", **shipped())
     answers = []
     for _ in range(2):
@@ -149,7 +157,7 @@ def test_reset_leaves_nothing_of_the_stop_before(package: Path) -> None:
     assert answers[0] == answers[1]
 
 
-def test_a_class_is_created_with_its_parameters(package: Path) -> None:
+def test_a_class_is_created_with_its_parameters() -> None:
     instance = opened("acme-class", gain=2.0)
     assert instance.version == "acme-wsp 2.1.0"
     instance.reset()
@@ -158,9 +166,7 @@ def test_a_class_is_created_with_its_parameters(package: Path) -> None:
     assert np.all(outputs["vent"] == 0)
 
 
-def test_a_name_outside_the_library_is_that_of_a_package_which_is_not_imported(
-    package: Path, tmp_path: Path
-) -> None:
+def test_a_name_outside_the_library_is_that_of_a_package_which_is_not_imported(tmp_path: Path) -> None:
     case = stop(tmp_path, "acme-class")
     assert case.scenario.controller.program.kind == "registered"
     assert case.scenario.controller.program.location == "acme-class"
@@ -170,7 +176,7 @@ def test_a_name_outside_the_library_is_that_of_a_package_which_is_not_imported(
     assert not [name for name in sys.modules if name.startswith("acme_wsp")]
 
 
-def test_an_unknown_name_gets_a_hint_with_the_registered_ones(package: Path, tmp_path: Path) -> None:
+def test_an_unknown_name_gets_a_hint_with_the_registered_ones(tmp_path: Path) -> None:
     with pytest.raises(ScenarioErrors, match="did you mean 'acme-class'"):
         stop(tmp_path, "acme-clas")
 
@@ -183,7 +189,7 @@ def test_an_unknown_name_gets_a_hint_with_the_registered_ones(package: Path, tmp
         ("nobody", "no installed package has registered 'nobody'; registered: acme-broken, acme-class"),
     ],
 )
-def test_what_cannot_be_opened_says_why(package: Path, name: str, message: str) -> None:
+def test_what_cannot_be_opened_says_why(name: str, message: str) -> None:
     with pytest.raises(ControllerError, match=message):
         opened(name)
 
@@ -199,13 +205,13 @@ def test_what_cannot_be_opened_says_why(package: Path, name: str, message: str) 
         ({"hold_limit": "9 ms"}, "hold_limit is 9 ms: 9 ms is shorter than one controller cycle"),
     ],
 )
-def test_wrong_parameters_are_rejected(package: Path, changes: dict[str, Any], message: str) -> None:
+def test_wrong_parameters_are_rejected(changes: dict[str, Any], message: str) -> None:
     with pytest.raises(ControllerError) as error:
         opened("acme-copy", **{**shipped(), **changes})
     assert message in str(error.value)
 
 
-def test_parameters_may_have_units(package: Path) -> None:
+def test_parameters_may_have_units() -> None:
     plain = opened("acme-copy", **shipped())
     written = opened("acme-copy", **{**shipped(), "slip_threshold": "3.6km/h", "deep_slide": "30 %"})
     values = written._memory["parameters"][0]
@@ -213,7 +219,7 @@ def test_parameters_may_have_units(package: Path) -> None:
     assert values["deep_slide"] == plain._memory["parameters"][0]["deep_slide"]
 
 
-def test_missing_parameters_are_named(package: Path) -> None:
+def test_missing_parameters_are_named() -> None:
     parameters = shipped()
     del parameters["slip_threshold"], parameters["hold_limit"]
     with pytest.raises(ControllerError, match="parameters without a value: slip_threshold, hold_limit"):

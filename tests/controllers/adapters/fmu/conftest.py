@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import zipfile
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -172,3 +173,15 @@ def ask() -> Callable[..., Any]:
         return exchange
 
     return asked
+
+
+@pytest.fixture
+def started(open_fmu: Callable[..., ControllerInstance], ask: Callable[..., Any]) -> Callable[..., Any]:
+    """Open an FMU and reset it; what is returned asks it."""
+
+    def begun(path: Path, parameters: dict[str, Any] | None = None, **names: str) -> Callable[..., Any]:
+        instance = open_fmu(path, parameters, **names)
+        instance.reset()
+        return partial(ask, instance)
+
+    return begun

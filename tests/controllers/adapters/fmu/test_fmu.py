@@ -18,6 +18,7 @@ from uictest.controllers import ControllerError, ControllerInstance
 MakeFmu = Any
 OpenFmu = Callable[..., ControllerInstance]
 Ask = Callable[..., Any]
+Started = Callable[..., Ask]
 
 
 VENTS_TWO_AND_FOUR = ([0, 1, 0, 1], [0, 1, 0, 1])
@@ -49,22 +50,18 @@ def refused(open_fmu: OpenFmu, path: Path, *arguments: Any, **names: Any) -> str
     return str(error.value).removeprefix(f"{path.name} ")
 
 
-def test_a_step_answers_the_inputs_of_the_same_cycle(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int
-) -> None:
-    instance = open_fmu(make_fmu(fmi), {"threshold": 10.0})
-    instance.reset()
-    assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
-    assert magnets(ask(instance, 20.0, 20.0, 20.0, 20.0, cycle=1)) == ([0] * 4, [0] * 4)
+def test_a_step_answers_the_inputs_of_the_same_cycle(make_fmu: MakeFmu, started: Started, fmi: int) -> None:
+    ask = started(make_fmu(fmi), {"threshold": 10.0})
+    assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
+    assert magnets(ask(20.0, 20.0, 20.0, 20.0, cycle=1)) == ([0] * 4, [0] * 4)
 
 
 def test_an_fmu_that_answers_a_cycle_late_is_left_as_it_is(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int
+    make_fmu: MakeFmu, started: Started, fmi: int
 ) -> None:
-    instance = open_fmu(make_fmu(fmi), {"threshold": 10.0, "late": 1})
-    instance.reset()
-    assert magnets(ask(instance, *SPEEDS)) == ([0] * 4, [0] * 4)
-    assert magnets(ask(instance, 20.0, 20.0, 20.0, 20.0, cycle=1)) == VENTS_TWO_AND_FOUR
+    ask = started(make_fmu(fmi), {"threshold": 10.0, "late": 1})
+    assert magnets(ask(*SPEEDS)) == ([0] * 4, [0] * 4)
+    assert magnets(ask(20.0, 20.0, 20.0, 20.0, cycle=1)) == VENTS_TWO_AND_FOUR
 
 
 TYPES = [(2, "Real", "Real"), (2, "Real", "Integer"), (2, "Real", "Boolean"), (2, "Real", "Enumeration")]
@@ -74,11 +71,10 @@ TYPES += [(3, "Float64", kind) for kind in ("Int32", "UInt32", "Int64", "UInt64"
 
 @pytest.mark.parametrize(("fmi", "real", "magnet"), TYPES)
 def test_magnets_and_speeds_may_have_any_type_that_holds_them(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int, real: str, magnet: str
+    make_fmu: MakeFmu, started: Started, fmi: int, real: str, magnet: str
 ) -> None:
-    instance = open_fmu(make_fmu(fmi, make_fmu.variables(fmi, real=real, magnet=magnet)), {"threshold": 10})
-    instance.reset()
-    assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
+    ask = started(make_fmu(fmi, make_fmu.variables(fmi, real=real, magnet=magnet)), {"threshold": 10})
+    assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
 
 
 @pytest.mark.parametrize(
@@ -90,25 +86,23 @@ def test_magnets_and_speeds_may_have_any_type_that_holds_them(
     ],
 )
 def test_variables_have_our_names_or_those_of_the_scenario_and_may_be_arrays(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, speed: str, hold: str, names: dict[str, str]
+    make_fmu: MakeFmu, started: Started, speed: str, hold: str, names: dict[str, str]
 ) -> None:
     listed = make_fmu.variables(3, speed=speed, hold=hold)
-    instance = open_fmu(make_fmu(3, listed), {"threshold": 10.0}, **names)
-    instance.reset()
-    assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
+    ask = started(make_fmu(3, listed), {"threshold": 10.0}, **names)
+    assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
 
 
-def test_a_tool_may_count_wheelsets_from_0(make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int) -> None:
+def test_a_tool_may_count_wheelsets_from_0(make_fmu: MakeFmu, started: Started, fmi: int) -> None:
     listed = make_fmu.variables(fmi)
     for place in range(4):
         listed[f"v{place}"] = listed.pop(f"wheel_speed_{place + 1}")
-    instance = open_fmu(make_fmu(fmi, listed), {"threshold": 10.0}, wheel_speed="v%d")
-    instance.reset()
-    assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
+    ask = started(make_fmu(fmi, listed), {"threshold": 10.0}, wheel_speed="v%d")
+    assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
 
 
 def test_everything_else_that_a_controller_is_given_is_set_where_there_is_a_variable(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int
+    make_fmu: MakeFmu, started: Started, fmi: int
 ) -> None:
     """Each output shows the place of one input: they have the same value reference."""
     real = {2: "Real", 3: "Float64"}[fmi]
@@ -117,18 +111,16 @@ def test_everything_else_that_a_controller_is_given_is_set_where_there_is_a_vari
     for name, (place, kind) in places.items():
         causality = "parameter" if name == "initial_speed" else "input"
         given = {name: (place, causality, kind), "seen": (place, "output", kind)}
-        instance = open_fmu(make_fmu(fmi, make_fmu.variables(fmi, **given)), reference_speed="seen")
-        instance.reset()
-        shown[name] = float(ask(instance, *SPEEDS, cycle=3)["reference_speed"])
+        ask = started(make_fmu(fmi, make_fmu.variables(fmi, **given)), reference_speed="seen")
+        shown[name] = float(ask(*SPEEDS, cycle=3)["reference_speed"])
     assert shown == {"time": 0.03, "brake_demand": 0.0, "initial_speed": 20.0}
 
 
-def test_a_diagnosis_with_a_sign_is_its_32_bits(make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask) -> None:
+def test_a_diagnosis_with_a_sign_is_its_32_bits(make_fmu: MakeFmu, started: Started) -> None:
     """The place of `late` is shown as the diagnosis."""
     listed = make_fmu.variables(2, diagnosis=(34, "output", "Integer"))
-    instance = open_fmu(make_fmu(2, listed), {"late": -2})
-    instance.reset()
-    assert int(ask(instance, *SPEEDS)["diagnosis"]) == 0xFFFFFFFE
+    ask = started(make_fmu(2, listed), {"late": -2})
+    assert int(ask(*SPEEDS)["diagnosis"]) == 0xFFFFFFFE
 
 
 def test_reset_returns_to_the_start_values_and_the_parameters(
@@ -218,13 +210,10 @@ def test_a_step_that_fails_says_what_the_fmu_says_and_the_next_stop_goes_on(
     assert capfd.readouterr().out == ""
 
 
-def test_an_fmu_that_ends_the_simulation_ends_the_stop(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask
-) -> None:
-    instance = open_fmu(make_fmu(3), {"fault": 5, "at": 0})
-    instance.reset()
+def test_an_fmu_that_ends_the_simulation_ends_the_stop(make_fmu: MakeFmu, started: Started) -> None:
+    ask = started(make_fmu(3), {"fault": 5, "at": 0})
     with pytest.raises(ControllerError, match=r"^the FMU asks to end the simulation$"):
-        ask(instance, *SPEEDS)
+        ask(*SPEEDS)
 
 
 def test_an_fmu_that_does_not_start_says_why(make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int) -> None:
@@ -297,7 +286,7 @@ def test_parameters_that_do_not_fit_are_refused(
 
 
 def test_parameters_may_be_texts_truth_values_whole_numbers_and_arrays(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int
+    make_fmu: MakeFmu, started: Started, fmi: int
 ) -> None:
     whole = {2: "Integer", 3: "Int32"}[fmi]
     listed = make_fmu.variables(
@@ -307,10 +296,9 @@ def test_parameters_may_be_texts_truth_values_whole_numbers_and_arrays(
         steps=(32, "parameter", whole),
     )
     del listed["late"], listed["at"]
-    instance = open_fmu(make_fmu(fmi, listed), {"text": "ten meters", "on": True, "steps": 5.0})
-    instance.reset()
-    ask(instance, *SPEEDS)
-    assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
+    ask = started(make_fmu(fmi, listed), {"text": "ten meters", "on": True, "steps": 5.0})
+    ask(*SPEEDS)
+    assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
 
 
 def test_files_that_are_no_fmu_for_here_are_refused(
