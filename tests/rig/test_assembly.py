@@ -10,15 +10,13 @@ from uictest.core.physics.flow import REFERENCE_DENSITY
 from uictest.core.physics.wsp_valve import LONGEST_DELAY_CYCLES
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.scenario import ScenarioErrors
-from uictest.rig.assembly import friction_laws
+from uictest.rig.assembly import assemble, friction_laws
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail_memory import MARGIN, POINTS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
 
 def test_every_parameter_of_every_shipped_case_is_a_number(scenarios: Any, rig: Any) -> None:
-    from uictest.rig.assembly import assemble
-
     for case in scenarios:
         parameters, wheelset_parameters, rail, *_ = assemble(case)
         endless = {name for name in PARAMETERS.names or () if name.startswith("fault_")}
@@ -143,12 +141,6 @@ def test_switching_delay_is_cut_into_cycles_and_steps(rig: Any, delay: str, cycl
     assert (p.valve_delay_cycles, p.valve_delay_steps) == (cycles, steps)
 
 
-def test_delay_longer_than_the_register_is_refused(rig: Any) -> None:
-    too_long = f"brake.system.wsp_valve.switching_delay={(LONGEST_DELAY_CYCLES + 1) * 10} ms"
-    with pytest.raises(ScenarioErrors, match="switching_delay"):
-        rig.parameters(too_long)
-
-
 def test_quantities_per_step_follow_the_step(rig: Any) -> None:
     coarse = rig.parameters("simulation.time_step=0.5 ms")[0]
     fine = rig.parameters("simulation.time_step=0.25 ms")[0]
@@ -169,9 +161,16 @@ def test_cylinder_is_stable_with_unity_gain_at_every_step(rig: Any, step: str) -
     assert system.dcgain() == pytest.approx(1.0, abs=1e-4)
 
 
-def test_a_step_too_short_for_the_cylinder_dynamics_is_refused(rig: Any) -> None:
-    with pytest.raises(ScenarioErrors, match="too short for the cylinder dynamics"):
-        rig.parameters("simulation.time_step=0.01 ms", "rig.compensation=full")
+@pytest.mark.parametrize(
+    ("overrides", "message"),
+    [
+        ([f"brake.system.wsp_valve.switching_delay={(LONGEST_DELAY_CYCLES + 1) * 10} ms"], "switching_delay"),
+        (["simulation.time_step=0.01 ms", "rig.compensation=full"], "too short for the cylinder dynamics"),
+    ],
+)
+def test_numbers_that_the_rig_cannot_hold_are_refused(rig: Any, overrides: list[str], message: str) -> None:
+    with pytest.raises(ScenarioErrors, match=message):
+        rig.parameters(*overrides)
 
 
 def test_steps_of_friction_are_pairs_of_points(rig: Any) -> None:
@@ -216,8 +215,6 @@ SOCKET = "controller={connect: 'tcp://127.0.0.1:5025', free_parameters: true, pa
 
 
 def test_the_digest_of_a_case_names_what_decides_its_stop(rig: Any) -> None:
-    from uictest.rig.assembly import assemble
-
     def digest(*overrides: str, lower_slide: float = 0.08) -> str:
         config = assemble(rig.case(SOCKET % lower_slide, *overrides)).config
         assert config is not None

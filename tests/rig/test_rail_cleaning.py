@@ -44,11 +44,6 @@ def test_the_condition_of_the_library_cleans_as_its_numbers_written_out(rig: Any
     assert bits(shipped) == bits(rig.stop(*SLIPPERY, cleaning()))
 
 
-@pytest.mark.parametrize("every", [1, 7, 20, 200])
-def test_recording_does_not_change_a_stop(rig: Any, every: int) -> None:
-    assert bits(rig.stop(*SLIPPERY, cleaning(), every=every)) == bits(rig.stop(*SLIPPERY, cleaning()))
-
-
 def test_energy_closes_as_on_a_rail_that_is_not_cleaned(rig: Any) -> None:
     """Cleaning moves no energy: what the contacts lose is heat as before."""
     for stop in (LOCKED, SLIPPERY):

@@ -37,12 +37,17 @@ def test_exact_records_give_the_shares_of_the_rig(wsp: str) -> None:
     assert np.abs(difference).mean() < 0.003
 
 
-def test_a_rail_that_nothing_cleans_is_as_it_was_found() -> None:
+def steady_slide(seconds: float) -> tuple[RecordedRail, np.ndarray]:
+    """The rail under a train at 20 m/s, and ones for each wheelset and sample."""
     case = stated_case("stop", 20.0, ["rail.condition=wet-cleaning"])
-    time = np.linspace(0.0, 2.0, 201)
+    time = np.arange(0.0, seconds, 0.01)
     place = 20.0 * time - np.array([[0.0], [2.5], [17.5], [20.0]])
     full = np.ones_like(place)
-    rail = RecordedRail(case.scenario, time, 20.0 * np.ones_like(time), place, 5.5e4 * full)
+    return RecordedRail(case.scenario, time, 20.0 * full[0], place, 5.5e4 * full), full
+
+
+def test_a_rail_that_nothing_cleans_is_as_it_was_found() -> None:
+    rail, full = steady_slide(2.0)
     friction, share = rail.met(0.1 * full, 2.0 * full, np.inf, 0.28)
     np.testing.assert_array_equal(friction, 0.1)
     np.testing.assert_array_equal(share, 0.0)
@@ -50,11 +55,7 @@ def test_a_rail_that_nothing_cleans_is_as_it_was_found() -> None:
 
 def test_a_constant_slide_settles_at_the_share_of_its_loss() -> None:
     """1 - exp(-W / Wc), with W = F s per metre, for the first wheelset and for those behind it."""
-    case = stated_case("stop", 20.0, ["rail.condition=wet-cleaning"])
-    time = np.linspace(0.0, 5.0, 501)
-    place = 20.0 * time - np.array([[0.0], [2.5], [17.5], [20.0]])
-    full = np.ones_like(place)
-    rail = RecordedRail(case.scenario, time, 20.0 * np.ones_like(time), place, 5.5e4 * full)
+    rail, full = steady_slide(5.0)
     # The rail is better than a clean one, so that the friction stays as it is: the loss is the creep law's.
     _, share = rail.met(0.1 * full, 2.0 * full, 5000.0, 0.1)
     own = share[0, -1]

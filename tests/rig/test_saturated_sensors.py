@@ -1,23 +1,18 @@
 """Sensors that are limited by their range: counted while they are, and named."""
 
 import re
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from uictest.plans.scenario import load
 from uictest.running.campaign import RecordingRequest, run_case
 
-STOP = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 60 km/h\n"
 
-
-def judged(folder: Path, *overrides: str, sensors: str = "{}") -> Any:
-    path = folder / "stop.yaml"
-    path.write_text(f"{STOP}rig: {{sensors: {sensors}}}\n" if sensors != "{}" else STOP)
-    [case] = load([path], overrides)
-    return run_case(case, RecordingRequest("all", 0.01))
+def judged(rig: Any, *overrides: str, **ranges: str) -> Any:
+    """A judged stop whose sensors of a kind have a range."""
+    sensors = [f"rig.sensors.{kind}.range={limit}" for kind, limit in ranges.items()]
+    return run_case(rig.case("initial_speed=60 km/h", *overrides, *sensors), RecordingRequest("all", 0.01))
 
 
 def check(run: Any, name: str) -> Any:
@@ -28,12 +23,10 @@ def check(run: Any, name: str) -> Any:
     ("topology", "named"), [("one-caliper", ["1"]), ("four-caliper", ["1", "2", "3", "4"])]
 )
 def test_loadcells_that_show_less_than_there_is_make_a_stop_invalid(
-    tmp_path: Path, topology: str, named: list[str]
+    rig: Any, topology: str, named: list[str]
 ) -> None:
     """The train brakes with what they show; the time is that of the recording."""
-    run = judged(
-        tmp_path, f"rig.topology={topology}", sensors="{extends: standard, loadcell: {range: 12 kN}}"
-    )
+    run = judged(rig, f"rig.topology={topology}", loadcell="12 kN")
     verdict = check(run, "loadcells-in-range")
     assert (run.result.outcome, verdict.status) == ("invalid", "fail")
     assert [n for n in "1234" if f"loadcells of wheelset {n} limited to 12 kN" in verdict.reason] == named
@@ -46,22 +39,21 @@ def test_loadcells_that_show_less_than_there_is_make_a_stop_invalid(
     assert check(run, "pressure-sensors-in-range").status == "pass"
 
 
-def test_pressure_sensors_at_their_range_are_named_that_of_the_brake_line_too(tmp_path: Path) -> None:
-    run = judged(tmp_path, sensors="{extends: standard, pressure: {range: 3 bar}}")
+def test_pressure_sensors_at_their_range_are_named_that_of_the_brake_line_too(rig: Any) -> None:
+    run = judged(rig, pressure="3 bar")
     reason = check(run, "pressure-sensors-in-range").reason
     assert run.result.outcome == "invalid"
     for place in ("wheelset 1", "wheelset 4", "the brake line"):
         assert f"pressure sensor of {place} limited to 3 bar for" in reason
 
 
-def test_the_first_sensor_is_said_to_be_of_any_kind_where_both_are_limited(tmp_path: Path) -> None:
+def test_the_first_sensor_is_said_to_be_of_any_kind_where_both_are_limited(rig: Any) -> None:
     """One time is kept for all sensors; here it is not that of the loadcells, which follow."""
-    sensors = "{extends: standard, loadcell: {range: 14 kN}, pressure: {range: 1 bar}}"
-    run = judged(tmp_path, sensors=sensors)
+    run = judged(rig, loadcell="14 kN", pressure="1 bar")
     for name in ("loadcells-in-range", "pressure-sensors-in-range"):
         assert "; the first of any kind by " in check(run, name).reason
 
 
-def test_a_stop_within_the_ranges_has_its_checks_hold(tmp_path: Path) -> None:
-    run = judged(tmp_path)
+def test_a_stop_within_the_ranges_has_its_checks_hold(rig: Any) -> None:
+    run = judged(rig)
     assert {each.status for each in run.result.criteria if each.layer == "rig"} == {"pass"}

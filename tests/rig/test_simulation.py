@@ -15,26 +15,14 @@ def _stops(scenarios: Any) -> dict[str, SimulatedStop]:
     return {case.id: simulate(case) for case in scenarios}
 
 
-def test_energy_residual_is_below_a_per_mille_in_every_case(stops: dict[str, SimulatedStop]) -> None:
-    assert {
-        name: s.measures.energy_residual
-        for name, s in stops.items()
-        if abs(s.measures.energy_residual) >= 1e-3
-    } == {}
-
-
-def test_air_residual_is_below_1e_9_in_every_case(stops: dict[str, SimulatedStop]) -> None:
-    assert {
-        name: s.measures.air_residual for name, s in stops.items() if abs(s.measures.air_residual) >= 1e-9
-    } == {}
-
-
-def test_air_energy_residual_is_below_1e_9_in_every_case(stops: dict[str, SimulatedStop]) -> None:
-    assert {
-        name: s.measures.air_energy_residual
-        for name, s in stops.items()
-        if abs(s.measures.air_energy_residual) >= 1e-9
-    } == {}
+@pytest.mark.parametrize(
+    ("residual", "limit"), [("energy_residual", 1e-3), ("air_residual", 1e-9), ("air_energy_residual", 1e-9)]
+)
+def test_energy_and_air_are_conserved_in_every_case(
+    stops: dict[str, SimulatedStop], residual: str, limit: float
+) -> None:
+    residuals = {name: float(stop.measures[residual]) for name, stop in stops.items()}
+    assert {name: each for name, each in residuals.items() if abs(each) >= limit} == {}
 
 
 def test_every_case_comes_to_a_standstill(stops: dict[str, SimulatedStop]) -> None:

@@ -95,6 +95,7 @@ def test_a_brake_may_be_too_strong_on_single_wheelsets(case: Load) -> None:
         ("pole-wheel", "vehicle.wheelsets.2.sensors.speed.teeth", "1", "1 of 1 teeth"),
         ("pole-wheel", "rig.sensors.speed.minimum_speed", "0 km/h", "0 km/h is out of range"),
         ("standard", "rig.sensors.speed.missing_teeth", "2", "a momentary speed counts no teeth"),
+        ("standard", "vehicle.wheelsets.2.sensors.speed.missing_teeth", "1", "counts no teeth"),
     ],
 )
 def test_pole_wheels_that_cannot_be_are_rejected(

@@ -140,14 +140,10 @@ def test_the_cases_differ_in_what_they_do(batch: Batch) -> None:
     assert len(set(batch.parameters["steps_per_cycle"])) == 2
 
 
-def test_a_lane_gives_the_bits_of_a_stop_alone(batch: Batch) -> None:
-    assert batch.is_as_alone(ALL, batch.in_lanes(ALL))
-
-
 @pytest.mark.parametrize(
-    "width", [4, 8, pytest.param(2, marks=pytest.mark.slow), pytest.param(16, marks=pytest.mark.slow)]
+    "width", [None, 4, 8, pytest.param(2, marks=pytest.mark.slow), pytest.param(16, marks=pytest.mark.slow)]
 )
-def test_any_number_of_lanes_gives_the_same_bits(batch: Batch, width: int) -> None:
+def test_a_lane_of_any_number_of_them_gives_the_bits_of_a_stop_alone(batch: Batch, width: int | None) -> None:
     assert batch.is_as_alone(ALL, batch.in_lanes(ALL, width))
 
 

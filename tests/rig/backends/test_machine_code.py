@@ -12,7 +12,13 @@ from uictest.core import user_cache
 from uictest.rig.backends import machine_code
 from uictest.rig.backends.machine_code import Entries, Unit, is_kept, native_function
 
+Begin = Callable[[], Callable[..., int]]
 NAME, OTHER, UNIT = "uictest_test", "uictest_other", "uictest_tests"
+
+
+damaged = pytest.mark.parametrize(
+    "damage", [lambda code: b"", lambda code: code[:-64], lambda code: code[::-1]]
+)
 
 
 @pytest.fixture
@@ -24,7 +30,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def begin(monkeypatch: pytest.MonkeyPatch) -> Callable[[], Callable[..., int]]:
+def begin(monkeypatch: pytest.MonkeyPatch) -> Begin:
     """Load the function as a new process would."""
 
     def load() -> Callable[..., int]:
@@ -47,9 +53,7 @@ def _kept(cache: Path, kind: str = NAME) -> Path:
     return path
 
 
-def test_code_is_compiled_once(
-    cache: Path, begin: Callable[[], Callable[..., int]], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_code_is_compiled_once(cache: Path, begin: Begin, monkeypatch: pytest.MonkeyPatch) -> None:
     assert not is_kept(NAME)
     assert begin()(14) == 42
     assert is_kept(NAME)
@@ -58,7 +62,7 @@ def test_code_is_compiled_once(
 
 
 def test_what_shares_code_is_compiled_once(
-    cache: Path, begin: Callable[[], Callable[..., int]], monkeypatch: pytest.MonkeyPatch
+    cache: Path, begin: Begin, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     begin()
     assert not is_kept(OTHER)
@@ -66,9 +70,9 @@ def test_what_shares_code_is_compiled_once(
     assert _function(OTHER)(14) == 13
 
 
-@pytest.mark.parametrize("damage", [lambda code: b"", lambda code: code[:-64], lambda code: code[::-1]])
+@damaged
 def test_damaged_bitcode_is_compiled_anew(
-    cache: Path, begin: Callable[[], Callable[..., int]], damage: Callable[[bytes], bytes]
+    cache: Path, begin: Begin, damage: Callable[[bytes], bytes]
 ) -> None:
     begin()
     sound = _kept(cache, UNIT).read_bytes()
@@ -77,9 +81,7 @@ def test_damaged_bitcode_is_compiled_anew(
     assert len(_kept(cache, UNIT).read_bytes()) > 64
 
 
-def test_progress_is_told_from_nothing_to_the_end(
-    cache: Path, begin: Callable[[], Callable[..., int]]
-) -> None:
+def test_progress_is_told_from_nothing_to_the_end(cache: Path, begin: Begin) -> None:
     told: list[tuple[str, float]] = []
     with machine_code.compilation_watched(lambda title, done: told.append((title, done))):
         begin()
@@ -92,10 +94,8 @@ def test_progress_is_told_from_nothing_to_the_end(
     assert [done for title, done in told if title == "another"] == [0.0, 1.0]
 
 
-@pytest.mark.parametrize("damage", [lambda code: b"", lambda code: code[:-64], lambda code: code[::-1]])
-def test_damaged_code_is_compiled_anew(
-    cache: Path, begin: Callable[[], Callable[..., int]], damage: Callable[[bytes], bytes]
-) -> None:
+@damaged
+def test_damaged_code_is_compiled_anew(cache: Path, begin: Begin, damage: Callable[[bytes], bytes]) -> None:
     begin()
     damaged = damage(_kept(cache).read_bytes())
     _kept(cache).write_bytes(damaged)
@@ -105,7 +105,7 @@ def test_damaged_code_is_compiled_anew(
     assert _kept(cache).read_bytes() != damaged
 
 
-def test_no_single_flipped_bit_is_executed(cache: Path, begin: Callable[[], Callable[..., int]]) -> None:
+def test_no_single_flipped_bit_is_executed(cache: Path, begin: Begin) -> None:
     begin()
     sound = bytearray(_kept(cache).read_bytes())
     for place in range(0, len(sound), 97):
@@ -118,7 +118,7 @@ def test_no_single_flipped_bit_is_executed(cache: Path, begin: Callable[[], Call
 
 
 def test_code_of_another_processor_is_not_executed(
-    cache: Path, begin: Callable[[], Callable[..., int]], monkeypatch: pytest.MonkeyPatch
+    cache: Path, begin: Begin, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     begin()
     monkeypatch.setattr(machine_code, "_inputs", lambda target: b"another processor")
@@ -126,7 +126,7 @@ def test_code_of_another_processor_is_not_executed(
 
 
 def test_without_any_place_it_is_compiled_and_nothing_is_left(
-    tmp_path: Path, begin: Callable[[], Callable[..., int]], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, begin: Begin, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (tmp_path / "file").write_text("not a folder")
     monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "file" / "cache"))
@@ -136,7 +136,7 @@ def test_without_any_place_it_is_compiled_and_nothing_is_left(
 
 
 def test_what_another_process_compiles_meanwhile_is_used(
-    cache: Path, begin: Callable[[], Callable[..., int]], monkeypatch: pytest.MonkeyPatch
+    cache: Path, begin: Begin, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     begin()
     path = _kept(cache)

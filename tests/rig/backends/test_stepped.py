@@ -57,14 +57,16 @@ def own_states() -> set[str]:
     return {*fields_of(Car), *fields_of(Wheelset)}
 
 
-@pytest.mark.parametrize("every", [0, 7])
+def assert_bits_of_run(case: Case, outside: Callable[[Case], Any], every: int) -> None:
+    run = run_to_end(compiled_stop(), assemble(case), every)
+    assert_same(stepped_to_end(case, outside, every), run)
+
+
 def test_every_shipped_stop_has_the_bits_of_run(
-    scenarios: list[Case], controller_outside: Callable[[Case], Any], every: int
+    scenarios: list[Case], controller_outside: Callable[[Case], Any]
 ) -> None:
-    for case in scenarios if every == 0 else scenarios[::5]:
-        inputs = assemble(case)
-        run = run_to_end(compiled_stop(), inputs, every)
-        assert_same(stepped_to_end(case, controller_outside, every), run)
+    for number, case in enumerate(scenarios):
+        assert_bits_of_run(case, controller_outside, every=0 if number % 5 else 7)
 
 
 @pytest.mark.parametrize("name", VARIANTS)
@@ -72,10 +74,7 @@ def test_other_parts_of_the_rig_have_the_bits_of_run(
     name: str, controller_outside: Callable[[Case], Any]
 ) -> None:
     file, overrides = VARIANTS[name]
-    case = load([SCENARIOS / file], overrides)[0]
-    inputs = assemble(case)
-    run = run_to_end(compiled_stop(), inputs, 20)
-    assert_same(stepped_to_end(case, controller_outside, 20), run)
+    assert_bits_of_run(load([SCENARIOS / file], overrides)[0], controller_outside, every=20)
 
 
 def test_a_stop_ends_after_its_longest_duration(rig: Any) -> None:

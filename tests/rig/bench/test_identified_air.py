@@ -2,14 +2,16 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from uictest.core.recording import Recording
+from uictest.plans.scenario import Case
 from uictest.plans.scenario.yaml import parse_quantity
 from uictest.rig.bench import BenchTest, identify_air, load_bench, run_test
-from uictest.rig.identification import UnsuitableRecordError
+from uictest.rig.identification import AirResult, UnsuitableRecordError
 
 RECIPE = """schema: uictest/bench/1
 name: cycling
@@ -38,6 +40,16 @@ def _record(test: BenchTest) -> Recording:
     return run_test(test)
 
 
+def changed(case: Case, part: str, **fields: float) -> Case:
+    """The case with other values in a part of its scenario."""
+
+    def copied(model: Any, names: list[str]) -> Any:
+        update = {names[0]: copied(getattr(model, names[0]), names[1:])} if names else fields
+        return model.model_copy(update=update)
+
+    return replace(case, scenario=copied(case.scenario, part.split(".")))
+
+
 def channels(record: Recording) -> dict[str, np.ndarray]:
     names = {
         "time": "time",
@@ -49,9 +61,13 @@ def channels(record: Recording) -> dict[str, np.ndarray]:
     return {role: np.array(record[name]) for role, name in names.items()}
 
 
-def test_the_air_that_made_a_record_is_found_in_it(test: BenchTest, record: Recording) -> None:
+@pytest.fixture(name="result", scope="module")
+def _result(test: BenchTest, record: Recording) -> AirResult:
+    return identify_air(channels(record), test.case)
+
+
+def test_the_air_that_made_a_record_is_found_in_it(test: BenchTest, result: AirResult) -> None:
     """Surfaces times film coefficients, the volume of the stroke, the pressures of spring and friction."""
-    result = identify_air(channels(record), test.case)
     system, caliper = test.case.scenario.brake.system, test.case.scenario.rig.caliper
     tank = system.tank.surface * system.tank.film_coefficient
     balls = system.caliper_tank.ball_surface * system.caliper_tank.film_coefficient
@@ -71,27 +87,17 @@ def test_a_record_of_a_tank_of_another_volume_contradicts_the_rig(
     test: BenchTest, record: Recording, volume: str
 ) -> None:
     """Heat conductances fitted to it would be wrong by a factor, with small errors."""
-    system = test.case.scenario.brake.system
-    tank = system.tank.model_copy(update={"volume": parse_quantity(volume, "volume")})
-    brake = test.case.scenario.brake.model_copy(update={"system": system.model_copy(update={"tank": tank})})
-    other = replace(test.case, scenario=test.case.scenario.model_copy(update={"brake": brake}))
+    other = changed(test.case, "brake.system.tank", volume=parse_quantity(volume, "volume"))
     with pytest.raises(UnsuitableRecordError, match=rf"as one of .* L would, .* has {volume}"):
         identify_air(channels(record), other)
 
 
-def test_the_numbers_do_not_depend_on_those_of_the_compensation(test: BenchTest, record: Recording) -> None:
-    rig = test.case.scenario.rig
-    model = rig.compensation_model
-    other = model.model_copy(
-        update={"air": model.air.model_copy(update={"tank_heat_conductance": 0.0, "swept_volume": 1e-6})}
-    )
-    scenario = test.case.scenario.model_copy(
-        update={"rig": rig.model_copy(update={"compensation_model": other})}
-    )
-    here, there = (
-        identify_air(channels(record), case) for case in (test.case, replace(test.case, scenario=scenario))
-    )
-    assert here == there
+def test_the_numbers_do_not_depend_on_those_of_the_compensation(
+    test: BenchTest, record: Recording, result: AirResult
+) -> None:
+    air = {"tank_heat_conductance": 0.0, "swept_volume": 1e-6}
+    other = changed(test.case, "rig.compensation_model.air", **air)
+    assert identify_air(channels(record), other) == result
 
 
 def test_sensors_with_noise_change_little(tmp_path: Path) -> None:

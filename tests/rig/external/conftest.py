@@ -5,14 +5,18 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from uictest.controllers import HEADER
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
+from uictest.rig.external.block import BlockInputs
+from uictest.rig.external.workers import Workers
 from uictest.rig.noise_key import StopInputs
 
 HERE = Path(__file__).parent
@@ -31,27 +35,29 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-@pytest.fixture
-def library(folder: Path) -> Compile:
-    """Compile bad.c and return the library."""
+@pytest.fixture(scope="session")
+def _built(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """Compile bad.c, once for each set of options."""
     compiler = shutil.which(os.environ.get("CC", "gcc"))
     if compiler is None:
         pytest.skip("no C compiler")
 
+    @cache
+    def built(*options: str) -> Path:
+        library = tmp_path_factory.mktemp("bad") / "libbad.so"
+        command = [compiler, "-O1", "-fPIC", "-shared", f"-I{HEADER.parent}", *options]
+        subprocess.run([*command, "-o", library, HERE / "bad.c"], check=True)
+        return library
+
+    return built
+
+
+@pytest.fixture
+def library(folder: Path, _built: Callable[..., Path]) -> Compile:
+    """Put the library of bad.c into the working folder."""
+
     def compiled(*options: str, name: str = "libbad.so") -> Path:
-        command = [
-            compiler,
-            "-O1",
-            "-fPIC",
-            "-shared",
-            f"-I{HEADER.parent}",
-            *options,
-            "-o",
-            folder / name,
-            HERE / "bad.c",
-        ]
-        subprocess.run(command, check=True)
-        return folder / name
+        return Path(shutil.copy(_built(*options), folder / name))
 
     return compiled
 
@@ -70,3 +76,23 @@ def stop_of(folder: Path) -> StopOf:
         return assemble(load([scenario])[0])
 
     return inputs
+
+
+@pytest.fixture(scope="module")
+def workers() -> Iterator[Workers]:
+    """Child processes that the tests of a module share."""
+    with Workers() as open_workers:
+        yield open_workers
+
+
+@pytest.fixture(scope="session")
+def block_of() -> Callable[[Sequence[StopInputs]], BlockInputs]:
+    """Put stops into a block."""
+
+    def block(stops: Sequence[StopInputs]) -> BlockInputs:
+        programs, configs = ([getattr(stop, name) for stop in stops] for name in ("program", "config"))
+        records = ("parameters", "wheelset_parameters", "rail")
+        numbers = (np.array([getattr(stop, name) for stop in stops]) for name in records)
+        return BlockInputs(programs, configs, *numbers)
+
+    return block

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import importlib
 import json
+import shutil
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -23,6 +23,7 @@ from uictest.rig.external.workers import Workers, run_in_process
 from uictest.rig.noise_key import StopInputs
 
 Compile = Callable[..., Path]
+BlockOf = Callable[[Sequence[StopInputs]], BlockInputs]
 ENTRY_POINTS = """\
 [uictest.controllers]
 acme-copy = acme_lanes:CONTROLLER
@@ -30,20 +31,22 @@ acme-class = bad:Bad
 """
 
 
-@pytest.fixture
-def package(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Install a package with a copy of the threshold controller and a class that fails as told to."""
-    metadata = folder / "acme_lanes-1.0.dist-info"
+    site = tmp_path_factory.mktemp("site")
+    metadata = site / "acme_lanes-1.0.dist-info"
     metadata.mkdir()
     (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: acme-lanes\nVersion: 1.0\n", "utf-8")
     (metadata / "entry_points.txt").write_text(ENTRY_POINTS, "utf-8")
     copy = Path(threshold.__file__).read_text("utf-8").replace('name="threshold"', 'name="acme-copy"')
-    (folder / "acme_lanes.py").write_text(copy, "utf-8")
-    monkeypatch.syspath_prepend(str(folder))
-    monkeypatch.setenv("PYTHONPATH", str(folder))
-    importlib.invalidate_caches()
-    registered._loaded.cache_clear()
-    yield
+    (site / "acme_lanes.py").write_text(copy, "utf-8")
+    shutil.copy(Path(__file__).parent / "bad.py", site)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(site))
+        patch.setenv("PYTHONPATH", str(site))
+        registered._loaded.cache_clear()
+        yield
     registered._loaded.cache_clear()
     for name in ("acme_lanes", "bad"):
         sys.modules.pop(name, None)
@@ -75,24 +78,14 @@ def stops(controller: str, *frictions: float) -> list[StopInputs]:
     return [assemble(load([Path("stop.yaml")], [rail, f"controller={controller}"])[0]) for rail in rails]
 
 
-def block_of(inputs: Sequence[StopInputs]) -> BlockInputs:
-    return BlockInputs(
-        [stop.program for stop in inputs],
-        [stop.config for stop in inputs],
-        np.array([stop.parameters for stop in inputs]),
-        np.array([stop.wheelset_parameters for stop in inputs]),
-        np.array([stop.rail for stop in inputs]),
-    )
-
-
 def bits(run: object, place: int | tuple[()] = ()) -> bytes:
     measures, of_wheelsets = run.measures[place], run.wheelset_measures[place]  # type: ignore[attr-defined]
     return bytes(measures.tobytes() + of_wheelsets.tobytes())
 
 
-@pytest.mark.usefixtures("package")
+@pytest.mark.usefixtures("package", "folder")
 def test_machine_code_runs_in_lanes_with_the_bits_of_a_stop_alone(
-    library: Compile, ran_in_lanes: list[int]
+    library: Compile, block_of: BlockOf, ran_in_lanes: list[int]
 ) -> None:
     """Whatever stands between them in the block; a class of a package runs one by one."""
     library()
@@ -112,8 +105,8 @@ def test_machine_code_runs_in_lanes_with_the_bits_of_a_stop_alone(
     assert [bits(run, place) for place in (0, 1, 2)] == [bits(run, place) for place in (4, 5, 6)]
 
 
-@pytest.mark.usefixtures("package")
-def test_a_controller_that_fails_ends_its_own_stop_alone(ran_in_lanes: list[int]) -> None:
+@pytest.mark.usefixtures("package", "folder")
+def test_a_controller_that_fails_ends_its_own_stop_alone(block_of: BlockOf, ran_in_lanes: list[int]) -> None:
     inputs = [
         *copies(0.08, slip_threshold=99.0),
         *copies(0.08),
@@ -139,8 +132,8 @@ def test_a_controller_that_fails_ends_its_own_stop_alone(ran_in_lanes: list[int]
         assert bits(run, place) == bits(run_in_process(inputs[place]))
 
 
-@pytest.mark.usefixtures("package")
-def test_a_block_in_a_child_process_has_the_bits_of_one_here() -> None:
+@pytest.mark.usefixtures("package", "folder")
+def test_a_block_in_a_child_process_has_the_bits_of_one_here(block_of: BlockOf) -> None:
     inputs = copies(0.06, 0.09)
     with Workers() as workers:
         there = workers.run_block(block_of(inputs))

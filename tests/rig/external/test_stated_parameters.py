@@ -23,52 +23,42 @@ def stop(folder: Path, controller: str) -> StopInputs:
     return assemble(load([path])[0])
 
 
+SILENT = "-DSILENT"
+
+
 @pytest.mark.parametrize(
-    ("options", "controller", "message"),
+    ("option", "controller", "message"),
     [
-        (
-            (),
-            "parameters: {fualt: none}",
-            "controller.parameters.fualt: no parameter fualt; did you mean fault?",
-        ),
-        (
-            (),
-            "parameters: {at: 10000}",
-            "controller.parameters.at: 10000 is out of range; accepted: 0 to 9999",
-        ),
-        ((), "parameters: {fault: 1}", "controller.parameters.fault: expected a text, found a number (1)"),
-        ((), "declared_parameters: {ta: {default: 1, unit: s}}", "no parameter ta; accepted: fault, at"),
-        (
-            ("-DSILENT",),
-            "parameters: {at: 1}",
-            "declares no parameters, given: at; write `declared_parameters:",
-        ),
-        (('-DSTATED="[]"',), "parameters: {at: 1}", "its parameters are not of the form"),
-        (('-DSTATED="{"',), "parameters: {at: 1}", "its parameters are not of the form"),
-        (('-DSTATED="{\\"at\\": {\\"range\\": [0]}}"',), "parameters: {at: 1}", "are not of the form"),
+        ("", "parameters: {fualt: none}", "parameters.fualt: no parameter fualt; did you mean fault?"),
+        ("", "parameters: {at: 10000}", "parameters.at: 10000 is out of range; accepted: 0 to 9999"),
+        ("", "parameters: {fault: 1}", "parameters.fault: expected a text, found a number (1)"),
+        ("", "declared_parameters: {ta: {default: 1, unit: s}}", "no parameter ta; accepted: fault, at"),
+        (SILENT, "parameters: {at: 1}", "declares no parameters, given: at; write `declared_parameters:"),
+        ('-DSTATED="[]"', "parameters: {at: 1}", "its parameters are not of the form"),
+        ('-DSTATED="{"', "parameters: {at: 1}", "its parameters are not of the form"),
+        ('-DSTATED="{\\"at\\": {\\"range\\": [0]}}"', "parameters: {at: 1}", "are not of the form"),
     ],
 )
 def test_what_a_library_does_not_state_ends_the_stop(
-    folder: Path, library: Compile, options: tuple[str, ...], controller: str, message: str
+    folder: Path, library: Compile, workers: Workers, option: str, controller: str, message: str
 ) -> None:
-    library(*options)
-    with Workers() as workers, pytest.raises(ControllerError) as error:
+    library(*filter(None, [option]))
+    with pytest.raises(ControllerError) as error:
         workers.run(stop(folder, controller))
     assert message in str(error.value)
 
 
 @pytest.mark.parametrize(
-    ("options", "controller"),
+    ("option", "controller"),
     [
-        ((), "parameters: {at: 9999}"),
-        ((), "parameters: {fualt: none}, free_parameters: true"),
-        (("-DSILENT",), "parameters: {any: 1}, free_parameters: true"),
-        (("-DSILENT",), "declared_parameters: {at: {default: 9999, unit: '1'}}"),
+        ("", "parameters: {at: 9999}"),
+        ("", "parameters: {fualt: none}, free_parameters: true"),
+        (SILENT, "parameters: {any: 1}, free_parameters: true"),
+        (SILENT, "declared_parameters: {at: {default: 9999, unit: '1'}}"),
     ],
 )
 def test_what_it_states_or_the_part_accepts_runs(
-    folder: Path, library: Compile, options: tuple[str, ...], controller: str
+    folder: Path, library: Compile, workers: Workers, option: str, controller: str
 ) -> None:
-    library(*options)
-    with Workers() as workers:
-        workers.run(stop(folder, controller))
+    library(*filter(None, [option]))
+    workers.run(stop(folder, controller))

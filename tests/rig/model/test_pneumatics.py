@@ -1,6 +1,7 @@
 """Air of the rig: what flows in, what is stored, what flows out."""
 
 from collections.abc import Callable
+from copy import deepcopy
 from typing import Any
 
 import numpy as np
@@ -30,13 +31,23 @@ def blow(bench: Any, steps: int) -> None:
         bench.car.time = bench.car.steps * bench.p.step
 
 
-@pytest.fixture(name="braked")
-def _braked(rig: Any, bench: Benches) -> Any:
+def after(bench: Any, fill: float, steps: int) -> Any:
+    set_valves(bench, fill=fill, vent=0.0)
+    blow(bench, steps)
+    return bench
+
+
+@pytest.fixture(scope="module")
+def histories(rig: Any, bench: Benches) -> dict[str, Any]:
+    """A rig after eight seconds of braking, and one whose valves were shut for the first three."""
+    p = rig.parameters()[0]
+    return {"braked": after(bench(p), 1.0, 16_000), "charged": after(bench(p), 0.0, 6000)}
+
+
+@pytest.fixture
+def braked(histories: dict[str, Any]) -> Any:
     """A rig after eight seconds of braking, its valves filling."""
-    braked = bench(rig.parameters()[0])
-    set_valves(braked, fill=1.0, vent=0.0)
-    blow(braked, 16_000)
-    return braked
+    return deepcopy(histories["braked"])
 
 
 def test_brake_line_and_tanks_reach_the_demand(braked: Any) -> None:
@@ -70,23 +81,20 @@ def test_nothing_is_lost_however_the_valves_move(rig: Any, bench: Benches) -> No
     assert abs(air_energy_residual(car, moving.wheelsets, moving.p)) < 1e-12
 
 
-@pytest.fixture(name="charged")
-def _charged(rig: Any, bench: Benches) -> Any:
-    """A rig whose valves were shut for three seconds of braking: a full brake line before empty tanks."""
-    charged = bench(rig.parameters()[0])
-    set_valves(charged, fill=0.0, vent=0.0)
-    blow(charged, 6000)
-    return charged
+@pytest.fixture
+def charged(histories: dict[str, Any]) -> Any:
+    """A rig with a full brake line before empty tanks."""
+    return deepcopy(histories["charged"])
 
 
 @pytest.mark.parametrize(
     ("start", "fill", "vent"), [("charged", 1.0, 0.0), ("braked", 0.0, 1.0)], ids=["filled", "vented"]
 )
 def test_held_tanks_come_to_the_temperature_of_their_walls(
-    request: pytest.FixtureRequest, start: str, fill: float, vent: float
+    histories: dict[str, Any], start: str, fill: float, vent: float
 ) -> None:
     """T - Tw falls as exp(-t h A / (m cv)); the pressure sinks after a quick fill, rises after a vent."""
-    held = request.getfixturevalue(start)
+    held = deepcopy(histories[start])
     set_valves(held, fill, vent)
     blow(held, 400)
     set_valves(held, fill=0.0, vent=0.0)

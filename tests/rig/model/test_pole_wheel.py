@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.plans.scenario import ScenarioErrors
 from uictest.rig.model.cycle import read_sensors
 from uictest.rig.model.pole_wheel import read_pole_wheels
 
@@ -149,22 +148,3 @@ def test_one_wheelset_can_have_another_sensor(rig: Any) -> None:
     one, other = (rig.columns(*each, every=20, cycles=60, **EXACT) for each in ((), (own,)))
     same = (one["measured_speed"] == other["measured_speed"]).all(axis=0)
     assert list(same) == [True, True, False, True]
-
-
-@pytest.mark.parametrize(
-    ("overrides", "message"),
-    [
-        (("rig.sensors.speed.missing_teeth=1",), "counts no teeth"),
-        (
-            (COUNTING, "rig.sensors.speed.teeth=1", "rig.sensors.speed.missing_teeth=1"),
-            "at least one must be left",
-        ),
-        (
-            ("vehicle.wheelsets.2.sensors.speed.missing_teeth=1",),
-            r"wheelsets\.2\.sensors\.speed\.missing_teeth",
-        ),
-    ],
-)
-def test_a_gap_needs_teeth_that_are_counted(rig: Any, overrides: tuple[str, ...], message: str) -> None:
-    with pytest.raises(ScenarioErrors, match=message):
-        rig.case(*overrides)

@@ -119,11 +119,6 @@ def test_a_train_that_is_not_stopped_in_time_has_not_stopped(rig: Any) -> None:
     assert np.isnan(measures.braking_distance)
 
 
-def test_time_is_a_multiple_of_the_step_and_never_a_sum(rig: Any) -> None:
-    time = rig.columns(DRY, every=1)["time"]
-    np.testing.assert_array_equal(time, np.arange(time.size) * 5e-4)
-
-
 @pytest.mark.parametrize("friction", [0.04, 0.12, 0.3])
 def test_energy_and_air_are_conserved(rig: Any, friction: float) -> None:
     overrides = ("rail.condition=wet", f"rail.friction={friction}", "rail.gradient=10 permille")

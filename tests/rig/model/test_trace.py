@@ -18,6 +18,7 @@ def test_a_row_holds_every_channel(rig: Any) -> None:
 
 @pytest.mark.parametrize("every", [1, 7, 20, 200])
 def test_samples_are_evenly_spaced_from_the_brake_command_on(rig: Any, every: int) -> None:
+    """Each time is a multiple of the step and never a sum."""
     outcome = rig.stop(*SLIDING, every=every)
     times = outcome.trace.train["time"]
     np.testing.assert_array_equal(times, every * np.arange(len(times)) * 5e-4)
