@@ -94,9 +94,7 @@ _CRITERIA: Final[tuple[Column[_Judged], ...]] = (
     ),
     Column(
         heading="value",
-        text=lambda judged: (
-            f"{quantity(judged.each.verdict.value, judged.each.verdict.unit)}{of_dry_stop(judged.each)}"
-        ),
+        text=lambda judged: quantity(judged.each.verdict.value, judged.each.verdict.unit),
         right=True,
     ),
     Column(
