@@ -17,8 +17,9 @@ from uictest import rig
 from uictest.analysis.summaries import summarize
 from uictest.plans.sweeps import Plan, load_sweep
 from uictest.plans.sweeps.nominal import drawn_ranges, nominal_plan
-from uictest.report import SweepResult, tail_lines, write_sweep_result
+from uictest.report import SweepResult, titled_lines, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document
+from uictest.report.sweep.tail_tables import tail_tables
 from uictest.running.chunked import CaseSelection, ChunkRunner, ChunkStore, select_cases
 from uictest.running.chunked.case_blocks import BlockAssembler
 
@@ -65,6 +66,10 @@ def finish(plan: Plan, simulate: Any = formula, only: str | None = None) -> tupl
     result = summarize(selection, store, None, ["braking_distance_m"]).result
     write_sweep_result(store.folder, result, plan.file)
     return result, store.folder
+
+
+def tail_lines(result: SweepResult) -> list[str]:
+    return list(titled_lines(tail_tables(result), None))
 
 
 def draws_of(folder: Path, column: str) -> list[float]:
