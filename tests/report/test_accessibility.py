@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from uictest.report.page import sweep_page_html
 from uictest.report.sweep.folder import SweepContent
 from uictest.report.traces.trace import trace_of
 
+from .builders import MakeSweep, make_recording, make_result
 from .chromium import PLOTTED, emulate, resize, run, wait
 from .sweep_rows import DRAWN, drawn_rows, sweep_result, write_rows
 
@@ -48,40 +48,41 @@ def violations(browser: Any) -> list[str]:
 appearances = pytest.mark.parametrize(("scheme", "width"), [("light", 1400), ("dark", 390)])
 
 
-def _shown(browser: Any, page: Path, scheme: str, width: int) -> None:
+def shown(browser: Any, page: Path, scheme: str = "light", width: int = 1400) -> None:
+    """Open a page in a colour scheme and in a window of so many pixels."""
     resize(browser, width)
     emulate(browser, scheme)
     browser.get(page.as_uri())
 
 
+def assert_fit_for_all(browser: Any) -> None:
+    """Hold the page that is shown to the rules, contrasts among them, and to the width of its window."""
+    assert violations(browser) == []
+    assert run(browser, "return document.documentElement.scrollWidth <= innerWidth")
+
+
 @appearances
 def test_the_page_of_a_run(browser: Any, page: Path, scheme: str, width: int) -> None:
     """With two cases compared, and with every fold open."""
-    _shown(browser, page, scheme, width)
+    shown(browser, page, scheme, width)
     run(browser, "document.querySelectorAll('input.compare').forEach((box, k) => k < 2 && box.click())")
     wait(browser, "return document.querySelectorAll('.compared-plot .scatterlayer .trace').length")
     run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
     wait(browser, _ALL_PLOTTED)
-    assert violations(browser) == []
+    assert_fit_for_all(browser)
 
 
 @appearances
 def test_the_page_of_a_sweep(
-    browser: Any,
-    tmp_path: Path,
-    make_sweep: Callable[..., SweepContent],
-    make_result: Callable[..., CaseResult],
-    make_recording: Callable[..., Recording],
-    scheme: str,
-    width: int,
+    browser: Any, tmp_path: Path, make_sweep: MakeSweep, scheme: str, width: int
 ) -> None:
     worst = make_result(id="study[a]", outcome="fail")
     page = tmp_path / "index.html"
     sweep = make_sweep((worst,), "x", traces={worst.id: trace_of(make_recording())})
     page.write_text(sweep_page_html(sweep), encoding="utf-8")
-    _shown(browser, page, scheme, width)
+    shown(browser, page, scheme, width)
     wait(browser, PLOTTED)
-    assert violations(browser) == []
+    assert_fit_for_all(browser)
 
 
 @appearances
@@ -96,20 +97,14 @@ def test_the_maps_points_and_sensitivities_of_a_sweep(
     result = sweep_result(DRAWN, 60, logarithmic=["gain"], sensitivities=sensitivities)
     page = tmp_path / "index.html"
     page.write_text(sweep_page_html(SweepContent(tmp_path, result, {})), encoding="utf-8")
-    _shown(browser, page, scheme, width)
+    shown(browser, page, scheme, width)
     run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
     wait(browser, "return document.querySelectorAll('.panels-of-points svg').length")
-    assert violations(browser) == []
+    assert_fit_for_all(browser)
 
 
 @appearances
-def test_the_page_of_a_comparison(
-    browser: Any,
-    tmp_path: Path,
-    make_recording: Callable[..., Recording],
-    scheme: str,
-    width: int,
-) -> None:
+def test_the_page_of_a_comparison(browser: Any, tmp_path: Path, scheme: str, width: int) -> None:
     """With a band, a channel that only one side has, other rates, and over distance."""
     first, second = make_recording(), make_recording(1701)
     second["speed"][:] *= 1.1
@@ -119,26 +114,24 @@ def test_the_page_of_a_comparison(
     compared = comparison.compare_recordings(first, Recording(fewer, units), ("a", "b"), tolerances)
     page = tmp_path / "comparison.html"
     page.write_text(comparison.comparison_html(compared), encoding="utf-8")
-    _shown(browser, page, scheme, width)
+    shown(browser, page, scheme, width)
     browser.get(page.as_uri() + "#case-Recordings")
     wait(browser, "return document.querySelector('.laid-over[data-ready]') !== null")
     run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
-    assert violations(browser) == []
+    assert_fit_for_all(browser)
     run(
         browser,
         "const choice = document.querySelector('[data-choice=across]'); choice.value = 'distance';"
         "choice.dispatchEvent(new Event('change'))",
     )
-    assert violations(browser) == []
+    assert_fit_for_all(browser)
 
 
 @appearances
-def test_the_pages_of_paired_stops(
-    browser: Any, tmp_path: Path, make_result: Callable[..., CaseResult], scheme: str, width: int
-) -> None:
+def test_the_pages_of_paired_stops(browser: Any, tmp_path: Path, scheme: str, width: int) -> None:
     """Two runs that differ in everything a page lists, and two variants of one run."""
     sides = [
-        RunContent(name, [_repeated(make_result, distance, name)], RunManifest(seed=seed))
+        RunContent(name, [_repeated(distance, name)], RunManifest(seed=seed))
         for seed, (name, distance) in enumerate((("one", 465.0), ("other", 470.0)))
     ]
     compared = comparison.compare_runs(*sides, comparison.Tolerances())
@@ -148,11 +141,11 @@ def test_the_pages_of_paired_stops(
         assert "Stops under the same noise" in text
         page = tmp_path / "comparison.html"
         page.write_text(text, encoding="utf-8")
-        _shown(browser, page, scheme, width)
-        assert violations(browser) == []
+        shown(browser, page, scheme, width)
+        assert_fit_for_all(browser)
 
 
-def _repeated(make_result: Callable[..., CaseResult], distance: float, controller: str) -> CaseResult:
+def _repeated(distance: float, controller: str) -> CaseResult:
     result = make_result(id="slip", parameters={"controller": controller})
     assert result.measures is not None
     stops = tuple(

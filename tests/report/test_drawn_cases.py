@@ -1,17 +1,12 @@
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from uictest.judging.evaluation import CaseResult, Sensitivity, Verdict, VerdictInterval
+from uictest.judging.evaluation import CaseResult, Sensitivity, VerdictInterval
 from uictest.report.content import DRAWN, MOST_DRAWN, drawn_cases, worst_first
 
-MakeResult = Callable[..., CaseResult]
-MakeVerdict = Callable[..., Verdict]
+from .builders import make_result, make_verdict
 
 
-def test_cases_not_met_come_first_then_narrow_margins_and_verdicts_that_flip(
-    make_result: MakeResult, make_verdict: MakeVerdict
-) -> None:
+def test_cases_not_met_come_first_then_narrow_margins_and_verdicts_that_flip() -> None:
     flips = Sensitivity(
         "d", "s", 0.0, 1.0, (VerdictInterval(0.0, 0.5, "pass"), VerdictInterval(0.6, 1.0, "fail"))
     )
@@ -37,7 +32,7 @@ def _ids(results: list[CaseResult]) -> list[str]:
     return [result.id for result in results]
 
 
-def test_a_page_draws_from_every_scenario_in_turn(make_result: MakeResult, make_verdict: MakeVerdict) -> None:
+def test_a_page_draws_from_every_scenario_in_turn() -> None:
     """A hundred narrow cases of one scenario leave room for the only one of another."""
     narrow = [
         make_result(id=f"a{n}", scenario="a.yaml", criteria=(make_verdict(margin=1.0 + n),))
@@ -50,14 +45,14 @@ def test_a_page_draws_from_every_scenario_in_turn(make_result: MakeResult, make_
     assert drawn[:5] == ["c0", "c1", "a0", "b", "a1"]
 
 
-def test_chosen_cases_are_drawn_before_all_others(make_result: MakeResult) -> None:
+def test_chosen_cases_are_drawn_before_all_others() -> None:
     results = [make_result(id=f"case-{n}", outcome="fail" if n < 50 else "pass") for n in range(100)]
     drawn = _ids(drawn_cases(results, {"case-98", "case-99"}))
     assert drawn[:2] == ["case-98", "case-99"]
     assert len(drawn) == DRAWN
 
 
-def test_more_cases_are_drawn_if_more_are_chosen_and_no_page_without_end(make_result: MakeResult) -> None:
+def test_more_cases_are_drawn_if_more_are_chosen_and_no_page_without_end() -> None:
     results = [make_result(id=f"case-{n}") for n in range(100)]
     assert len(drawn_cases(results, {f"case-{n}" for n in range(30)})) == 30
     assert len(drawn_cases(results, {result.id for result in results})) == MOST_DRAWN

@@ -1,21 +1,16 @@
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from uictest.judging.evaluation import CaseResult
-from uictest.report import RunContent, format_names, formats, write_formats
+from uictest.report import format_names, formats, write_formats
 from uictest.report.format_registry import IN_EVERY_RUN, format_named
 
-MakeResult = Callable[..., CaseResult]
-MakeContent = Callable[..., RunContent]
+from .builders import make_content, make_result
 
 
-def test_every_format_becomes_files(
-    tmp_path: Path, make_content: MakeContent, make_result: MakeResult
-) -> None:
+def test_every_format_becomes_files(tmp_path: Path) -> None:
     paths = {name: write_formats(tmp_path, make_content(make_result()), [name]) for name in format_names()}
     assert {name: [path.name for path in own] for name, own in paths.items()} == {
         "csv": ["summary.csv", "wheelsets.csv", "criteria.csv"],
@@ -32,9 +27,7 @@ def test_the_formats_of_every_run_are_there_and_only_the_page_draws() -> None:
     assert [name for name in format_names() if format_named(name).draws_stops] == ["html"]
 
 
-def test_a_new_format_is_one_module(
-    tmp_path: Path, make_content: MakeContent, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_new_format_is_one_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "yaml.py").write_text(
         "from uictest.report.format_registry import ReportFormat\n"
         "FORMAT = ReportFormat(lambda content: {'run.yaml': content.name.encode()})\n"

@@ -1,17 +1,15 @@
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from uictest.judging.evaluation import CaseResult
 from uictest.report.github import LIMIT, annotation, append_to_step_summary, case_annotations
 
-MakeResult = Callable[..., CaseResult]
+from .builders import HOSTILE, make_result
 
 
-def test_only_cases_that_are_not_met_are_annotated(make_result: MakeResult) -> None:
+def test_only_cases_that_are_not_met_are_annotated() -> None:
     assert list(case_annotations(make_result())) == []
     (line,) = case_annotations(make_result(outcome="fail", criteria=(), reason="locked"))
     properties, message = line.removeprefix("::error ").split("::")
@@ -25,8 +23,8 @@ def test_an_annotation_carries_the_place_in_the_file() -> None:
     )
 
 
-def test_a_hostile_name_cannot_start_a_command_of_its_own(make_result: MakeResult, hostile: str) -> None:
-    (line,) = case_annotations(make_result(id=hostile, scenario=hostile, outcome="error"))
+def test_a_hostile_name_cannot_start_a_command_of_its_own() -> None:
+    (line,) = case_annotations(make_result(id=HOSTILE, scenario=HOSTILE, outcome="error"))
     assert line.startswith("::error file=")
     assert "\n" not in line
 

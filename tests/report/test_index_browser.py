@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,14 +11,14 @@ from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
 from studies.study import Study, StudyFindings, StudyResult
 from studies.writing import write_figures, write_pages
 from uictest import report, runs
-from uictest.judging.evaluation import CaseResult
 
-from .chromium import emulate, resize, run, wait
-from .test_accessibility import appearances, violations
+from .builders import make_result
+from .chromium import run, wait
+from .test_accessibility import appearances, assert_fit_for_all, shown
 
 
 @pytest.fixture
-def index(tmp_path: Path, make_result: Callable[..., CaseResult]) -> Path:
+def index(tmp_path: Path) -> Path:
     """Three runs of which the second fails, a sweep that is not finished, and a folder of somebody."""
     for outcome in ("pass", "fail", "pass"):
         results = [make_result(id="slip-120", outcome=outcome), make_result(id="dry-120")]
@@ -67,19 +66,12 @@ def study_page(tmp_path: Path) -> Path:
     return tmp_path / "made-up" / "index.html"
 
 
-def shown(browser: Any, page: Path, scheme: str = "light", width: int = 1400) -> None:
-    resize(browser, width)
-    emulate(browser, scheme)
-    browser.get(page.as_uri())
-
-
 @appearances
 def test_the_index_breaks_no_rule_of_accessibility(
     browser: Any, index: Path, scheme: str, width: int
 ) -> None:
     shown(browser, index, scheme, width)
-    assert violations(browser) == []
-    assert run(browser, "return document.documentElement.scrollWidth <= innerWidth")
+    assert_fit_for_all(browser)
 
 
 @appearances
@@ -88,8 +80,7 @@ def test_the_pages_of_studies_break_no_rule_of_accessibility(
 ) -> None:
     for page in (study_page, study_page.parents[1] / "index.html"):
         shown(browser, page, scheme, width)
-        assert violations(browser) == []
-        assert run(browser, "return document.documentElement.scrollWidth <= innerWidth")
+        assert_fit_for_all(browser)
 
 
 def test_the_cases_are_filtered(browser: Any, index: Path) -> None:

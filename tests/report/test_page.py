@@ -2,23 +2,19 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import itertools
 import re
 import zlib
-from collections.abc import Callable
 from html.parser import HTMLParser
 
 import pytest
 
-from uictest.core.recording import Recording
-from uictest.judging.evaluation import CaseResult, Verdict
+from uictest.judging.evaluation import CaseResult, Sensitivity, VerdictInterval
 from uictest.report import DRAWN, CaseDescription, RunContent, RunManifest
 from uictest.report.page import page_html
 from uictest.report.traces.trace import trace_of
 
-MakeResult = Callable[..., CaseResult]
-MakeVerdict = Callable[..., Verdict]
-MakeContent = Callable[..., RunContent]
-MakeRecording = Callable[..., Recording]
+from .builders import HOSTILE, make_content, make_recording, make_result, make_verdict
 
 
 class Page(HTMLParser):
@@ -48,12 +44,12 @@ class Page(HTMLParser):
 
 
 @pytest.fixture
-def drawn(make_content: MakeContent, make_result: MakeResult, make_recording: MakeRecording) -> str:
+def drawn() -> str:
     result = make_result()
     return page_html(make_content(result, traces={result.id: trace_of(make_recording(sliding_time="5"))}))
 
 
-def test_every_case_has_a_row_with_its_figures(make_content: MakeContent, make_result: MakeResult) -> None:
+def test_every_case_has_a_row_with_its_figures() -> None:
     missed = make_result(id="b", outcome="invalid", criteria=(), reason="the rail was too dry")
     page = Page(page_html(make_content(make_result(), missed)))
     assert "2 cases: 1 pass, 1 invalid; 1 not as expected" in page.text
@@ -100,26 +96,19 @@ def test_the_page_loads_nothing_and_runs_only_its_own_scripts(drawn: str) -> Non
     assert set(re.findall(r"'sha256-([^']+)'", policy)) == digests
 
 
-def test_without_anything_to_draw_the_plotting_script_stays_out(
-    make_content: MakeContent, make_result: MakeResult
-) -> None:
+def test_without_anything_to_draw_the_plotting_script_stays_out() -> None:
     html = page_html(make_content(make_result()))
     assert len(html) < 200_000  # plotly has millions
     assert "1 case not drawn" in html
+    assert 'id="requirements"' not in html
 
 
-def test_hostile_texts_are_shown_and_make_no_element(
-    make_content: MakeContent,
-    make_result: MakeResult,
-    make_verdict: MakeVerdict,
-    make_recording: MakeRecording,
-    hostile: str,
-    drawn: str,
-) -> None:
-    bad = f"{hostile}</script></td><img src=x onerror=alert(1)>"
+def test_hostile_texts_are_shown_and_make_no_element(drawn: str) -> None:
+    bad = f"{HOSTILE}</script></td><img src=x onerror=alert(1)>"
     verdict = make_verdict(id=bad, reason=bad, definition={bad: bad}, status="fail", margin=-1.0)
+    named = {"requirements": (bad,), "test_case": bad}  # a results.json from elsewhere may hold anything
     result = make_result(
-        id=bad, scenario=bad, parameters={bad: bad}, outcome="fail", criteria=(verdict,), reason=bad
+        id=bad, scenario=bad, parameters={bad: bad}, outcome="fail", criteria=(verdict,), reason=bad, **named
     )
     content = make_content(
         result,
@@ -138,12 +127,7 @@ def test_hostile_texts_are_shown_and_make_no_element(
     assert "\\u202e" in page.text
 
 
-def test_a_thousand_cases_stay_below_ten_megabytes_and_say_what_is_not_drawn(
-    make_content: MakeContent,
-    make_result: MakeResult,
-    make_verdict: MakeVerdict,
-    make_recording: MakeRecording,
-) -> None:
+def test_a_thousand_cases_stay_below_ten_megabytes_and_say_what_is_not_drawn() -> None:
     reason = "0 of 4 wheelsets within the limit of 1 s (4 needed): 1.27, 1.24, 1.29, 1.32 s"
     broken = make_verdict(status="fail", margin=-10.0, reason=reason)
     results = [
@@ -165,50 +149,42 @@ def test_a_thousand_cases_stay_below_ten_megabytes_and_say_what_is_not_drawn(
     assert f"{DRAWN} of 1000 cases are drawn" in html
 
 
-def test_a_criterion_whose_measure_has_no_drawing_is_listed(
-    make_content: MakeContent,
-    make_result: MakeResult,
-    make_verdict: MakeVerdict,
-    make_recording: MakeRecording,
-) -> None:
-    broken = make_verdict(id="short-flats", measure="flat_length", status="fail", value=5.0, margin=-1.0)
-    result = make_result(outcome="fail", criteria=(broken,))
-    content = make_content(result, traces={result.id: trace_of(make_recording())})
-    assert "short-flats" in Page(page_html(content)).text
+_TURNS = Sensitivity(
+    "low_speed_cutoff", "km/h", 10, 60, (VerdictInterval(10, 40, "pass"), VerdictInterval(50, 60, "fail"))
+)
+_COMMAND = RunManifest(command=("uictest", "run", "-k", "a and b"), versions={})
+_GRID = [
+    make_result(id=f"{a}{b}", parameters={"rail.friction": a, "brake.command": b})
+    for a, b in itertools.product(("0.1", "0.2"), ("80 %", "100 %"))
+]
+_NOT_DRAWN = make_verdict(id="short-flats", measure="flat_length", status="fail", value=5.0, margin=-1.0)
 
 
-def test_a_verdict_that_hangs_on_a_definition_says_so(
-    make_content: MakeContent, make_result: MakeResult, make_verdict: MakeVerdict
-) -> None:
-    from uictest.judging.evaluation import Sensitivity, VerdictInterval
-
-    flips = Sensitivity(
-        "low_speed_cutoff", "km/h", 10, 60, (VerdictInterval(10, 40, "pass"), VerdictInterval(50, 60, "fail"))
-    )
-    html = page_html(make_content(make_result(criteria=(make_verdict(sensitivity=(flips,)),))))
-    assert "sensitive to definitions: braking-distance" in html
-
-
-def test_two_swept_keys_are_shown_as_a_map(make_content: MakeContent, make_result: MakeResult) -> None:
-    results = [
-        make_result(id=f"{a}{b}", parameters={"rail.friction": a, "brake.command": b})
-        for a in ("0.1", "0.2")
-        for b in ("80 %", "100 %")
-    ]
-    page = Page(page_html(make_content(*results)))
-    assert "rail.friction (down) against brake.command (across)" in page.text
-
-
-def test_an_incomplete_run_says_so(make_content: MakeContent, make_result: MakeResult) -> None:
-    assert "selected cases were not run" in page_html(make_content(make_result(), complete=False))
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (
+            make_content(make_result(criteria=(make_verdict(sensitivity=(_TURNS,)),))),
+            "sensitive to definitions: braking-distance",
+        ),
+        (make_content(*_GRID), "rail.friction (down) against brake.command (across)"),
+        (make_content(make_result(), complete=False), "selected cases were not run"),
+        (make_content(make_result(), manifest=_COMMAND), "uictest run -k 'a and b'"),
+        (
+            make_content(
+                make_result(outcome="fail", criteria=(_NOT_DRAWN,)),
+                traces={make_result().id: trace_of(make_recording())},
+            ),
+            "short-flats",
+        ),
+    ],
+    ids=["verdict-that-turns", "map-of-two-keys", "incomplete", "command", "criterion-without-a-drawing"],
+)
+def test_the_page_says(content: RunContent, words: str) -> None:
+    assert words in Page(page_html(content)).text
 
 
-def test_requirements_stand_in_a_table_and_at_the_cases_and_criteria_that_name_them(
-    make_content: MakeContent,
-    make_result: MakeResult,
-    make_verdict: MakeVerdict,
-    make_recording: MakeRecording,
-) -> None:
+def test_requirements_stand_in_a_table_and_at_the_cases_and_criteria_that_name_them() -> None:
     verdict = make_verdict(requirements=("BR-CRITERION",))
     named = make_result(requirements=("BR-CASE",), test_case="WSP-TC-7", criteria=(verdict,))
     failed = make_result(id="b", outcome="fail", requirements=("BR-CASE",), criteria=())
@@ -224,22 +200,7 @@ def test_requirements_stand_in_a_table_and_at_the_cases_and_criteria_that_name_t
     assert re.search(r"test case\s*WSP-TC-7\s*requirements\s*BR-CASE", stop)
 
 
-def test_ids_of_requirements_are_shown_as_text(
-    make_content: MakeContent, make_result: MakeResult, hostile: str
-) -> None:
-    """A results.json from elsewhere may hold anything."""
-    result = make_result(requirements=(hostile,), test_case=hostile)
-    page = Page(page_html(make_content(result)))
-    assert page.count("b") == 0
-
-
-def test_a_page_without_requirements_does_not_speak_of_them(drawn: str) -> None:
-    assert 'id="requirements"' not in drawn
-
-
-def test_the_page_says_how_many_of_the_chosen_cases_it_draws(
-    make_content: MakeContent, make_result: MakeResult, make_recording: MakeRecording
-) -> None:
+def test_the_page_says_how_many_of_the_chosen_cases_it_draws() -> None:
     results = [make_result(id=f"case-{n}") for n in range(30)]
     trace = trace_of(make_recording())
     traces = {result.id: trace for result in results[:20]}
@@ -250,17 +211,7 @@ def test_the_page_says_how_many_of_the_chosen_cases_it_draws(
     assert '<details class="stop" id="case-case-19"' in html
 
 
-def test_the_command_of_a_run_can_be_pasted(make_content: MakeContent, make_result: MakeResult) -> None:
-    manifest = RunManifest(command=("uictest", "run", "-k", "a and b"), versions={})
-    assert "uictest run -k 'a and b'" in Page(page_html(make_content(make_result(), manifest=manifest))).text
-
-
-def test_what_is_not_as_expected_comes_first_then_the_narrowest_margins(
-    make_content: MakeContent,
-    make_result: MakeResult,
-    make_verdict: Callable[..., Verdict],
-    make_recording: Callable[..., Recording],
-) -> None:
+def test_what_is_not_as_expected_comes_first_then_the_narrowest_margins() -> None:
     def case(name: str, margin: float, **changes: object) -> CaseResult:
         verdict = make_verdict(margin=margin, status="pass" if margin > 0 else "fail")
         return make_result(id=name, criteria=(verdict,), **changes)

@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from uictest.core.recording import Recording
-from uictest.judging.evaluation import AppliedDefinition, CaseResult, Verdict
-from uictest.report import CaseDescription, RunContent
+from uictest.judging.evaluation import AppliedDefinition
+from uictest.report import CaseDescription
 from uictest.report.page import sweep_page_html
-from uictest.report.sweep.folder import SweepContent
 from uictest.report.traces.trace import trace_of
 
+from .builders import HOSTILE, MakeSweep, make_content, make_recording, make_result, make_verdict
 from .chromium import PLOTTED, emulate, resize, run, wait, written
-
-MakeResult = Callable[..., CaseResult]
-MakeVerdict = Callable[..., Verdict]
-MakeContent = Callable[..., RunContent]
-MakeRecording = Callable[..., Recording]
-
-_SHOWN = "return [...document.querySelectorAll('.verdicts tbody tr:not([hidden]) th')].map(h => h.innerText)"
 
 
 def test_the_missed_case_is_open_and_its_plots_are_drawn_with_the_criteria(browser: Any, page: Path) -> None:
@@ -46,13 +37,7 @@ def _drawn_bars(browser: Any, kind: str) -> int:
     return int(run(browser, script, kind))
 
 
-def test_every_vent_is_painted_however_short_and_wherever_one_zooms(
-    browser: Any,
-    tmp_path: Path,
-    make_content: MakeContent,
-    make_result: MakeResult,
-    make_recording: MakeRecording,
-) -> None:
+def test_every_vent_is_painted_however_short_and_wherever_one_zooms(browser: Any, tmp_path: Path) -> None:
     recording = make_recording(34001)
     for n in (1, 2, 3, 4):
         recording[f"valve_command_{n}"][:] = 0.0
@@ -67,14 +52,7 @@ def test_every_vent_is_painted_however_short_and_wherever_one_zooms(
     assert _drawn_bars(browser, "vent") >= 4
 
 
-def test_the_criterion_that_failed_is_named_and_drawn_first(
-    browser: Any,
-    tmp_path: Path,
-    make_content: MakeContent,
-    make_result: MakeResult,
-    make_verdict: MakeVerdict,
-    make_recording: MakeRecording,
-) -> None:
+def test_the_criterion_that_failed_is_named_and_drawn_first(browser: Any, tmp_path: Path) -> None:
     locked = {"wheel_speed_4": 0.0, "slide_4": 1.0}
     recording = make_recording()
     for name, value in locked.items():
@@ -106,26 +84,6 @@ def test_a_link_from_the_table_opens_its_case(browser: Any, page: Path) -> None:
     assert wait(
         browser, "return document.querySelectorAll('[id=case-dry-120] .panels-plot .main-svg').length"
     )
-
-
-def test_filters_and_sorting(browser: Any, page: Path) -> None:
-    browser.get(page.as_uri())
-    assert run(browser, _SHOWN) == ["slip-120", "wet-80", "dry-120"]
-    search = browser.find_element("name", "text")
-    search.send_keys("120 SLIP")
-    assert run(browser, _SHOWN) == ["slip-120"]
-    assert browser.find_element("css selector", ".count").text == "1 of 3 shown"
-    run(browser, "document.querySelector('form.filters button[type=reset]').click()")
-    wait(browser, f"return ({_SHOWN.removeprefix('return ')}).length === 3")
-    for word in ("pass", "expected fail"):
-        run(browser, f"document.querySelector('input[name=word][value=\"{word}\"]').click()")
-    assert run(browser, _SHOWN) == ["slip-120"]
-    run(browser, "document.querySelector('form.filters button[type=reset]').click()")
-    wait(browser, f"return ({_SHOWN.removeprefix('return ')}).length === 3")
-    heading = "document.querySelectorAll('.verdicts thead th')[2]"
-    run(browser, f"{heading}.querySelector('button').click(); {heading}.querySelector('button').click()")
-    assert run(browser, _SHOWN) == ["wet-80", "slip-120", "dry-120"]
-    assert run(browser, f"return {heading}.ariaSort") == "descending"
 
 
 def test_the_cursor_is_moved_with_the_keyboard_and_read_as_a_table(browser: Any, page: Path) -> None:
@@ -167,45 +125,6 @@ def test_it_can_be_read_without_javascript(browser: Any, page: Path) -> None:
     assert not any(element.is_displayed() for element in hidden)
 
 
-@pytest.mark.parametrize("width", [1400, 390])
-def test_nothing_is_wider_than_the_window(browser: Any, page: Path, width: int) -> None:
-    resize(browser, width)
-    browser.get(page.as_uri())
-    wait(browser, PLOTTED)
-    assert run(browser, "return document.documentElement.scrollWidth") <= width
-
-
-_CONTRASTS = """
-const channels = (colour) => colour.match(/[\\d.]+/g).slice(0, 3).map((c) => {
-  const share = c / 255;
-  return share <= 0.03928 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
-});
-const light = (colour) => channels(colour).reduce((sum, c, k) => sum + c * [0.2126, 0.7152, 0.0722][k], 0);
-const ground = (element) => {
-  for (let e = element; e; e = e.parentElement) {
-    const colour = getComputedStyle(e).backgroundColor;
-    if (!/, 0\\)$|transparent/.test(colour)) return colour;
-  }
-};
-return [...document.querySelectorAll('td, th, small, p, dt, dd, caption, a, .word, summary, label')]
-  .filter((e) => e.innerText?.trim() && e.checkVisibility())
-  .map((e) => {
-    const [a, b] = [light(getComputedStyle(e).color), light(ground(e))].sort((x, y) => y - x);
-    return [(a + 0.05) / (b + 0.05), e.className || e.tagName];
-  })
-  .sort(([a], [b]) => a - b)[0];
-"""
-
-
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_text_stands_out_from_its_ground(browser: Any, page: Path, scheme: str) -> None:
-    emulate(browser, scheme)
-    browser.get(page.as_uri())
-    wait(browser, PLOTTED)
-    contrast, where = run(browser, _CONTRASTS)
-    assert contrast >= 4.5, where
-
-
 def test_on_paper_stands_the_drawing_and_no_control(browser: Any, page: Path) -> None:
     browser.get(page.as_uri())
     wait(browser, PLOTTED)
@@ -215,16 +134,9 @@ def test_on_paper_stands_the_drawing_and_no_control(browser: Any, page: Path) ->
     assert not browser.find_element("css selector", "form.filters").is_displayed()
 
 
-def test_hostile_texts_are_not_executed(
-    browser: Any,
-    tmp_path: Path,
-    make_content: MakeContent,
-    make_result: MakeResult,
-    make_recording: MakeRecording,
-    hostile: str,
-) -> None:
+def test_hostile_texts_are_not_executed(browser: Any, tmp_path: Path) -> None:
     take = "document.title = 'taken'"
-    bad = f'{hostile}</script><script>{take}</script><img src=x onerror="{take}">'
+    bad = f'{HOSTILE}</script><script>{take}</script><img src=x onerror="{take}">'
     result = make_result(id=bad, scenario=bad, outcome="error", reason=bad)
     content = make_content(
         result,
@@ -239,13 +151,7 @@ def test_hostile_texts_are_not_executed(
     assert "<img src=x" in browser.find_element("css selector", ".verdicts th[scope=row]").text
 
 
-def test_a_thousand_cases_open(
-    browser: Any,
-    tmp_path: Path,
-    make_content: MakeContent,
-    make_result: MakeResult,
-    make_recording: MakeRecording,
-) -> None:
+def test_a_thousand_cases_open(browser: Any, tmp_path: Path) -> None:
     results = [make_result(id=f"case-{n}", outcome="fail" if n % 7 else "pass") for n in range(1000)]
     trace = trace_of(make_recording(sliding_time="5.0"))
     traces = {result.id: trace for result in results[:40]}
@@ -257,12 +163,7 @@ def test_a_thousand_cases_open(
 
 
 @pytest.fixture
-def sweep_page(
-    tmp_path: Path,
-    make_sweep: Callable[..., SweepContent],
-    make_result: MakeResult,
-    make_recording: MakeRecording,
-) -> Path:
+def sweep_page(tmp_path: Path, make_sweep: MakeSweep) -> Path:
     """The page of a sweep with a drawn case that was not met."""
     worst = make_result(
         id="study[a]", outcome="fail", parameters={"brake.x": "80 %", "rail.friction": "0.10"}
@@ -296,16 +197,6 @@ def test_a_sweep_can_be_read_without_javascript(browser: Any, sweep_page: Path) 
     assert browser.find_element("css selector", "svg.histogram").size["height"] > 100
 
 
-@pytest.mark.parametrize("width", [1400, 390])
-def test_no_part_of_a_sweeps_page_is_wider_than_the_window(
-    browser: Any, sweep_page: Path, width: int
-) -> None:
-    resize(browser, width)
-    browser.get(sweep_page.as_uri())
-    wait(browser, PLOTTED)
-    assert run(browser, "return document.documentElement.scrollWidth") <= width
-
-
 _ENDS = """
 return [...document.querySelectorAll(arguments[0])].map(each => each.getBoundingClientRect().right)
 """
@@ -313,7 +204,7 @@ return [...document.querySelectorAll(arguments[0])].map(each => each.getBounding
 
 @pytest.mark.parametrize("width", [1400, 390])
 def test_figures_and_frontier_of_a_sweep_are_in_sight_without_scrolling(
-    browser: Any, tmp_path: Path, make_sweep: Callable[..., SweepContent], width: int
+    browser: Any, tmp_path: Path, make_sweep: MakeSweep, width: int
 ) -> None:
     flips = [{"low": "0.10", "high": "0.12", "met_at_low": False}]
     stretches = [

@@ -5,14 +5,12 @@ from __future__ import annotations
 import csv
 import dataclasses
 import io
-from collections.abc import Callable
 from xml.etree import ElementTree
 
 import pytest
 
-from uictest.judging.evaluation import CaseResult, EffectivePart, Parameter
+from uictest.judging.evaluation import EffectivePart, Parameter
 from uictest.report import (
-    RunContent,
     case_annotations,
     csv_text,
     junit_text,
@@ -29,8 +27,7 @@ from uictest.report.page.overview import shown_parts
 from uictest.report.part_wording import changed_parameters, controllers_text, part_sentences, slide_speed
 from uictest.report.sweep.folder import SweepContent
 
-MakeResult = Callable[..., CaseResult]
-MakeContent = Callable[..., RunContent]
+from .builders import MakeSweep, make_content, make_result
 
 SLIP = Parameter("controller.slip_threshold", 0.8, "m/s", "3 km/h", "user", "", True, 1.146, "1.146 m/s")
 HOLD = Parameter("controller.hold_limit", 2.0, "s", "2 s", "chosen", "ours")
@@ -92,7 +89,7 @@ LIBRARY = EffectivePart(
 )
 
 
-def test_the_version_that_a_controller_tells_is_shown_case_by_case(make_result: MakeResult) -> None:
+def test_the_version_that_a_controller_tells_is_shown_case_by_case() -> None:
     parts = {"controller": LIBRARY}
     told = [("one", "1.2"), ("two", "1.3"), ("failed", "")]
     results = [make_result(id=name, parts=parts, controller_version=text) for name, text in told]
@@ -146,7 +143,7 @@ def test_the_compensation_is_named_with_its_setting(topology: str, sentence: str
     assert part_sentences(parts)["compensation"] == sentence
 
 
-def test_parts_are_listed_once_for_all_cases_alike(make_result: MakeResult) -> None:
+def test_parts_are_listed_once_for_all_cases_alike() -> None:
     one, two = make_result(id="one", parts={"controller": CONTROLLER}), make_result(id="two")
     two = dataclasses.replace(two, parts={"controller": PLAIN})
     assert list(part_lines([one, one])) == [f"part controller: threshold, changed: {CHANGE[11:]}"]
@@ -156,9 +153,7 @@ def test_parts_are_listed_once_for_all_cases_alike(make_result: MakeResult) -> N
     ]
 
 
-def test_tables_and_summaries_say_what_was_changed(
-    make_result: MakeResult, make_content: MakeContent
-) -> None:
+def test_tables_and_summaries_say_what_was_changed() -> None:
     result = make_result(parts={"controller": CONTROLLER}, expect="fail")
     (row,) = csv.DictReader(io.StringIO(csv_text(*summary_table([result]))))
     assert row["changed_parameters"] == CHANGE
@@ -170,7 +165,7 @@ def test_tables_and_summaries_say_what_was_changed(
     assert (hold["differs"], hold["source"]) == (False, "A surrogate.")
 
 
-def test_junit_says_it_of_a_case_that_is_met_and_of_one_that_is_not(make_result: MakeResult) -> None:
+def test_junit_says_it_of_a_case_that_is_met_and_of_one_that_is_not() -> None:
     parts = {"controller": CONTROLLER}
     met, missed = ElementTree.fromstring(
         junit_text(run_suites([make_result(parts=parts), make_result(parts=parts, expect="fail")]))
@@ -179,9 +174,7 @@ def test_junit_says_it_of_a_case_that_is_met_and_of_one_that_is_not(make_result:
     assert (missed.findtext("failure") or "").endswith(f"changed parameters: {CHANGE}")
 
 
-def test_the_page_shows_the_change_beside_the_verdict_and_all_parameters_once(
-    make_result: MakeResult, make_content: MakeContent
-) -> None:
+def test_the_page_shows_the_change_beside_the_verdict_and_all_parameters_once() -> None:
     results = [make_result(id=name, parts={"controller": CONTROLLER}) for name in ("one", "two")]
     html = page_html(make_content(*results))
     assert html.count(f"changed: {CHANGE}") == 2
@@ -191,7 +184,7 @@ def test_the_page_shows_the_change_beside_the_verdict_and_all_parameters_once(
 
 
 def test_the_page_of_a_sweep_says_what_is_changed_in_every_case_and_what_varies(
-    make_sweep: Callable[..., SweepContent],
+    make_sweep: MakeSweep,
 ) -> None:
 
     def of_varied(key: str) -> SweepContent:
@@ -215,9 +208,7 @@ def test_the_manifest_names_the_parts_with_their_digests() -> None:
     }
 
 
-def test_a_page_of_many_parts_says_how_many_it_leaves_out_and_where_they_are(
-    make_result: MakeResult, make_content: MakeContent
-) -> None:
+def test_a_page_of_many_parts_says_how_many_it_leaves_out_and_where_they_are() -> None:
     parts = [dataclasses.replace(PLAIN, name=f"own-{k}") for k in range(102)]
     html = page_html(make_content(*(make_result(id=each.name, parts={"controller": each}) for each in parts)))
     assert sum(f'id="{each.id}"' in html for each in parts) == 100
@@ -242,9 +233,7 @@ def test_a_controller_of_the_library_that_is_not_the_default_is_a_change() -> No
     assert not changed_parameters({"controller": PLAIN})
 
 
-def test_every_report_names_the_controller_under_test_and_its_version(
-    make_result: MakeResult, make_content: MakeContent
-) -> None:
+def test_every_report_names_the_controller_under_test_and_its_version() -> None:
     parts = {"controller": BAND}
     content = make_content(make_result(parts=parts, outcome="fail"))
     headline = "slip-band (uictest 0.1.0)"
@@ -259,7 +248,7 @@ def test_every_report_names_the_controller_under_test_and_its_version(
     assert f"WSP controller: <strong>{headline}</strong>" in page_html(content)
 
 
-def test_controllers_are_named_once_and_one_that_never_acted_is_marked(make_result: MakeResult) -> None:
+def test_controllers_are_named_once_and_one_that_never_acted_is_marked() -> None:
     bypassed = EffectivePart(
         "scenario.rig", "rig", "", None, (Parameter("rig.wsp", "bypassed", "", "bypassed", "user"),)
     )
@@ -270,9 +259,7 @@ def test_controllers_are_named_once_and_one_that_never_acted_is_marked(make_resu
     assert controllers_text([make_result(parts=idle)], "0.2.0") == "threshold (uictest 0.2.0), bypassed"
 
 
-def test_the_largest_slide_says_above_which_speed_it_counts(
-    make_result: MakeResult, make_content: MakeContent
-) -> None:
+def test_the_largest_slide_says_above_which_speed_it_counts() -> None:
     moving = Parameter("measures.moving_speed", 2.78, "m/s", "10 km/h", "chosen")
     parts = {"measures": EffectivePart("measures", "measures", "standard", "standard", (moving,))}
     other = {

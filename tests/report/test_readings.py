@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable
 
 import pytest
 from openpyxl import load_workbook
 
-from uictest.core.recording import Recording
-from uictest.judging.evaluation import CaseResult, ReadVerdict, Verdict, result_document
-from uictest.report import RunContent
+from uictest.judging.evaluation import CaseResult, ReadVerdict, result_document
 from uictest.report.formats.csv import criteria_table
 from uictest.report.formats.md import markdown_summary
 from uictest.report.formats.xlsx import workbook_bytes
 from uictest.report.page import page_html
 from uictest.report.terminal.verdict_table import criterion_lines, definition_lines
 from uictest.report.traces.trace import trace_of
+
+from .builders import make_content, make_recording, make_result, make_verdict
 
 SENTENCES = (
     "at-once (decides) pass: 42 % (down to 60 km/h) keeps > 35 %",
@@ -26,7 +25,7 @@ SENTENCES = (
 
 
 @pytest.fixture
-def read_result(make_result: Callable[..., CaseResult], make_verdict: Callable[..., Verdict]) -> CaseResult:
+def read_result() -> CaseResult:
     """A case with a criterion that has two readings."""
     bounds = ("%", 35.0, None, 7.0)
     readings = (
@@ -55,7 +54,7 @@ def test_the_detail_on_a_terminal_has_every_reading_and_where_it_comes_from(read
     assert f"definition {expected}" in lines
 
 
-def test_tables_have_every_reading(read_result: CaseResult, make_content: Callable[..., RunContent]) -> None:
+def test_tables_have_every_reading(read_result: CaseResult) -> None:
     with_readings, without = criteria_table([read_result]).rows
     assert with_readings["readings"] == "; ".join(SENTENCES)
     assert without["readings"] == ""
@@ -64,11 +63,7 @@ def test_tables_have_every_reading(read_result: CaseResult, make_content: Callab
     assert dict(zip(header, first, strict=True))["readings"] == "; ".join(SENTENCES)
 
 
-def test_the_page_and_the_summary_have_every_reading(
-    read_result: CaseResult,
-    make_content: Callable[..., RunContent],
-    make_recording: Callable[..., Recording],
-) -> None:
+def test_the_page_and_the_summary_have_every_reading(read_result: CaseResult) -> None:
     content = make_content(read_result, traces={read_result.id: trace_of(make_recording())})
     for sentence in SENTENCES:
         escaped = sentence.replace(">", "&gt;")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 from xml.etree import ElementTree
@@ -13,9 +12,8 @@ import openpyxl
 import pytest
 
 from uictest.core.document import Data
-from uictest.judging.evaluation import CaseResult, OverStops, RepeatedStop, Repeats, Verdict
+from uictest.judging.evaluation import CaseResult, OverStops, RepeatedStop, Repeats
 from uictest.report import (
-    RunContent,
     case_annotations,
     case_line,
     csv_text,
@@ -30,40 +28,30 @@ from uictest.report.page import page_html
 from uictest.report.repeat_wording import drawn_sentence, repeat_sentences, stops_text
 from uictest.report.traces.trace import trace_of
 
-MakeResult = Callable[..., CaseResult]
-MakeVerdict = Callable[..., Verdict]
-MakeContent = Callable[..., RunContent]
+from .builders import HOSTILE, make_content, make_recording, make_result, make_verdict
 
 
-@pytest.fixture
-def make_repeated(make_result: MakeResult, make_verdict: MakeVerdict) -> Callable[..., CaseResult]:
+def make_repeated(letters: str, rule: str = "all", share: float | None = None, **changes: Any) -> CaseResult:
     """A case whose stops come out as these letters say: pass, fail (too long), error."""
-
-    def make(letters: str, rule: str = "all", share: float | None = None, **changes: Any) -> CaseResult:
-        stops = []
-        single = make_result()
-        for seed, letter in enumerate(letters):
-            if letter == "e":
-                stops.append(RepeatedStop(seed, "error", "no wheel load"))
-                continue
-            distance = 460.0 + seed if letter == "p" else 500.0
-            status, outcome = ("pass", "pass") if letter == "p" else ("fail", "fail")
-            verdict = make_verdict(value=distance, margin=490.0 - distance, status=status, reason="made up")
-            measures = {**(single.measures or {}), "braking_distance_m": distance}
-            own = "" if letter == "p" else "too long"
-            stops.append(RepeatedStop(seed, outcome, own, (verdict,), measures, single.wheelsets))  # type: ignore[arg-type]
-        counts = OverStops(letters.count("p"), letters.count("f"), lowest=460.0, highest=500.0)
-        criteria = (make_verdict(over_stops=counts, reason="some of the stops pass"),)
-        repeats = Repeats(rule, tuple(stops), share)  # type: ignore[arg-type]
-        return make_result(**{"criteria": criteria, "repeats": repeats, **changes})
-
-    return make
+    stops = []
+    single = make_result()
+    for seed, letter in enumerate(letters):
+        if letter == "e":
+            stops.append(RepeatedStop(seed, "error", "no wheel load"))
+            continue
+        distance = 460.0 + seed if letter == "p" else 500.0
+        status, outcome = ("pass", "pass") if letter == "p" else ("fail", "fail")
+        verdict = make_verdict(value=distance, margin=490.0 - distance, status=status, reason="made up")
+        measures = {**(single.measures or {}), "braking_distance_m": distance}
+        own = "" if letter == "p" else "too long"
+        stops.append(RepeatedStop(seed, outcome, own, (verdict,), measures, single.wheelsets))  # type: ignore[arg-type]
+    counts = OverStops(letters.count("p"), letters.count("f"), lowest=460.0, highest=500.0)
+    criteria = (make_verdict(over_stops=counts, reason="some of the stops pass"),)
+    repeats = Repeats(rule, tuple(stops), share)  # type: ignore[arg-type]
+    return make_result(**{"criteria": criteria, "repeats": repeats, **changes})
 
 
-Make = Callable[..., CaseResult]
-
-
-def test_the_share_of_stops_has_its_interval(make_repeated: Make) -> None:
+def test_the_share_of_stops_has_its_interval() -> None:
     (sentence,) = repeat_sentences(make_repeated("pppppppppf"))
     # 55.5 .. 99.7 % is the interval of Clopper and Pearson for 9 of 10.
     assert sentence == (
@@ -85,20 +73,18 @@ def test_the_share_of_stops_has_its_interval(make_repeated: Make) -> None:
         ("p" * 36, 0.9, None),
     ],
 )
-def test_whether_the_stops_can_show_a_share_at_all(
-    make_repeated: Make, letters: str, share: float, said: str | None
-) -> None:
+def test_whether_the_stops_can_show_a_share_at_all(letters: str, share: float, said: str | None) -> None:
     _, *more = repeat_sentences(make_repeated(letters, "at_least", share))
     assert more == ([said] if said else [])
 
 
-def test_the_share_is_that_of_the_expected_outcome(make_repeated: Make) -> None:
+def test_the_share_is_that_of_the_expected_outcome() -> None:
     result = make_repeated("fffp", expect="fail", outcome="pass")
     assert stops_text(result) == "fail 3/4"
     assert "; fail 75 % (" in next(iter(repeat_sentences(result)))
 
 
-def test_stops_that_were_all_skipped_have_no_share(make_repeated: Make) -> None:
+def test_stops_that_were_all_skipped_have_no_share() -> None:
     judged = make_repeated("pp")
     assert judged.repeats is not None
     stops = tuple(replace(stop, outcome="skipped") for stop in judged.repeats.stops)
@@ -109,7 +95,7 @@ def test_stops_that_were_all_skipped_have_no_share(make_repeated: Make) -> None:
     assert (row["stops"], row["passed"], row["share"], row["share_low"]) == ("2", "0", "", "")
 
 
-def test_a_case_with_one_stop_says_nothing_of_stops(make_result: MakeResult) -> None:
+def test_a_case_with_one_stop_says_nothing_of_stops() -> None:
     single = make_result()
     assert (stops_text(single), list(repeat_sentences(single)), drawn_sentence(single)) == ("", [], "")
     assert "stops" not in tables.summary_table([single]).columns
@@ -120,7 +106,7 @@ def rows(table: Data) -> list[dict[str, str]]:
     return list(csv.DictReader(io.StringIO(csv_text(*table))))
 
 
-def test_the_tables_have_shares_and_ranges(make_repeated: Make, make_result: MakeResult) -> None:
+def test_the_tables_have_shares_and_ranges() -> None:
     results = [make_repeated("ppf"), make_result(id="single")]
     repeated, single = rows(tables.summary_table(results))
     assert (repeated["stops"], repeated["passed"]) == ("3", "2")
@@ -138,7 +124,7 @@ def test_the_tables_have_shares_and_ranges(make_repeated: Make, make_result: Mak
     ]
 
 
-def test_every_stop_has_a_row(make_repeated: Make, make_content: MakeContent) -> None:
+def test_every_stop_has_a_row() -> None:
     result = make_repeated("pfe")
     written = rows(tables.repeats_table([result]))
     assert [(row["seed"], row["outcome"], row["reason"]) for row in written] == [
@@ -152,9 +138,7 @@ def test_every_stop_has_a_row(make_repeated: Make, make_content: MakeContent) ->
     assert [cell.value for cell in sheet[4]][:4] == [result.id, 1, "fail", "too long"]
 
 
-def test_lines_and_the_terminal_show_how_many_stops_pass(
-    make_repeated: Make, make_result: MakeResult
-) -> None:
+def test_lines_and_the_terminal_show_how_many_stops_pass() -> None:
     result = make_repeated("ppppppffff", outcome="fail")
     words = case_line(result).split(" reason=")[0].split()
     assert {"stops=10", "passed=6", "share=0.6", "share_low=0.2624", "share_high=0.8784"} <= set(words)
@@ -165,7 +149,7 @@ def test_lines_and_the_terminal_show_how_many_stops_pass(
     assert all(each.header != "stops" for each in single.columns)
 
 
-def test_markdown_has_a_column_of_stops(make_repeated: Make, make_content: MakeContent) -> None:
+def test_markdown_has_a_column_of_stops() -> None:
     text = markdown_summary(make_content(make_repeated("ppf", outcome="fail")))
     head, rule, row = text.splitlines()[2:5]
     assert head.split(" | ")[3] == "stops"
@@ -173,7 +157,7 @@ def test_markdown_has_a_column_of_stops(make_repeated: Make, make_content: MakeC
     assert head.count("|") == rule.count("|") == row.count("|")
 
 
-def test_junit_has_one_testcase_and_says_which_stops(make_repeated: Make) -> None:
+def test_junit_has_one_testcase_and_says_which_stops() -> None:
     root = ElementTree.fromstring(
         junit_text(run_suites([make_repeated("ppf"), make_repeated("pff", id="b", outcome="fail")]))
     )
@@ -182,7 +166,7 @@ def test_junit_has_one_testcase_and_says_which_stops(make_repeated: Make) -> Non
     assert "3 stops, seeds 0..2: 1 pass (seed 0), 2 fail" in (failed.findtext("failure") or "")
 
 
-def test_github_is_told_of_a_case_that_passes_in_some_stops_only(make_repeated: Make) -> None:
+def test_github_is_told_of_a_case_that_passes_in_some_stops_only() -> None:
     (notice,) = case_annotations(make_repeated("ppf"))
     assert notice.startswith("::notice file=scenarios/dry/120.yaml,title=pass 2/3 dry-120")
     assert list(case_annotations(make_repeated("ppp"))) == []
@@ -190,18 +174,16 @@ def test_github_is_told_of_a_case_that_passes_in_some_stops_only(make_repeated: 
     assert error.startswith("::error ")
 
 
-def test_an_error_in_one_stop_is_explained(make_repeated: Make) -> None:
+def test_an_error_in_one_stop_is_explained() -> None:
     result = make_repeated("ppe", outcome="error", reason="error in 1 of 3 stops (seed 2): no wheel load")
     assert "no wheel load" in case_line(result)
     assert "no wheel load" in junit_text(run_suites([result]))
 
 
-def test_the_page_has_the_stops_of_each_case(
-    make_repeated: Make, make_content: MakeContent, make_recording: Callable[..., Any], hostile: str
-) -> None:
+def test_the_page_has_the_stops_of_each_case() -> None:
     result = make_repeated("ppf")
     assert result.repeats is not None
-    spoiled = replace(result.repeats.stops[2], reason=hostile)
+    spoiled = replace(result.repeats.stops[2], reason=HOSTILE)
     result = replace(result, repeats=replace(result.repeats, stops=(*result.repeats.stops[:2], spoiled)))
     trace = trace_of(make_recording(), result.drawn_stop.criteria)
     page = page_html(make_content(result, traces={result.id: trace}))
@@ -213,18 +195,14 @@ def test_the_page_has_the_stops_of_each_case(
     assert "<script>" not in page.split("</h3>")[-1].split('<script type="application/json"')[0]
 
 
-def test_repeated_cases_without_a_recording_show_their_stops_as_well(
-    make_repeated: Make, make_result: MakeResult, make_content: MakeContent
-) -> None:
+def test_repeated_cases_without_a_recording_show_their_stops_as_well() -> None:
     page = page_html(make_content(make_repeated("ppf"), make_result(id="single")))
     section = page.split("Repeated cases that are not drawn")[1]
     assert "<title>seed 2: 500</title>" in section
     assert "Repeated cases that are not drawn" not in page_html(make_content(make_result()))
 
 
-def test_a_page_lists_so_many_stops_and_says_how_many_more(
-    make_repeated: Make, make_content: MakeContent, make_recording: Callable[..., Any]
-) -> None:
+def test_a_page_lists_so_many_stops_and_says_how_many_more() -> None:
     result = make_repeated("p" * 130)
     trace = trace_of(make_recording(), result.drawn_stop.criteria)
     assert "30 more stops are in repeats.csv" in page_html(make_content(result, traces={result.id: trace}))

@@ -1,13 +1,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from uictest.core.recording import Recording
-from uictest.judging.evaluation import CaseResult, cases_document
+from uictest.judging.evaluation import cases_document
 from uictest.report import (
     CaseDescription,
     RunContent,
@@ -18,12 +16,10 @@ from uictest.report import (
     write_reports,
 )
 
-MakeResult = Callable[..., CaseResult]
+from .builders import make_recording, make_result
 
 
-def test_a_run_comes_back_from_its_folder(
-    tmp_path: Path, make_result: MakeResult, make_recording: Callable[..., Recording]
-) -> None:
+def test_a_run_comes_back_from_its_folder(tmp_path: Path) -> None:
     result, subject = make_result(), CaseDescription("A title", ("a",), {"rail": "dry"})
     # The name of a file that is no UTF-8 holds lone surrogates.
     manifest = RunManifest(seed=3, inputs={"a\udcff.yaml": "00"})
@@ -44,9 +40,9 @@ def test_a_run_comes_back_from_its_folder(
     [
         ("", "Expecting value"),
         ("[]", "expected a JSON object, found list"),
-        ("{}", "expected a result document"),
+        ("{}", "found neither"),
         ('{"schema": "uictest/result/1"}', "no 'cases'"),
-        ('{"schema": "other"}', "found 'other'"),
+        ('{"schema": "other"}', "found schema 'other'"),
         ("[" * 200_000, "maximum recursion depth"),
     ],
 )
@@ -59,9 +55,7 @@ def test_what_is_no_run_is_rejected_with_its_file(tmp_path: Path, text: str, rea
 @pytest.mark.parametrize(
     "case_id", ["../escaped", "/etc/passwd", "a/b", "..", "", ".", r"..\escaped", r"C:\a", "C:a", "a\0b"]
 )
-def test_an_id_that_leads_out_of_the_folder_is_refused(
-    tmp_path: Path, make_result: MakeResult, make_recording: Callable[..., Recording], case_id: str
-) -> None:
+def test_an_id_that_leads_out_of_the_folder_is_refused(tmp_path: Path, case_id: str) -> None:
     folder = tmp_path / "run"
     folder.mkdir()
     write_reports(folder, RunContent("a-run", [make_result(id="fine")], RunManifest()))
@@ -82,7 +76,7 @@ def test_ids_of_cases_and_names_of_recorded_files_are_names(tmp_path: Path, case
     assert recording_path(tmp_path, case_id) == tmp_path / "recordings" / f"{case_id}.parquet"
 
 
-def test_complete_is_true_or_false(tmp_path: Path, make_result: MakeResult) -> None:
+def test_complete_is_true_or_false(tmp_path: Path) -> None:
     write_reports(tmp_path, RunContent("a-run", [make_result()]))
     text = (tmp_path / "results.json").read_text()
     (tmp_path / "results.json").write_text(text.replace('"complete": true', '"complete": "no"'))
@@ -90,7 +84,7 @@ def test_complete_is_true_or_false(tmp_path: Path, make_result: MakeResult) -> N
         read_run(tmp_path)
 
 
-def test_a_subject_of_another_form_is_refused(tmp_path: Path, make_result: MakeResult) -> None:
+def test_a_subject_of_another_form_is_refused(tmp_path: Path) -> None:
     write_reports(tmp_path, RunContent("a-run", [make_result()]))
     text = (tmp_path / "results.json").read_text()
     (tmp_path / "results.json").write_text(text.replace('"subjects": {}', '"subjects": {"a": {"title": 1}}'))

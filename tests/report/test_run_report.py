@@ -1,18 +1,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from datetime import UTC, datetime, timedelta, timezone
 from pathlib import Path
 
 import numpy as np
 
 from uictest.core.recording import Recording, read_parquet
-from uictest.judging.evaluation import CaseResult, results_of
+from uictest.judging.evaluation import results_of
 from uictest.report import RunContent, RunManifest
 from uictest.report.run_report import run_name, write_recording, write_reports
 
-MakeResult = Callable[..., CaseResult]
+from .builders import make_result
 
 
 def test_a_run_is_named_after_its_start_in_utc_and_its_manifest() -> None:
@@ -23,7 +22,7 @@ def test_a_run_is_named_after_its_start_in_utc_and_its_manifest() -> None:
     assert name != run_name(started, RunManifest(seed=2))
 
 
-def test_every_format_is_written_and_results_read_back(tmp_path: Path, make_result: MakeResult) -> None:
+def test_every_format_is_written_and_results_read_back(tmp_path: Path) -> None:
     results = [make_result(), make_result(id="other", outcome="fail")]
     text = write_reports(tmp_path, RunContent("a-run", results))
     assert sorted(path.name for path in tmp_path.iterdir()) == [
@@ -41,7 +40,7 @@ def test_every_format_is_written_and_results_read_back(tmp_path: Path, make_resu
     assert [result.id for result in results_of(document)] == ["dry-120[command=90]", "other"]
 
 
-def test_no_clock_and_no_number_that_is_none_enters_results(tmp_path: Path, make_result: MakeResult) -> None:
+def test_no_clock_and_no_number_that_is_none_enters_results(tmp_path: Path) -> None:
     texts = [
         write_reports(tmp_path, RunContent("a-run", [make_result(duration=duration)]))
         for duration in (0.1, 9.9)
@@ -50,9 +49,7 @@ def test_no_clock_and_no_number_that_is_none_enters_results(tmp_path: Path, make
     assert json.loads(texts[0])["cases"][0]["measures"]["initial_adhesion_g"] is None
 
 
-def test_a_file_name_that_is_no_utf_8_is_written_as_an_escape(
-    tmp_path: Path, make_result: MakeResult
-) -> None:
+def test_a_file_name_that_is_no_utf_8_is_written_as_an_escape(tmp_path: Path) -> None:
     text = write_reports(tmp_path, RunContent("a-run", [make_result(scenario="a\udcff.yaml")]))
     assert json.loads(text)["cases"][0]["scenario"] == "a\udcff.yaml"
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,40 +10,38 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.core.recording import Recording
-from uictest.judging.evaluation import AppliedDefinition, CaseResult, Verdict
-from uictest.report import RunContent, RunManifest
+from uictest.judging.evaluation import AppliedDefinition
+from uictest.report import RunManifest
 from uictest.report.traces.trace import trace_of
 
+from .builders import make_content, make_recording, make_result, make_verdict
 from .chromium import PLOTTED, emulate, resize, run, wait, written
 
 CASE = "slip 120[friction=0.09]"
 READY = "return document.querySelector('.plots[data-ready]') !== null"
 
 
-@pytest.fixture
-def stop_page(
-    tmp_path: Path,
-    make_content: Callable[..., RunContent],
-    make_result: Callable[..., CaseResult],
-    make_verdict: Callable[..., Verdict],
-    make_recording: Callable[..., Recording],
-) -> Path:
+@pytest.fixture(scope="module")
+def stop_page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A stop whose wheelset 3 has the largest slide above the cut-off, 60 % at 8 s; 35 % are allowed."""
     recording = make_recording(sliding_time="5.0")
     largest = np.where(np.isclose(recording["time"], 8.0), 0.6, recording["slide_3"])
-    recording = replace(recording, channels={**recording.channels, "slide_3": largest})
-    cutoff = AppliedDefinition("low_speed_cutoff", 30 / 3.6, "m/s", "stated")
+    own = {"slide_3": largest, "wheel_speed_3": recording["speed"] * (1.0 - largest)}
+    recording = replace(recording, channels={**recording.channels, **own})
+    definitions = tuple(
+        AppliedDefinition(name, speed / 3.6, "m/s", "stated")
+        for name, speed in (("low_speed_cutoff", 30.0), ("moving_speed", 10.0))
+    )
     slide = make_verdict(
         id="largest-slide", measure="maximum_slide_above_cutoff", value=60.0, unit="%",
-        lower=None, upper=35.0, margin=-25.0, status="fail", definitions=(cutoff,),
+        lower=None, upper=35.0, margin=-25.0, status="fail", definitions=definitions,
     )  # fmt: skip
     result = make_result(
         id=CASE, scenario="scenarios/slip.yaml", outcome="fail", criteria=(make_verdict(), slide)
     )
     manifest = RunManifest(command=("uictest", "run", "scenarios", "--set", "rail.friction=0.09", "-n", "2"))
     traces = {CASE: trace_of(recording, result.criteria)}
-    return written(tmp_path, make_content(result, manifest=manifest, traces=traces))
+    return written(tmp_path_factory.mktemp("page"), make_content(result, manifest=manifest, traces=traces))
 
 
 def test_a_criterion_leads_to_the_instant_at_which_its_value_was_taken(browser: Any, stop_page: Path) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,13 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.core.recording import Recording
-from uictest.judging.evaluation import CaseResult
 from uictest.report.page import sweep_page_html
 from uictest.report.sweep.folder import SweepContent
 from uictest.report.traces.trace import trace_of
 
-from .chromium import resize, run
+from .builders import make_recording, make_result
+from .chromium import run
 from .sweep_rows import DRAWN, drawn_rows, row, sweep_result, write_rows
 
 _SAVED = """
@@ -84,23 +82,18 @@ return rings.map((each) => each.getAttribute('visibility'));
 """
 
 
-@pytest.fixture
-def sampled(
-    tmp_path: Path, make_result: Callable[..., CaseResult], make_recording: Callable[..., Recording]
-) -> SweepContent:
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A sample of 60 cases, three of which fail; the first of these is drawn."""
+    folder = tmp_path_factory.mktemp("page")
     rows = drawn_rows(60, failing=(7, 8, 9))
-    write_rows(tmp_path, rows)
+    write_rows(folder, rows)
     parameters = {key: rows[7][f"parameters.{key}"] for key in DRAWN}
     worst = make_result(id="study[sample=7]", outcome="fail", parameters=parameters)
     result = replace(sweep_result(DRAWN, 60, logarithmic=["gain"]), worst=(worst,))
-    return SweepContent(tmp_path, result, {}, {worst.id: trace_of(make_recording())})
-
-
-@pytest.fixture
-def page(tmp_path: Path, sampled: SweepContent) -> Path:
-    path = tmp_path / "index.html"
-    path.write_text(sweep_page_html(sampled), encoding="utf-8")
+    path = folder / "index.html"
+    content = SweepContent(folder, result, {}, {worst.id: trace_of(make_recording())})
+    path.write_text(sweep_page_html(content), encoding="utf-8")
     return path
 
 
@@ -159,15 +152,16 @@ def test_every_point_of_every_panel_is_drawn(browser: Any, page: Path) -> None:
     [([32000, 32010], ["32000", "32005", "32010"]), ([1, 4294967295], ["0", "2000000000", "4000000000"])],
 )
 def test_an_axis_of_points_says_where_its_ticks_are(
-    browser: Any, page: Path, values: list[float], labels: list[str]
+    browser: Any, page: Path, tmp_path: Path, values: list[float], labels: list[str]
 ) -> None:
     """Numbers close to each other keep their digits; those far apart, as seeds, are drawn as well."""
     before, start, rest = page.read_text(encoding="utf-8").partition('id="scatter-data">')
     text, end, after = rest.partition("</script>")
     data = json.loads(text)
     data["parameters"][0]["values"] = np.linspace(*values, len(data["ids"])).tolist()
-    page.write_text("".join([before, start, json.dumps(data), end, after]), encoding="utf-8")
-    browser.get(page.as_uri())
+    changed = tmp_path / "index.html"
+    changed.write_text("".join([before, start, json.dumps(data), end, after]), encoding="utf-8")
+    browser.get(changed.as_uri())
     assert run(browser, _LABELS) == labels
 
 
@@ -203,17 +197,18 @@ def test_what_is_behind_the_plots_is_downloaded(browser: Any, page: Path) -> Non
     assert distributions.splitlines()[:2] == ["measure,unit,from,to,pass", "braking distance,m,0.0,1.0,60"]
 
 
-@pytest.fixture
-def with_a_gap(tmp_path: Path) -> Path:
+@pytest.fixture(scope="module")
+def with_a_gap(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The page of a sweep of three parameters without the cases of a = 1, b = 1."""
+    folder = tmp_path_factory.mktemp("page")
     values = {key: ["0", "1"] for key in ("a", "c", "b")}
     rows = [
         row(f"{a}{b}{c}", **{"parameters.a": str(a), "parameters.b": str(b), "parameters.c": str(c)})
         for a, b, c in ((0, 0, 0), (0, 0, 1), (0, 1, 0), (0, 1, 1), (1, 0, 0), (1, 0, 1))
     ]
-    write_rows(tmp_path, rows)
-    path = tmp_path / "index.html"
-    path.write_text(sweep_page_html(SweepContent(tmp_path, sweep_result(values, 6), {})), encoding="utf-8")
+    write_rows(folder, rows)
+    path = folder / "index.html"
+    path.write_text(sweep_page_html(SweepContent(folder, sweep_result(values, 6), {})), encoding="utf-8")
     return path
 
 
@@ -229,9 +224,3 @@ def test_a_cell_without_a_case_has_no_value_and_is_hatched_in_every_pair(
     assert table.splitlines()[-1] == "1,1,,no case"
     assert run(browser, "return document.querySelector('.heat-pair:not([hidden]) path.no-case') !== null")
     assert run(browser, "return document.getElementById('no-case').closest('[hidden]') === null")
-
-
-def test_a_phone_shows_it_without_scrolling_sideways(browser: Any, page: Path) -> None:
-    resize(browser, 400)
-    browser.get(page.as_uri())
-    assert run(browser, "return document.documentElement.scrollWidth <= innerWidth")

@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, TypeVar
 
 import pytest
 from pydantic import TypeAdapter
 
-from uictest.core.recording import Recording
-from uictest.judging.evaluation import CaseResult
 from uictest.report import Frontier, MeasureHistogram, OutcomeCount, Trend, WrittenValue
 from uictest.report.page import sweep_page_html
 from uictest.report.page.sweep.frontier_plot import frontier_plot
 from uictest.report.page.sweep.histogram import histogram_plot
 from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
-from uictest.report.sweep.folder import SweepContent
 from uictest.report.traces.trace import trace_of
 
+from .builders import HOSTILE, MakeSweep, make_recording, make_result
 from .test_page import Page
 
-MakeSweep = Callable[..., SweepContent]
-MakeResult = Callable[..., CaseResult]
 Content = TypeVar("Content")
 
 
@@ -47,9 +42,7 @@ def test_every_finding_has_a_heading(make_sweep: MakeSweep) -> None:
         assert heading in text
 
 
-def test_a_worst_case_is_drawn_and_linked_from_its_row_and_its_cell(
-    make_sweep: MakeSweep, make_result: MakeResult, make_recording: Callable[..., Recording]
-) -> None:
+def test_a_worst_case_is_drawn_and_linked_from_its_row_and_its_cell(make_sweep: MakeSweep) -> None:
     parameters = {"brake.90 %": "80 %", "rail.friction": "0.10"}
     worst = make_result(id="stop[a]", parameters=parameters)
     traces = {"stop[a]": trace_of(make_recording())}
@@ -60,17 +53,15 @@ def test_a_worst_case_is_drawn_and_linked_from_its_row_and_its_cell(
     assert links.count("#case-stop%5Ba%5D") == 3
 
 
-def test_without_recordings_there_is_nothing_to_draw(make_sweep: MakeSweep, make_result: MakeResult) -> None:
+def test_without_recordings_there_is_nothing_to_draw(make_sweep: MakeSweep) -> None:
     page = Page(sweep_page_html(make_sweep((make_result(id="stop[a]"),))))
     assert "stop[a]" in page.text
     assert not any(attributes.get("id") == "plotly" for attributes, _ in page.scripts)
 
 
-def test_hostile_texts_are_shown_and_make_no_element(
-    make_sweep: MakeSweep, make_result: MakeResult, hostile: str
-) -> None:
+def test_hostile_texts_are_shown_and_make_no_element(make_sweep: MakeSweep) -> None:
     harmless = Page(sweep_page_html(make_sweep((make_result(),))))
-    page = Page(sweep_page_html(make_sweep((make_result(id=hostile, reason=hostile),), text=hostile)))
+    page = Page(sweep_page_html(make_sweep((make_result(id=HOSTILE, reason=HOSTILE),), text=HOSTILE)))
     assert [tag for tag, _ in page.elements if tag == "b"] == []
     assert [tag for tag, _ in page.elements] == [tag for tag, _ in harmless.elements]
     assert "<b>&" in page.text

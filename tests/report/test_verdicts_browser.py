@@ -6,17 +6,14 @@ import base64
 import re
 import shutil
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from uictest.core.recording import Recording
-from uictest.judging.evaluation import CaseResult, Verdict
-from uictest.report import RunContent
 from uictest.report.traces.trace import trace_of
 
+from .builders import make_content, make_recording, make_result, make_verdict
 from .chromium import resize, run, wait, written
 
 CASES = 300
@@ -30,14 +27,8 @@ return [...document.querySelectorAll('.verdicts tbody:not([hidden]) tr:not([hidd
 """
 
 
-@pytest.fixture
-def long_page(
-    tmp_path: Path,
-    make_content: Callable[..., RunContent],
-    make_result: Callable[..., CaseResult],
-    make_verdict: Callable[..., Verdict],
-    make_recording: Callable[..., Recording],
-) -> Path:
+@pytest.fixture(scope="module")
+def long_page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run of 300 cases, every seventh missed for a long reason; two are drawn."""
     broken = make_verdict(status="fail", margin=-10.0, reason=REASON)
     figures = make_result().measures
@@ -51,7 +42,9 @@ def long_page(
         for n in range(CASES)
     ]
     trace = trace_of(make_recording())
-    return written(tmp_path, make_content(*results, traces={"case-000": trace, "case-001": trace}))
+    return written(
+        tmp_path_factory.mktemp("page"), make_content(*results, traces={"case-000": trace, "case-001": trace})
+    )
 
 
 def _ids(*numbers: int) -> list[str]:

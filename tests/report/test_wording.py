@@ -1,12 +1,10 @@
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import get_args
 
 import pytest
 
 from uictest.judging import evaluation
-from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.judging.evaluation.result import Outcome
 from uictest.report.wording import (
     CASE_WORDS,
@@ -21,8 +19,7 @@ from uictest.report.wording import (
     tone,
 )
 
-MakeResult = Callable[..., CaseResult]
-MakeVerdict = Callable[..., Verdict]
+from .builders import make_result, make_verdict
 
 
 @pytest.mark.parametrize(
@@ -45,13 +42,11 @@ def test_a_pure_number_has_no_unit() -> None:
         (None, None, "no limit"),
     ],
 )
-def test_limits(make_verdict: MakeVerdict, lower: float | None, upper: float | None, shown: str) -> None:
+def test_limits(lower: float | None, upper: float | None, shown: str) -> None:
     assert limits(make_verdict(lower=lower, upper=upper)) == shown
 
 
-def test_a_skipped_case_tells_why_each_criterion_did_not_apply(
-    make_result: MakeResult, make_verdict: MakeVerdict
-) -> None:
+def test_a_skipped_case_tells_why_each_criterion_did_not_apply() -> None:
     absent = make_verdict(status="not_applicable", value=None, margin=None, reason="the rail is dry")
     assert explanation(make_result(outcome="skipped", criteria=(absent,))) == [
         "skipped. Expected: pass",
@@ -59,9 +54,7 @@ def test_a_skipped_case_tells_why_each_criterion_did_not_apply(
     ]
 
 
-def test_an_inconclusive_case_tells_what_could_not_be_judged(
-    make_result: MakeResult, make_verdict: MakeVerdict
-) -> None:
+def test_an_inconclusive_case_tells_what_could_not_be_judged() -> None:
     undecided = make_verdict(
         status="inconclusive", value=None, margin=None, reason="the record ends after 2 s"
     )
@@ -86,9 +79,7 @@ def test_an_inconclusive_case_tells_what_could_not_be_judged(
         ),
     ],
 )
-def test_the_word_of_a_case_says_outcome_and_expectation(
-    make_result: MakeResult, expect: str, words: tuple[str, ...]
-) -> None:
+def test_the_word_of_a_case_says_outcome_and_expectation(expect: str, words: tuple[str, ...]) -> None:
     results = [make_result(outcome=outcome, expect=expect) for outcome in get_args(Outcome)]
     assert tuple(map(result_word, results)) == words
     # What is met looks good, and nothing else does.
@@ -103,7 +94,7 @@ def test_every_word_is_counted_and_is_one_field_of_a_line() -> None:
     assert line_word("expected fail") == "expected-fail"
 
 
-def test_the_tally_counts_only_what_there_is(make_result: MakeResult) -> None:
+def test_the_tally_counts_only_what_there_is() -> None:
     passed, failed, error = make_result(), make_result(outcome="fail"), make_result(outcome="error")
     assert tally([passed]) == "1 case: 1 pass"
     assert tally([passed, failed, error, passed]) == "4 cases: 2 pass, 1 fail, 1 error; 2 not as expected"
@@ -113,9 +104,7 @@ def test_the_tally_counts_only_what_there_is(make_result: MakeResult) -> None:
     assert tally([]) == "no case"
 
 
-def test_a_strict_case_names_every_verdict_that_is_not_settled(
-    make_result: MakeResult, make_verdict: MakeVerdict
-) -> None:
+def test_a_strict_case_names_every_verdict_that_is_not_settled() -> None:
     intervals = (
         evaluation.VerdictInterval(10.0, 30.0, "pass"),
         evaluation.VerdictInterval(40.0, 60.0, "fail"),

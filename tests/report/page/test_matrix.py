@@ -1,18 +1,17 @@
 from __future__ import annotations
 
-from collections.abc import Callable
 from itertools import product
 
 from uictest.judging.evaluation import CaseResult, EffectivePart, Parameter
 from uictest.report.page.overview import maps_of
 
-MakeResult = Callable[..., CaseResult]
+from ..builders import make_result
 
 
-def _cases(make: MakeResult, **keys: list[str]) -> list[CaseResult]:
+def _cases(**keys: list[str]) -> list[CaseResult]:
     swept = [dict(zip(keys, values, strict=True)) for values in product(*keys.values())]
     return [
-        make(id=str(parameters), parameters=parameters, parts={"scenario": _part(parameters)})
+        make_result(id=str(parameters), parameters=parameters, parts={"scenario": _part(parameters)})
         for parameters in swept
     ]
 
@@ -25,28 +24,28 @@ def _part(texts: dict[str, str]) -> EffectivePart:
     return EffectivePart("scenario", "", "", None, parameters)
 
 
-def test_two_swept_keys_make_a_map_in_the_order_of_their_numbers(make_result: MakeResult) -> None:
-    results = _cases(make_result, friction=["0.12", "0.09"], command=["100 %", "80 %"], speed=["80 km/h"])
+def test_two_swept_keys_make_a_map_in_the_order_of_their_numbers() -> None:
+    results = _cases(friction=["0.12", "0.09"], command=["100 %", "80 %"], speed=["80 km/h"])
     (found,) = maps_of(results)
     assert (found.row_key, found.column_key) == ("friction", "command")
     assert (found.rows, found.columns) == (["0.09", "0.12"], ["80 %", "100 %"])
     assert found.cells[0][1] is results[2]
 
 
-def test_texts_that_are_no_numbers_keep_their_order(make_result: MakeResult) -> None:
-    results = _cases(make_result, state=["bypassed", "active"], friction=["0.12", "0.09"])
+def test_texts_that_are_no_numbers_keep_their_order() -> None:
+    results = _cases(state=["bypassed", "active"], friction=["0.12", "0.09"])
     (found,) = maps_of(results)
     assert (found.rows, found.columns) == (["bypassed", "active"], ["0.09", "0.12"])
 
 
-def test_a_combination_that_was_excluded_leaves_its_cell_empty(make_result: MakeResult) -> None:
-    results = _cases(make_result, a=["1", "2"], b=["x", "y"])[:3]
+def test_a_combination_that_was_excluded_leaves_its_cell_empty() -> None:
+    results = _cases(a=["1", "2"], b=["x", "y"])[:3]
     (found,) = maps_of(results)
     assert found.cells[1][1] is None
 
 
-def test_one_key_three_keys_and_repeated_cases_make_none(make_result: MakeResult) -> None:
-    assert maps_of(_cases(make_result, a=["1", "2"])) == []
-    assert maps_of(_cases(make_result, a=["1", "2"], b=["1", "2"], c=["1", "2"])) == []
-    twice = _cases(make_result, a=["1", "2"], b=["1", "2"])
+def test_one_key_three_keys_and_repeated_cases_make_none() -> None:
+    assert maps_of(_cases(a=["1", "2"])) == []
+    assert maps_of(_cases(a=["1", "2"], b=["1", "2"], c=["1", "2"])) == []
+    twice = _cases(a=["1", "2"], b=["1", "2"])
     assert maps_of([*twice, *twice]) == []

@@ -6,7 +6,6 @@ import csv
 import io
 import json
 import re
-from collections.abc import Callable
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -14,7 +13,6 @@ import openpyxl
 import pytest
 
 from uictest.judging import series
-from uictest.judging.evaluation import CaseResult
 from uictest.report import (
     RunContent,
     junit_text,
@@ -28,24 +26,21 @@ from uictest.report.formats.md import markdown_summary
 from uictest.report.series.lines import series_line, series_lines
 from uictest.report.series.wording import series_explanation, series_tally
 
-MakeSeries = Callable[..., series.SeriesResult]
-MakeContent = Callable[..., RunContent]
-MakeResult = Callable[..., CaseResult]
+from ..builders import HOSTILE, make_content, make_result
+from .made_up import MISSED, make_series
 
 
 @pytest.fixture
-def content(make_content: MakeContent, make_series: MakeSeries) -> RunContent:
+def content() -> RunContent:
     return make_content(series=[make_series()])
 
 
-def test_the_run_is_counted_by_its_series(
-    content: RunContent, make_result: MakeResult, missed: series.SeriesResult
-) -> None:
+def test_the_run_is_counted_by_its_series(content: RunContent) -> None:
     assert content.tally == "1 series: 1 pass"
-    assert series_tally([missed]) == "1 series: 1 fail; 1 not as expected"
+    assert series_tally([MISSED]) == "1 series: 1 fail; 1 not as expected"
 
 
-def test_lines_tell_the_criteria_and_what_does_not_count(make_series: MakeSeries) -> None:
+def test_lines_tell_the_criteria_and_what_does_not_count() -> None:
     result = make_series()
     assert series_line(result).startswith("pass acceptance outcome=pass expect=pass k_wet=0.86957 ")
     criterion, counted, not_counted = series_lines(result)
@@ -57,7 +52,7 @@ def test_lines_tell_the_criteria_and_what_does_not_count(make_series: MakeSeries
     assert not_counted == "stops acceptance 1 stop invalid, not counted: energy-balance: 3 % misses < 0.1 %"
 
 
-def test_a_terminal_shows_the_same_in_its_width(make_series: MakeSeries) -> None:
+def test_a_terminal_shows_the_same_in_its_width() -> None:
     for width in (60, 100, 200):
         lines = list(series_table([make_series()], width))
         text = " ".join(" ".join(lines).split())
@@ -85,9 +80,7 @@ def test_tables_have_a_row_per_measure_criterion_and_stop(content: RunContent, t
     assert len(stops) == 7
 
 
-def test_a_run_without_series_has_none_of_their_files(
-    make_content: MakeContent, make_result: MakeResult, tmp_path: Path
-) -> None:
+def test_a_run_without_series_has_none_of_their_files(tmp_path: Path) -> None:
     write_formats(tmp_path, make_content(make_result()), ["csv"])
     assert not list(tmp_path.glob("series*"))
 
@@ -105,12 +98,10 @@ def test_the_workbook_has_a_sheet_for_each_table(content: RunContent, tmp_path: 
     assert dict(zip(header, row, strict=True))["wet_stops_counted"] == 5
 
 
-def test_markdown_compares_and_judges(
-    content: RunContent, missed: series.SeriesResult, make_content: MakeContent
-) -> None:
+def test_markdown_compares_and_judges(content: RunContent) -> None:
     text = markdown_summary(content)
     assert "| `acceptance` | pass | 5 of 6 |" in text
-    assert "| `acceptance` | `k-wet` | **fail** |" in markdown_summary(make_content(series=[missed]))
+    assert "| `acceptance` | `k-wet` | **fail** |" in markdown_summary(make_content(series=[MISSED]))
     for limit in (400, 1000, 3000):
         assert len(markdown_summary(content, limit).encode()) <= limit
 
@@ -125,11 +116,9 @@ def test_the_page_draws_every_stop_and_marks_those_that_do_not_count(
     assert "1 stop invalid, not counted: energy-balance: 3 % misses &lt; 0.1 %" in page
 
 
-def test_hostile_texts_stay_texts(
-    make_series: MakeSeries, make_content: MakeContent, hostile: str, tmp_path: Path
-) -> None:
-    not_counted = (series.UncountedStop(hostile, "wet", 1, "invalid", hostile),)
-    result = make_series(id=hostile, title=hostile, not_counted=not_counted, outcome="error", reason=hostile)
+def test_hostile_texts_stay_texts(tmp_path: Path) -> None:
+    not_counted = (series.UncountedStop(HOSTILE, "wet", 1, "invalid", HOSTILE),)
+    result = make_series(id=HOSTILE, title=HOSTILE, not_counted=not_counted, outcome="error", reason=HOSTILE)
     content = make_content(series=[result])
     write_formats(tmp_path, content, ["html", "xlsx", "csv"])
     assert "<b>&" not in (tmp_path / "index.html").read_text()
@@ -140,9 +129,7 @@ def test_hostile_texts_stay_texts(
     ElementTree.fromstring(junit_text(run_suites([], series=[result])))
 
 
-def test_a_finished_run_is_read_back_as_it_was(
-    make_series: MakeSeries, make_content: MakeContent, tmp_path: Path
-) -> None:
+def test_a_finished_run_is_read_back_as_it_was(tmp_path: Path) -> None:
     content = make_content(series=[make_series()])
     write_reports(tmp_path, content)
     document = json.loads((tmp_path / "results.json").read_text())
@@ -151,9 +138,7 @@ def test_a_finished_run_is_read_back_as_it_was(
     assert series.series_document(read.series) == series.series_document(content.series)
 
 
-def test_a_spoiled_series_is_no_run(
-    make_series: MakeSeries, make_content: MakeContent, tmp_path: Path
-) -> None:
+def test_a_spoiled_series_is_no_run(tmp_path: Path) -> None:
     write_reports(tmp_path, make_content(series=[make_series()]))
     document = json.loads((tmp_path / "results.json").read_text())
     document["series"]["series"][0]["criteria"][0]["estimate"]["stops"] = "many"

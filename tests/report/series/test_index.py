@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 from urllib.parse import unquote
 
 from uictest import report, runs
 
-from .conftest import MakeSeries
+from ..builders import make_result
+from .made_up import make_series
 
 
-def test_a_series_stands_apart_from_a_case_of_its_id_and_leads_to_itself(
-    make_series: MakeSeries, make_result: Callable[..., Any], tmp_path: Path
-) -> None:
+def test_a_series_stands_apart_from_a_case_of_its_id_and_leads_to_itself(tmp_path: Path) -> None:
     content = report.RunContent("", [make_result(id="acceptance", outcome="fail")], series=[make_series()])
     folder = runs.publish_run(content, {}, tmp_path, ("html",)).place
     index = (tmp_path / "index.html").read_text("utf-8")

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from xml.etree import ElementTree
 
 from uictest.judging import series
-from uictest.judging.evaluation import CaseResult
 from uictest.report import junit_text, run_suites
 
-MakeSeries = Callable[..., series.SeriesResult]
-MakeResult = Callable[..., CaseResult]
+from ..builders import make_result
+from .made_up import MISSED, make_series
 
 
 def suites(*results: series.SeriesResult) -> list[ElementTree.Element]:
     return list(ElementTree.fromstring(junit_text(run_suites([], series=results))))
 
 
-def test_every_criterion_is_a_testcase(make_series: MakeSeries) -> None:
+def test_every_criterion_is_a_testcase() -> None:
     (suite,) = suites(make_series())
     (testcase,) = suite
     assert suite.get("name") == "uictest series: acceptance"
@@ -29,8 +27,8 @@ def test_every_criterion_is_a_testcase(make_series: MakeSeries) -> None:
     assert [child.tag for child in testcase] == ["system-out"]
 
 
-def test_a_missed_criterion_is_a_failure_that_says_everything(missed: series.SeriesResult) -> None:
-    (suite,) = suites(missed)
+def test_a_missed_criterion_is_a_failure_that_says_everything() -> None:
+    (suite,) = suites(MISSED)
     assert suite.get("failures") == "1"
     text = suite.findtext("testcase/failure") or ""
     assert "k-wet (requirement) fail: 0.86957 from 120 km/h, lower limit 0.9, margin -0.03" in text
@@ -38,12 +36,12 @@ def test_a_missed_criterion_is_a_failure_that_says_everything(missed: series.Ser
     assert "1 stop invalid, not counted" in text
 
 
-def test_an_expected_failure_is_none(missed: series.SeriesResult) -> None:
-    (suite,) = suites(replace(missed, expect="fail"))
+def test_an_expected_failure_is_none() -> None:
+    (suite,) = suites(replace(MISSED, expect="fail"))
     assert suite.get("failures") == "0"
 
 
-def test_an_unexpected_pass_and_an_error_have_a_testcase_of_their_own(make_series: MakeSeries) -> None:
+def test_an_unexpected_pass_and_an_error_have_a_testcase_of_their_own() -> None:
     (unexpected,) = suites(make_series(expect="fail"))
     assert [case.get("name") for case in unexpected] == ["acceptance: k-wet", "acceptance: outcome"]
     assert unexpected.get("failures") == "1"
@@ -52,7 +50,7 @@ def test_an_unexpected_pass_and_an_error_have_a_testcase_of_their_own(make_serie
     assert "it broke" in (error.findtext("testcase/error") or "")
 
 
-def test_an_inconclusive_criterion_is_a_failure(make_series: MakeSeries) -> None:
+def test_an_inconclusive_criterion_is_a_failure() -> None:
     result = make_series()
     (each,) = result.criteria
     open_verdict = replace(
@@ -63,6 +61,6 @@ def test_an_inconclusive_criterion_is_a_failure(make_series: MakeSeries) -> None
     assert suite.get("failures") == "1"
 
 
-def test_series_stand_behind_the_cases(make_result: MakeResult, make_series: MakeSeries) -> None:
+def test_series_stand_behind_the_cases() -> None:
     root = ElementTree.fromstring(junit_text(run_suites([make_result()], series=[make_series()])))
     assert [suite.get("name") for suite in root] == ["uictest", "uictest series: acceptance"]

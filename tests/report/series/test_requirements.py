@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,15 +13,14 @@ import openpyxl
 import pytest
 
 from uictest.judging import series
-from uictest.judging.evaluation import CaseResult
-from uictest.report import RunContent, junit_text, read_run, run_suites, write_formats, write_reports
+from uictest.report import junit_text, read_run, run_suites, write_formats, write_reports
 from uictest.report.formats.junit import FORMAT
 from uictest.report.formats.md import markdown_summary
 from uictest.report.requirements import Evidence, verified_requirements
 
-MakeSeries = Callable[..., series.SeriesResult]
-MakeContent = Callable[..., RunContent]
-MakeResult = Callable[..., CaseResult]
+from ..builders import make_content, make_result
+from .made_up import make_series
+
 BY_CRITERION = ("BR-1",)
 
 
@@ -34,7 +32,7 @@ def naming(result: series.SeriesResult, status: str = "pass", **changes: Any) ->
 
 
 @pytest.fixture
-def named(make_series: MakeSeries) -> series.SeriesResult:
+def named() -> series.SeriesResult:
     """A series that names BR-9 and the test case WSP-TC-7, with a criterion that names BR-1."""
     return naming(make_series(requirements=("BR-9",), test_case="WSP-TC-7"))
 
@@ -52,7 +50,7 @@ def named(make_series: MakeSeries) -> series.SeriesResult:
     ],
 )
 def test_a_requirement_of_a_series_follows_its_outcome_against_the_expectation(
-    make_series: MakeSeries, expect: str, outcome: str, word: str, status: str
+    expect: str, outcome: str, word: str, status: str
 ) -> None:
     result = make_series(expect=expect, outcome=outcome, requirements=("BR-9",))
     (requirement,) = verified_requirements([], [result])
@@ -72,24 +70,24 @@ def test_a_requirement_of_a_series_follows_its_outcome_against_the_expectation(
     ],
 )
 def test_a_requirement_of_a_criterion_follows_its_verdict_unless_stops_failed_to_run(
-    make_series: MakeSeries, status: str, outcome: str, word: str
+    status: str, outcome: str, word: str
 ) -> None:
     (requirement,) = verified_requirements([], [naming(make_series(), status, outcome=outcome)])
     assert requirement.evidence == (Evidence("series", "acceptance", word, ("k-wet",)),)
 
 
-def test_criteria_of_a_series_that_must_not_pass_say_nothing(make_series: MakeSeries) -> None:
+def test_criteria_of_a_series_that_must_not_pass_say_nothing() -> None:
     assert not verified_requirements([], [naming(make_series(), "fail", expect="fail", outcome="fail")])
 
 
-def test_stops_of_a_series_are_no_evidence_of_their_own(make_series: MakeSeries) -> None:
+def test_stops_of_a_series_are_no_evidence_of_their_own() -> None:
     result = make_series()
     cases = tuple(replace(each, case=replace(each.case, requirements=("BR-5",))) for each in result.cases)
     assert not verified_requirements([], [replace(result, cases=cases)])
 
 
 def test_a_case_and_a_series_of_the_same_id_stand_apart_in_every_table(
-    named: series.SeriesResult, make_result: MakeResult, make_content: MakeContent, tmp_path: Path
+    named: series.SeriesResult, tmp_path: Path
 ) -> None:
     case = make_result(id="acceptance", requirements=("BR-9",), outcome="fail")
     content = make_content(case, series=[named])
@@ -111,9 +109,7 @@ def test_a_case_and_a_series_of_the_same_id_stand_apart_in_every_table(
     assert "WSP-TC-7: BR-9" in page
 
 
-def test_tables_of_series_name_test_case_and_requirements(
-    named: series.SeriesResult, make_content: MakeContent, tmp_path: Path
-) -> None:
+def test_tables_of_series_name_test_case_and_requirements(named: series.SeriesResult, tmp_path: Path) -> None:
     write_formats(tmp_path, make_content(series=[named]), ["csv", "xlsx"])
     (row,) = csv.DictReader(io.StringIO((tmp_path / "series-criteria.csv").read_text()))
     assert row["requirements"] == "BR-1"
@@ -142,9 +138,7 @@ def test_testcases_name_the_requirements_of_their_criterion_and_of_the_series(
     assert not plain.findall("testcase/properties")
 
 
-def test_the_file_for_test_management_is_there_where_a_series_has_something_for_it(
-    make_series: MakeSeries, make_content: MakeContent
-) -> None:
+def test_the_file_for_test_management_is_there_where_a_series_has_something_for_it() -> None:
     def files(result: series.SeriesResult) -> set[str]:
         return set(FORMAT.files(make_content(series=[result])))
 
@@ -153,9 +147,7 @@ def test_the_file_for_test_management_is_there_where_a_series_has_something_for_
     assert files(make_series(test_case="WSP-TC-7")) == files(naming(make_series())) == both
 
 
-def test_requirements_are_read_back(
-    named: series.SeriesResult, make_content: MakeContent, tmp_path: Path
-) -> None:
+def test_requirements_are_read_back(named: series.SeriesResult, tmp_path: Path) -> None:
     write_reports(tmp_path, make_content(series=[named]))
     (read,) = read_run(tmp_path).series
     assert (read.requirements, read.test_case) == (("BR-9",), "WSP-TC-7")

@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pyarrow as pa
@@ -10,7 +9,7 @@ import pytest
 from uictest.report import format_names, sweep_format_names
 from uictest.report.sweep.folder import SweepContent, write_sweep_formats
 
-MakeSweep = Callable[..., SweepContent]
+from ..builders import MakeSweep
 
 
 @pytest.fixture

@@ -1,18 +1,11 @@
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from uictest.judging.evaluation import CaseResult
-from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.wording import notable_cases
 
-MakeResult = Callable[..., CaseResult]
-MakeSweep = Callable[..., SweepContent]
+from ..builders import MakeSweep, make_result
 
 
-def test_each_case_stands_once_and_those_not_met_in_front(
-    make_sweep: MakeSweep, make_result: MakeResult
-) -> None:
+def test_each_case_stands_once_and_those_not_met_in_front(make_sweep: MakeSweep) -> None:
     missed = [{"id": name, "outcome": "error", "reason": "no air"} for name in ("a", "b")]
     worst = (make_result(id="narrow"), make_result(id="a", outcome="error", criteria=(), reason="no air"))
     cases = notable_cases(make_sweep(worst, missed=missed).result)

@@ -1,23 +1,19 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from uictest.core.recording import Recording
-from uictest.judging.evaluation import CaseResult
 from uictest.report import write_recording
-from uictest.report.sweep.folder import SweepContent, read_sweep
+from uictest.report.sweep.folder import read_sweep
 from uictest.report.sweep.result import sweep_document
 
-MakeResult = Callable[..., CaseResult]
-MakeSweep = Callable[..., SweepContent]
+from ..builders import MakeSweep, make_recording, make_result
 
 
 @pytest.fixture
-def folder(make_sweep: MakeSweep, make_result: MakeResult) -> Path:
+def folder(make_sweep: MakeSweep) -> Path:
     """The folder of a finished sweep with one case worth looking at."""
     content = make_sweep((make_result(),))
     document = sweep_document(content.result)
@@ -26,16 +22,14 @@ def folder(make_sweep: MakeSweep, make_result: MakeResult) -> Path:
     return content.folder
 
 
-def test_a_sweep_is_read_back(folder: Path, make_sweep: MakeSweep, make_result: MakeResult) -> None:
+def test_a_sweep_is_read_back(folder: Path, make_sweep: MakeSweep) -> None:
     content = read_sweep(folder)
     assert sweep_document(content.result) == sweep_document(make_sweep((make_result(),)).result)
     assert (content.folder, content.manifest) == (folder, make_sweep().manifest)
     assert content.traces == {}
 
 
-def test_its_recordings_are_read_where_they_are_to_be_drawn(
-    folder: Path, make_recording: Callable[..., Recording]
-) -> None:
+def test_its_recordings_are_read_where_they_are_to_be_drawn(folder: Path) -> None:
     write_recording(folder, "dry-120[command=90]", make_recording(400))
     assert list(read_sweep(folder, traces=True).traces) == ["dry-120[command=90]"]
 

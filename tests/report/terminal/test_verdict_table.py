@@ -1,19 +1,17 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
 
 import pytest
 from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from uictest.judging.evaluation import CaseResult, Verdict
+from uictest.judging.evaluation import CaseResult
 from uictest.report import RunContent
 from uictest.report.terminal.verdict_table import explanation_text, verdict_table
 
-MakeResult = Callable[..., CaseResult]
-MakeVerdict = Callable[..., Verdict]
+from ..builders import make_result, make_verdict
 
 
 def _table(*results: CaseResult, width: int = 120) -> Table:
@@ -31,20 +29,20 @@ def _rendered(renderable: RenderableType, width: int = 120, *, terminal: bool = 
     return buffer.getvalue()
 
 
-def test_a_row_holds_verdict_and_figures(make_result: MakeResult) -> None:
+def test_a_row_holds_verdict_and_figures() -> None:
     row = _rendered(_table(make_result())).splitlines()[-1].split()
     figures = ["465.2", "27.5", "1.20", "-", "8", "0.0", "0.0", "4"]
     assert row == ["dry-120[command=90]", "pass", "pass", *figures]
 
 
-def test_a_long_id_is_folded_and_not_cut(make_result: MakeResult) -> None:
+def test_a_long_id_is_folded_and_not_cut() -> None:
     case_id = "slip-" + "0123456789" * 10
     shown = _rendered(_table(make_result(id=case_id), width=90), width=90)
     first_column = "".join(line.split(" ", 1)[0] for line in shown.splitlines()[1:])
     assert first_column == case_id
 
 
-def test_markup_and_terminal_codes_in_a_name_are_shown_as_text(make_result: MakeResult) -> None:
+def test_markup_and_terminal_codes_in_a_name_are_shown_as_text() -> None:
     result = make_result(id="[red]x[/red]\x1b[2J", outcome="error", reason="[/]", criteria=())
     for renderable in (_table(result), _explanation(result)):
         shown = _rendered(renderable, terminal=True)
@@ -52,9 +50,7 @@ def test_markup_and_terminal_codes_in_a_name_are_shown_as_text(make_result: Make
         assert "\x1b[2J" not in shown
 
 
-def test_the_explanation_names_expectation_and_deciding_criterion(
-    make_result: MakeResult, make_verdict: MakeVerdict
-) -> None:
+def test_the_explanation_names_expectation_and_deciding_criterion() -> None:
     broken = make_verdict(id="locked", status="fail", margin=None, reason="locked for 3 s")
     shown = _rendered(_explanation(make_result(outcome="fail", criteria=(make_verdict(), broken))))
     assert shown.splitlines() == [
@@ -64,12 +60,12 @@ def test_the_explanation_names_expectation_and_deciding_criterion(
     ]
 
 
-def test_every_criterion_is_explained_when_asked(make_result: MakeResult) -> None:
+def test_every_criterion_is_explained_when_asked() -> None:
     assert "braking-distance (validity) pass" in _rendered(_explanation(make_result(), every_criterion=True))
 
 
 @pytest.mark.parametrize("width", [40, 60, 80, 100, 120, 200])
-def test_figures_give_way_to_the_names_of_cases(make_result: MakeResult, width: int) -> None:
+def test_figures_give_way_to_the_names_of_cases(width: int) -> None:
     ids = ["dry-120", "slide-80[compensation=hysteresis]", "wet-80-friction[friction=0.10]"]
     results = [make_result(id=case_id) for case_id in ids]
     table, not_shown = verdict_table(results, RunContent("run", results, {}).word, width)
@@ -88,9 +84,7 @@ def _name(line: str) -> str:
     return line.split("  ")[0].strip()
 
 
-def test_a_column_that_a_missed_criterion_rests_on_is_left_out_last(
-    make_result: MakeResult, make_verdict: MakeVerdict
-) -> None:
+def test_a_column_that_a_missed_criterion_rests_on_is_left_out_last() -> None:
     locked = make_verdict(measure="locked_time", status="fail", unit="s", value=9.0)
     missed, kept = make_result(outcome="fail", criteria=(locked,)), make_result()
     shown, not_shown = (verdict_table([missed], RunContent("run", [missed], {}).word, 50)[k] for k in (0, 1))
@@ -101,9 +95,7 @@ def test_a_column_that_a_missed_criterion_rests_on_is_left_out_last(
     assert "locked" in not_shown
 
 
-def test_a_missed_criterion_of_a_measure_that_is_no_column_has_a_column_of_its_own(
-    make_result: MakeResult, make_verdict: MakeVerdict
-) -> None:
+def test_a_missed_criterion_of_a_measure_that_is_no_column_has_a_column_of_its_own() -> None:
     locked = make_verdict(id="locked-wheels", measure="longest_lock", status="fail", unit="s", value=109.66)
     missed, kept = make_result(id="a", outcome="fail", criteria=(locked,)), make_result(id="b", criteria=())
     table, _ = verdict_table([missed, kept], RunContent("run", [missed, kept], {}).word, 50)

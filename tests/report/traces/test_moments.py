@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,8 +17,7 @@ from uictest.report.traces.quantities import PANELS, STRIPS
 from uictest.report.traces.trace import trace_of
 from uictest.rig import SimulatedStop, simulate
 
-MakeVerdict = Callable[..., Verdict]
-MakeRecording = Callable[..., Recording]
+from ..builders import make_recording, make_verdict
 
 DEFINED = {
     "sliding_slide": 0.05,
@@ -39,10 +37,10 @@ DEFINED = {
 }
 
 
-def _verdict(make: MakeVerdict, measure: str, value: float | None = None, **definitions: float) -> Verdict:
+def _verdict(measure: str, value: float | None = None, **definitions: float) -> Verdict:
     applied = tuple(AppliedDefinition(name, number, "", "chosen") for name, number in definitions.items())
     unit = MEASURES[measure].unit
-    return make(id="it", measure=measure, unit=unit, value=value, definitions=applied)
+    return make_verdict(id="it", measure=measure, unit=unit, value=value, definitions=applied)
 
 
 TIMES = [
@@ -69,12 +67,10 @@ def test_every_measure_says_when_it_is_decided_and_where_that_is_shown() -> None
 
 
 @pytest.mark.parametrize("measure", [name for name, measure in MEASURES.items() if measure.decided])
-def test_a_criterion_is_drawn_whatever_it_measures(
-    make_verdict: MakeVerdict, faulty_stop: SimulatedStop, measure: str
-) -> None:
+def test_a_criterion_is_drawn_whatever_it_measures(faulty_stop: SimulatedStop, measure: str) -> None:
     record = faulty_stop.recording
     assert record is not None
-    verdict = replace(_verdict(make_verdict, measure, 1.0, **DEFINED), status="fail")
+    verdict = replace(_verdict(measure, 1.0, **DEFINED), status="fail")
     trace = trace_of(record, [verdict])
     taken, marks = taken_at(verdict, trace), marks_of([verdict], trace)
     assert taken is not None
@@ -84,13 +80,13 @@ def test_a_criterion_is_drawn_whatever_it_measures(
 
 @pytest.mark.parametrize("measure", TIMES)
 def test_the_intervals_of_a_duration_last_as_long_as_the_rig_measured(
-    make_verdict: MakeVerdict, faulty_stop: SimulatedStop, measure: str
+    faulty_stop: SimulatedStop, measure: str
 ) -> None:
     record, own = faulty_stop.recording, MEASURES[measure]
     assert record is not None
     values = own.read(faulty_stop.measures, faulty_stop.wheelset_measures, DEFINED).values
     value = max(values)
-    moments = moments_of([_verdict(make_verdict, measure, value, **DEFINED)], record)["it"]
+    moments = moments_of([_verdict(measure, value, **DEFINED)], record)["it"]
     assert moments.wheelset is not None
     lengths = [duration(each) for each in moments.intervals[moments.wheelset]]
     longest = own.decided is not None and own.decided.how == "longest"
@@ -110,34 +106,32 @@ def test_the_intervals_of_a_duration_last_as_long_as_the_rig_measured(
     ],
 )
 def test_an_extreme_is_as_high_as_the_rig_measured(
-    make_verdict: MakeVerdict, faulty_stop: SimulatedStop, measure: str, unit: str
+    faulty_stop: SimulatedStop, measure: str, unit: str
 ) -> None:
     record = faulty_stop.recording
     assert record is not None
     values = MEASURES[measure].read(faulty_stop.measures, faulty_stop.wheelset_measures, DEFINED).values
-    moments = moments_of([_verdict(make_verdict, measure, 1.0, **DEFINED)], record)["it"]
+    moments = moments_of([_verdict(measure, 1.0, **DEFINED)], record)["it"]
     assert [height for _, height in moments.extremes.values()] == pytest.approx(
         [in_unit(value, unit) for value in values]
     )
 
 
-def test_a_lock_of_a_few_samples_is_found(make_verdict: MakeVerdict, make_recording: MakeRecording) -> None:
+def test_a_lock_of_a_few_samples_is_found() -> None:
     record = make_recording(34_001)
     record["wheel_speed_2"][20_000:20_003] = 0.0
-    lock = _verdict(make_verdict, "longest_lock", moving_speed=2.0, locked_speed=0.1)
+    lock = _verdict("longest_lock", moving_speed=2.0, locked_speed=0.1)
     [(wheelset, intervals)] = moments_of([lock], record)["it"].intervals.items()
     assert wheelset == 2
     # From the sample before the lock to its last, as the measure counts it.
     assert intervals == [(pytest.approx(19.999), pytest.approx(20.002))]
 
 
-def test_the_largest_slide_counts_above_the_cutoff_only(
-    make_verdict: MakeVerdict, make_recording: MakeRecording
-) -> None:
+def test_the_largest_slide_counts_above_the_cutoff_only() -> None:
     record = make_recording()
     record["wheel_speed_1"][(record["time"] > 30.0)] *= 0.1
     defined = {"low_speed_cutoff": 30 / 3.6, "moving_speed": 10 / 3.6}
-    slide = _verdict(make_verdict, "maximum_slide_above_cutoff", **defined)
+    slide = _verdict("maximum_slide_above_cutoff", **defined)
     moments = moments_of([slide], record)["it"]
     time, value = moments.extremes[1]
     assert 5.0 < time < 15.0
@@ -145,27 +139,23 @@ def test_the_largest_slide_counts_above_the_cutoff_only(
     assert moments.span == (0.0, pytest.approx(25.0, abs=0.011))
 
 
-def test_the_lowest_pressure_is_that_of_the_train_in_bar(
-    make_verdict: MakeVerdict, make_recording: MakeRecording
-) -> None:
-    lowest = _verdict(make_verdict, "reservoir_minimum_pressure")
+def test_the_lowest_pressure_is_that_of_the_train_in_bar() -> None:
+    lowest = _verdict("reservoir_minimum_pressure")
     moments = moments_of([lowest], make_recording())["it"]
     assert moments.extremes == {TRAIN: (34.0, pytest.approx(7.66))}
 
 
-def test_a_pressure_that_only_rises_is_lowest_at_the_beginning(
-    make_verdict: MakeVerdict, make_recording: MakeRecording
-) -> None:
+def test_a_pressure_that_only_rises_is_lowest_at_the_beginning() -> None:
     record = make_recording()
     record["reservoir_pressure"][:] = 7e5 + 1e3 * record["time"]
-    moments = moments_of([_verdict(make_verdict, "reservoir_minimum_pressure")], record)["it"]
+    moments = moments_of([_verdict("reservoir_minimum_pressure")], record)["it"]
     assert moments.extremes == {TRAIN: (0.0, pytest.approx(7.0))}
 
 
-def test_what_is_not_defined_or_not_recorded_has_no_moments(make_verdict: MakeVerdict) -> None:
+def test_what_is_not_defined_or_not_recorded_has_no_moments() -> None:
     time = np.linspace(0.0, 1.0, 11)
-    lock = _verdict(make_verdict, "longest_lock")
-    phase = _verdict(make_verdict, "initial_adhesion")
+    lock = _verdict("longest_lock")
+    phase = _verdict("initial_adhesion")
     units = {"time": "s", "speed": "m/s"}
     assert moments_of([lock], Recording({"time": time, "speed": 1.0 - time}, units)) == {"it": Moments()}
     assert moments_of([phase], Recording({"time": time, "speed": 1.0 - time}, units)) == {}

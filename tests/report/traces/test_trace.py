@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
@@ -10,10 +8,10 @@ from uictest.report.page.stop.mark import magnet_bars, vents
 from uictest.report.traces.quantities import MAGNETS
 from uictest.report.traces.trace import BINS, deceleration, slide, trace_of
 
-MakeRecording = Callable[..., Recording]
+from ..builders import make_recording
 
 
-def test_series_are_in_the_units_an_engineer_reads(make_recording: MakeRecording) -> None:
+def test_series_are_in_the_units_an_engineer_reads() -> None:
     trace = trace_of(make_recording(sliding_time="5.01"))
     assert trace.curves["speed"].y[0] == pytest.approx(120.0)
     assert np.nanmax(trace.curves["slide_1"].y) == pytest.approx(40.0)
@@ -92,7 +90,7 @@ def test_a_recording_of_few_channels_is_drawn_as_far_as_it_goes() -> None:
     assert list(trace.curves) == ["slide_3"]
 
 
-def test_a_slide_that_was_not_recorded_is_derived_and_said_to_be(make_recording: MakeRecording) -> None:
+def test_a_slide_that_was_not_recorded_is_derived_and_said_to_be() -> None:
     whole = make_recording()
     channels = {name: samples for name, samples in whole.channels.items() if not name.startswith("slide")}
     trace = trace_of(Recording(channels, {name: whole.units[name] for name in channels}))
@@ -133,9 +131,7 @@ def test_what_was_not_measured_leaves_no_deceleration() -> None:
 
 
 @pytest.mark.parametrize(("share", "drawn"), [(0.0, False), (0.3, True)])
-def test_the_rail_is_drawn_only_where_sliding_has_cleaned_it(
-    make_recording: MakeRecording, share: float, drawn: bool
-) -> None:
+def test_the_rail_is_drawn_only_where_sliding_has_cleaned_it(share: float, drawn: bool) -> None:
     """Elsewhere the friction that a wheelset meets is what was set, and the share is nothing."""
     plain = make_recording()
     of_rail = {f"friction_{n}": np.full_like(plain["time"], 0.08 + 0.2 * share) for n in (1, 2, 3, 4)}

@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
@@ -18,7 +16,7 @@ from uictest.report.page.stop.margins import margin_share, margins_of
 from uictest.report.page.stop.marks import taken_at
 from uictest.report.traces.trace import PlotTrace, trace_of
 
-MakeVerdict = Callable[..., Verdict]
+from ...builders import make_recording, make_verdict
 
 
 @pytest.fixture
@@ -26,16 +24,13 @@ def trace() -> PlotTrace:
     return PlotTrace(0.0, 30.0, 0.01, {})
 
 
-def _verdicts(make: MakeVerdict, *changes: dict[str, object]) -> list[Verdict]:
-    return [make(id=str(place), **each) for place, each in enumerate(changes)]
+def _verdicts(*changes: dict[str, object]) -> list[Verdict]:
+    return [make_verdict(id=str(place), **each) for place, each in enumerate(changes)]
 
 
-def test_failing_criteria_come_first_then_the_narrowest_margins_then_yes_or_no(
-    make_verdict: MakeVerdict, trace: PlotTrace
-) -> None:
+def test_failing_criteria_come_first_then_the_narrowest_margins_then_yes_or_no(trace: PlotTrace) -> None:
     upper = {"lower": None, "upper": 10.0}
     verdicts = _verdicts(
-        make_verdict,
         {**upper, "margin": 5.0},
         {"lower": 1.0, "upper": None, "value": 1.0, "margin": 0.0},
         {**upper, "margin": 0.5},
@@ -61,7 +56,7 @@ def test_failing_criteria_come_first_then_the_narrowest_margins_then_yes_or_no(
     ],
 )
 def test_a_bar_begins_at_the_limit_and_ends_with_the_scale(
-    make_verdict: MakeVerdict, trace: PlotTrace, share: float, bar: tuple[float, float], beyond: bool
+    trace: PlotTrace, share: float, bar: tuple[float, float], beyond: bool
 ) -> None:
     status = "pass" if share > 0 else "fail"
     verdict = make_verdict(lower=None, upper=2.0, margin=share / 50.0, status=status)
@@ -79,7 +74,7 @@ def test_a_bar_begins_at_the_limit_and_ends_with_the_scale(
     ],
 )
 def test_a_verdict_that_turns_has_nothing_to_spare_as_where_cases_are_ranked(
-    make_verdict: MakeVerdict, trace: PlotTrace, margin: float, status: str, spare: str, words: str
+    trace: PlotTrace, margin: float, status: str, spare: str, words: str
 ) -> None:
     intervals = (VerdictInterval(0.0, 0.5, "pass"), VerdictInterval(0.6, 1.0, "fail"))
     turning = Sensitivity("d", "s", 0.0, 1.0, intervals)
@@ -98,7 +93,7 @@ def test_a_verdict_that_turns_has_nothing_to_spare_as_where_cases_are_ranked(
     assert shown.to_spare == pytest.approx(100.0 * (narrowest or 0.0))
 
 
-def test_a_limit_of_zero_has_no_share(make_verdict: MakeVerdict) -> None:
+def test_a_limit_of_zero_has_no_share() -> None:
     verdict = make_verdict(lower=None, upper=0.0, value=0.2, margin=-0.2, status="fail")
     assert margin_share(verdict) is None
 
@@ -117,11 +112,7 @@ def _with(recording: Recording, **channels: np.ndarray) -> Recording:
     [("locked_time", 3.0, (10.0, 22.0)), ("longest_lock", 2.0, (20.0, 22.0))],
 )
 def test_a_lock_is_that_of_the_wheelset_that_decides(
-    make_verdict: MakeVerdict,
-    make_recording: Callable[..., Recording],
-    measure: str,
-    value: float,
-    interval: tuple[float, float],
+    measure: str, value: float, interval: tuple[float, float]
 ) -> None:
     """Wheelset 2 is locked for 1 s and for 2 s, wheelset 4 for 0.5 s."""
     recording = make_recording()
@@ -145,9 +136,7 @@ def test_a_lock_is_that_of_the_wheelset_that_decides(
     assert (taken.plot, taken.wheelset) == ("locked", 2)
 
 
-def test_a_measure_of_the_train_is_taken_at_an_instant_of_its_own(
-    make_verdict: MakeVerdict, make_recording: Callable[..., Recording]
-) -> None:
+def test_a_measure_of_the_train_is_taken_at_an_instant_of_its_own() -> None:
     recording = make_recording()
     time = recording["time"]
     lowest = _with(recording, reservoir_pressure=8e5 - 1e5 * np.exp(-((time - 12.0) ** 2)))
@@ -166,9 +155,7 @@ def _in_fault(recording: Recording, **channels: np.ndarray) -> Recording:
     )
 
 
-def test_the_reference_is_furthest_off_after_the_first_fault(
-    make_verdict: MakeVerdict, make_recording: Callable[..., Recording]
-) -> None:
+def test_the_reference_is_furthest_off_after_the_first_fault() -> None:
     """It is 3 m/s too high at 2 s, before the fault, and 2 m/s at 12 s."""
     recording = make_recording()
     time, speed = recording["time"], recording["speed"]
@@ -182,9 +169,7 @@ def test_the_reference_is_furthest_off_after_the_first_fault(
     assert taken.value == pytest.approx((120 / 3.6 - 12.0 + 2.0) * 3.6, abs=0.1)
 
 
-def test_a_lock_of_a_sound_wheelset_is_none_of_a_faulty_one(
-    make_verdict: MakeVerdict, make_recording: Callable[..., Recording]
-) -> None:
+def test_a_lock_of_a_sound_wheelset_is_none_of_a_faulty_one() -> None:
     """Wheelset 2 is faulty and locked for 2 s, wheelset 4 for 0.5 s."""
     recording = make_recording()
     time, speed = recording["time"], recording["wheel_speed_1"]
@@ -201,7 +186,7 @@ def test_a_lock_of_a_sound_wheelset_is_none_of_a_faulty_one(
     assert (taken.plot, taken.wheelset) == ("locked", 4)
 
 
-def test_what_has_no_place_in_the_plots_has_none(make_verdict: MakeVerdict, trace: PlotTrace) -> None:
+def test_what_has_no_place_in_the_plots_has_none(trace: PlotTrace) -> None:
     assert taken_at(make_verdict(measure="contact_energy"), trace) is None
     assert taken_at(make_verdict(measure="braking_distance", value=None), trace) is None
     assert taken_at(make_verdict(measure="locked_time", value=0.0), trace) is None

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from uictest.core.recording import Recording
-from uictest.judging.evaluation import AppliedDefinition, Verdict
+from uictest.judging.evaluation import AppliedDefinition
 from uictest.report.page.stop.mark import Mark
 from uictest.report.page.stop.marks import marks_of
 from uictest.report.traces.trace import PlotTrace, trace_of
 
-MakeVerdict = Callable[..., Verdict]
-MakeRecording = Callable[..., Recording]
+from ...builders import make_recording, make_verdict
+
 Marks = Callable[..., list[Mark]]
 
 MOVING = {"moving_speed": 10 / 3.6}
@@ -21,7 +21,7 @@ FILTERING = {**MOVING, "deceleration_filter": 0.5, "developed_time": 2.0}
 
 
 @pytest.fixture
-def record(make_recording: MakeRecording) -> Recording:
+def record() -> Recording:
     """A stop at 1 m/s2 whose wheelsets slide from 5 to 15 s; the third is locked from 20 to 22 s."""
     recording = make_recording(sliding_time="5.0")
     time = recording["time"]
@@ -36,7 +36,7 @@ def trace(record: Recording) -> PlotTrace:
 
 
 @pytest.fixture
-def marks(make_verdict: MakeVerdict, record: Recording) -> Marks:
+def marks(record: Recording) -> Marks:
     """The marks of that stop, judged by one criterion."""
 
     def make(measure: str, defined: Mapping[str, float] | None = None, **changes: object) -> list[Mark]:
@@ -100,9 +100,7 @@ def test_vents_too_many_are_marked_from_the_first_to_the_last(marks: Marks) -> N
     assert found[0].x1 == pytest.approx(15.0, abs=0.02)
 
 
-def test_the_smallest_deceleration_is_marked_when_it_was_so_small(
-    make_verdict: MakeVerdict,
-) -> None:
+def test_the_smallest_deceleration_is_marked_when_it_was_so_small() -> None:
     time = np.linspace(0.0, 30.0, 3001)
     speed = 33.0 - time + np.where(time > 10.0, np.minimum(0.5 * (time - 10.0), 0.5), 0.0)
     definitions = tuple(AppliedDefinition(name, value, "", "chosen") for name, value in FILTERING.items())
@@ -120,9 +118,7 @@ def test_the_smallest_deceleration_is_marked_when_it_was_so_small(
     assert mark.x0 == pytest.approx(11.0, abs=0.05)
 
 
-def test_failing_criteria_come_first_then_inconclusive_ones(
-    make_verdict: MakeVerdict, trace: PlotTrace
-) -> None:
+def test_failing_criteria_come_first_then_inconclusive_ones(trace: PlotTrace) -> None:
     verdicts = [
         make_verdict(id=status, status=status, measure="braking_distance")
         for status in ("pass", "not_applicable", "inconclusive", "fail")

@@ -1,19 +1,14 @@
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 from markdown_it import MarkdownIt
 
-from uictest.judging.evaluation import CaseResult
-from uictest.report.github import LIMIT
-from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.formats.md import append_sweep_step_summary, sweep_markdown
 
-MakeResult = Callable[..., CaseResult]
-MakeSweep = Callable[..., SweepContent]
+from ...builders import MakeSweep, make_result
 
 _READER = MarkdownIt("commonmark", {"html": True}).enable("table")
 
@@ -22,7 +17,7 @@ def _count(label: str, cases: int = 1) -> dict[str, Any]:
     return {"value": label, "cases": cases, "met": cases, "outcomes": {}}
 
 
-def test_the_summary_shows_every_finding(make_sweep: MakeSweep, make_result: MakeResult) -> None:
+def test_the_summary_shows_every_finding(make_sweep: MakeSweep) -> None:
     worst = (make_result(id="b[x]", outcome="fail", criteria=(), reason="locked"), make_result())
     text = sweep_markdown(make_sweep(worst))
     assert text.startswith("## uictest sweep: 4 cases: 3 pass, 1 fail; 1 not as expected\n")
@@ -68,30 +63,6 @@ def test_a_large_map_is_shown_small(make_sweep: MakeSweep) -> None:
 def test_a_parameter_with_many_values_is_referred_to(make_sweep: MakeSweep) -> None:
     text = sweep_markdown(make_sweep(rates={"rail.friction": [_count(str(k)) for k in range(31)]}))
     assert "| `rail.friction` | 31 values, see rates.csv |" in text
-
-
-@pytest.mark.parametrize("limit", [2_000, 20_000, LIMIT])
-def test_whatever_the_sweep_the_limit_is_kept(
-    make_sweep: MakeSweep, make_result: MakeResult, limit: int
-) -> None:
-    long = "💥`|&<" * 1000
-    rates = {f"{long}{key}": [_count(f"{long}{k}", 10) for k in range(30)] for key in range(40)}
-    text = sweep_markdown(make_sweep((make_result(id=long, reason=long),) * 12, long, rates=rates), limit)
-    assert len(text.encode()) <= limit
-    assert "more" in text.splitlines()[-1]
-
-
-def test_hostile_texts_are_shown_as_text(
-    make_sweep: MakeSweep, make_result: MakeResult, hostile: str
-) -> None:
-    bad = f"{hostile}`|\\`` <img src=x> [a](javascript:b) ![c](d) ~~e~~ @team #1 https://example.org"
-    worst = make_result(id=bad, outcome="fail", criteria=(), reason=bad)
-    text = sweep_markdown(make_sweep((worst,), bad))
-    tokens = _READER.parse(text)
-    kinds = {child.type for token in tokens for child in (token.children or [])}
-    assert kinds <= {"text", "code_inline", "strong_open", "strong_close", "softbreak"}
-    assert {token.type for token in tokens} & {"html_block", "fence", "code_block", "hr"} == set()
-    assert not set("\x00\x1b\u202e") & set(text)
 
 
 def test_the_summary_is_appended_where_github_wants_it(

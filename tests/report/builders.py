@@ -1,0 +1,105 @@
+"""Results, runs and recordings to report on, with whatever is to be different."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.recording import Recording
+from uictest.judging.evaluation import CaseResult, Verdict
+from uictest.report import RunContent, RunManifest
+from uictest.report.sweep.folder import SweepContent
+
+MakeSweep = Callable[..., SweepContent]
+
+HOSTILE: Final = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
+"""A text with terminal codes, formula, markup, XML, null, direction override and workflow command."""
+
+
+def make_result(**changes: object) -> CaseResult:
+    """A stop at 120 km/h on a dry rail that passed."""
+    content: dict[str, object] = {
+        "id": "dry-120[command=90]",
+        "scenario": "scenarios/dry/120.yaml",
+        "parameters": {"brake.command": "90 %"},
+        "expect": "pass",
+        "outcome": "pass",
+        "criteria": (make_verdict(),),
+        "measures": _FIGURES,
+        "wheelsets": tuple(map(_wheelset, range(1, 5))),
+        "duration": 0.25,
+    }
+    return CaseResult(**(content | changes))  # type: ignore[arg-type]
+
+
+def make_verdict(**changes: object) -> Verdict:
+    """A braking distance inside its limits."""
+    content: dict[str, object] = {
+        "id": "braking-distance",
+        "layer": "validity",
+        "value": 465.25,
+        "unit": "m",
+        "lower": 440.0,
+        "upper": 490.0,
+        "margin": 24.75,
+        "status": "pass",
+        "reason": "",
+        "definition": {"low_speed_cutoff": "30 km/h"},
+    }
+    return Verdict(**(content | changes))  # type: ignore[arg-type]
+
+
+def make_content(*results: CaseResult, **changes: object) -> RunContent:
+    """A finished run of the given results."""
+    manifest = RunManifest(command=("uictest", "run"), versions={"uictest": "0.1.0"})
+    return RunContent(**({"name": "a-run", "results": results, "manifest": manifest} | changes))  # type: ignore[arg-type]
+
+
+def make_recording(samples: int = 3401, **metadata: str) -> Recording:
+    """A stop from 120 km/h at 1 m/s2 in which every wheelset slides by 40 % for a while and is vented."""
+    time = np.linspace(0.0, 34.0, samples)
+    speed = np.clip(120 / 3.6 - time, 0.0, None)
+    slide = np.where((time > 5.0) & (time < 15.0), 0.4, 0.0)
+    channels = {"time": time, "distance": np.cumsum(speed) * 34.0 / samples, "speed": speed}
+    units = {"time": "s", "distance": "m", "speed": "m/s"}
+    channels |= {"brake_line_pressure": np.full(samples, 3.8e5), "reservoir_pressure": 8e5 - 1e3 * time}
+    units |= {"brake_line_pressure": "Pa", "reservoir_pressure": "Pa"}
+    for n in (1, 2, 3, 4):
+        own = {
+            "wheel_speed": (speed * (1.0 - slide), "m/s"),
+            "slide": (slide, "1"),
+            "adhesion": (np.full(samples, 0.1), "1"),
+            "tank_pressure": (3.8e5 * (1.0 - slide), "Pa"),
+            "clamping_force": (14e3 * (1.0 - slide), "N"),
+            "valve_command": (np.where(slide > 0.0, 2.0, 0.0), "1"),
+        }
+        channels |= {f"{name}_{n}": samples_of for name, (samples_of, _) in own.items()}
+        units |= {f"{name}_{n}": unit for name, (_, unit) in own.items()}
+    return Recording(channels, units, {"case": "dry-120", **metadata})
+
+
+def _wheelset(n: int) -> dict[str, float]:
+    own = {
+        "maximum_slide": 0.02 * n,
+        "valve_actuations": n,
+        "maximum_clamping_force_n": 25e3,
+        "air_vented_nl": 1.5,
+    }
+    return dict.fromkeys(WHEELSET_COLUMNS, 0.0) | own
+
+
+_FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan")) | {
+    "braking_distance_m": 465.25,
+    "braking_time_s": 27.5,
+    "mean_deceleration_mps2": 1.195,
+    "minimum_deceleration_mps2": 0.9,
+    "maximum_deceleration_mps2": 1.31,
+    "reservoir_minimum_bar": 7.2,
+    "air_consumed_nl": 180.0,
+    "energy_residual": 1e-8,
+    "air_residual": 1e-12,
+    "air_energy_residual": 1e-12,
+}
