@@ -1,3 +1,4 @@
+from .block import block as block
 from .calls import align_stack as align_stack, call as call, record_at as record_at
 from .functions import (
     floor as floor,
@@ -8,7 +9,6 @@ from .functions import (
     sqrt as sqrt,
 )
 from .host import fuses as fuses, register_width as register_width
-from .layouts import block as block
 from .linked import bitcode as bitcode, compile_inner as compile_inner
 from .records import (
     copy_from_lane as copy_from_lane,
