@@ -81,9 +81,7 @@ def results_of(content: Mapping[str, Any]) -> list[CaseResult]:
         results = cases_of(content["cases"], parts_of(content))
         _require_distinct(results)
     except KeyError as error:
-        raise ValueError(f"not the results of a run: no {error}") from error
-    except ValueError as error:
-        raise ValueError(f"not the results of a run: {error}") from error
+        raise ValueError(f"no {error}") from error
     return results
 
 
