@@ -288,7 +288,7 @@ def test_cases_of_another_series_are_not_judged(
 @pytest.mark.parametrize(
     ("spoil", "message"),
     [
-        (lambda document: document.update(schema="uictest/series-result/2"), "expected schema"),
+        (lambda document: document.update(schema="uictest/series-result/2"), "expected no schema"),
         (lambda document: document.update(more=1), "expected the fields"),
         (
             lambda document: document["series"][0]["measures"].update(
