@@ -205,7 +205,7 @@ BARE = {
 @pytest.mark.parametrize(
     ("document", "message"),
     [
-        ({}, "expected schema 'uictest/result/2', kind 'run', found neither"),
+        ({}, "expected schema 'uictest/result/2', kind 'run', found no schema"),
         ({"schema": "uictest/result/2"}, "found schema 'uictest/result/2'"),
         ({"schema": "uictest/result/1"}, "'cases'"),
         ({"schema": "uictest/result/1", "cases": [{"id": "a"}]}, "cases.0: .*'criteria' is missing"),

@@ -134,7 +134,7 @@ def _let_it_lead_nowhere(file: Path) -> None:
         ("manifest.json", _let_it_lead_nowhere, "manifest.json is no file"),
         ("manifest.json", "[" * 100_000, "manifest.json is damaged"),
         ("manifest.json", "[]", "manifest.json is damaged: expected an object"),
-        ("manifest.json", OTHERS_MANIFEST, "not of uictest: manifest.json has schema None"),
+        ("manifest.json", OTHERS_MANIFEST, "not of uictest: manifest.json has no schema"),
         ("manifest.json", DAMAGED_MANIFEST, "manifest.json is damaged"),
         (ENTRY, "{}", "index-entry.json is damaged"),
         ("manifest.json", lambda file: os.truncate(file, 1 << 40), "manifest.json of 1048576 MB is not read"),

@@ -40,7 +40,7 @@ def test_a_run_comes_back_from_its_folder(tmp_path: Path) -> None:
     [
         ("", "Expecting value"),
         ("[]", "expected a JSON object, found list"),
-        ("{}", "found neither"),
+        ("{}", "found no schema"),
         ('{"schema": "uictest/result/1"}', "no 'cases'"),
         ('{"schema": "other"}', "found schema 'other'"),
         ("[" * 200_000, "maximum recursion depth"),

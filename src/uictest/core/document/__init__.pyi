@@ -3,6 +3,7 @@ from .envelope import (
     RESULT as RESULT,
     Kind as Kind,
     head as head,
+    head_of as head_of,
     is_of as is_of,
     require as require,
 )

@@ -7,6 +7,8 @@ from typing import Any, Final, Literal
 
 RESULT: Final = "uictest/result/2"
 MANIFEST: Final = "uictest/manifest/2"
+_SHOWN: Final = 80
+"""Characters that a reader is shown of an entry."""
 Kind = Literal["run", "sweep", "validation", "comparison", "variants", "k-dry"]
 _EARLIER: Final[Mapping[str, tuple[str, Kind]]] = {
     "uictest/result/1": (RESULT, "run"),
@@ -34,5 +36,10 @@ def is_of(document: object, schema: str, kind: Kind) -> bool:
 def require(document: Mapping[str, Any], schema: str, kind: Kind) -> None:
     """Raise ValueError for a document of another schema or kind."""
     if not is_of(document, schema, kind):
-        found = ", ".join(f"{name} {document.get(name)!r}" for name in ("schema", "kind") if name in document)
-        raise ValueError(f"expected schema {schema!r}, kind {kind!r}, found {found or 'neither'}")
+        raise ValueError(f"expected schema {schema!r}, kind {kind!r}, found {head_of(document)}")
+
+
+def head_of(document: Mapping[str, Any]) -> str:
+    """Return the schema and kind of a document in words, shortened; `no schema` where it has none."""
+    heads = (f"{name} {document[name]!r}"[:_SHOWN] for name in ("schema", "kind") if name in document)
+    return ", ".join(heads) or "no schema"

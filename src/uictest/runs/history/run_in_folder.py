@@ -115,7 +115,7 @@ def _read(folder: Path, *, with_cases: bool) -> ListedRun:
         return _run(folder, manifest, with_cases=with_cases)
     if document.is_of(manifest, document.MANIFEST, "sweep"):
         return _sweep(folder, manifest)
-    raise UnreadableError(f"not of uictest: {MANIFEST} has schema {shown(manifest.get('schema'))}")
+    raise UnreadableError(f"not of uictest: {MANIFEST} has {document.head_of(manifest)}")
 
 
 def _run(folder: Path, content: Mapping[str, Any], *, with_cases: bool) -> ListedRun:
@@ -232,7 +232,7 @@ def _other(folder: Path) -> ListedRun:
             continue
         content = json_object(folder / name)
         if not is_own(content):
-            raise UnreadableError(f"not of uictest: {name} has schema {shown(content.get('schema'))}")
+            raise UnreadableError(f"not of uictest: {name} has {document.head_of(content)}")
         page = _page(folder) or f"{folder.name}/{name}"
         return ListedRun(folder.name, kind, _started(folder, name), page=page)
     raise UnreadableError(f"not of uictest: there is no {MANIFEST}")
