@@ -76,9 +76,15 @@ def test_what_cannot_be_compared_is_refused_at_its_place(write: Write, stops: st
     assert "v.yaml:" in str(errors.value)
 
 
-@pytest.mark.parametrize("schema", ["", "schema: uictest/scenario/1\n"])
-def test_another_kind_of_file_is_refused(write: Write, schema: str) -> None:
-    with pytest.raises(ScenarioErrors, match="a validation starts with `schema: uictest/validation/1`"):
+@pytest.mark.parametrize(
+    ("schema", "hint"),
+    [
+        ("", "write `schema: uictest/validation/1`"),
+        ("schema: uictest/scenario/1\n", "a scenario is run with `uictest run`"),
+    ],
+)
+def test_another_kind_of_file_is_refused(write: Write, schema: str, hint: str) -> None:
+    with pytest.raises(ScenarioErrors, match=hint):
         load_validation(write("v.yaml", f"{schema}name: v\nstops: []\n"))
 
 

@@ -23,12 +23,13 @@ from ..conftest import HANGING, Call, MadeOnce, Start, Write
 pytestmark = pytest.mark.usefixtures("two_worst_cases")
 
 TEXT = """\
-schema: uictest/sweep/1
+schema: uictest/scenario/1
 name: study
-scenario: scenarios/stop.yaml
-grid:
-  rail.friction: [0.08, 0.09, 0.12]
-sample: {size: 32, parameters: {brake.command: {uniform: [60 %, 100 %]}}}
+extends: scenarios/stop.yaml
+vary:
+  matrix:
+    rail.friction: [0.08, 0.09, 0.12]
+  sample: {size: 32, parameters: {brake.command: {uniform: [60 %, 100 %]}}}
 """
 FILE = "study.sweep.yaml"
 
@@ -342,7 +343,7 @@ def test_no_chunks_are_reported_where_there_are_none(call: Call, study: Path) ->
 
 def test_the_frontier_is_written_and_shown(call: Call, study: Path) -> None:
     Path(FILE).write_text(
-        TEXT.split("grid")[0] + "grid: {rail.friction: [0.02, 0.2], brake.command: [100 %]}\n"
+        TEXT.split("  matrix")[0] + "  matrix: {rail.friction: [0.02, 0.2], brake.command: [100 %]}\n"
     )
     scenario = Path("scenarios/stop.yaml")
     scenario.write_text(scenario.read_text().replace("15 km/h", "40 km/h") + "rig: {wsp: bypassed}\n")
@@ -431,4 +432,4 @@ def test_check_finds_what_is_wrong_with_a_sweep(call: Call, study: Path) -> None
     good.write_text(TEXT.replace("scenarios/", "").replace("0.08", "6"))
     answer = call("check")
     assert answer.code == 4
-    assert f"scenarios/{FILE}:5:19: rail.friction: 6 is out of range" in answer.err
+    assert f"scenarios/{FILE}:6:21: rail.friction: 6 is out of range" in answer.err

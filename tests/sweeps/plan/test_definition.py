@@ -162,11 +162,20 @@ def test_choices_of_one_label_are_two_where_they_are_written_differently(load: L
     assert load(f"sample: {{size: 4, parameters: {parameters}}}\n", "rail.friction=null").size == 4
 
 
-@pytest.mark.parametrize("text", ["", "[1, 2]\n", "schema: uictest/sweep/2\nname: a\n", "name: a\n"])
-def test_what_is_no_sweep_gets_a_hint_how_a_sweep_starts(load: Load, text: str) -> None:
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("", "start with `schema: uictest/scenario/1`"),
+        ("[1, 2]\n", "start with `schema: uictest/scenario/1`"),
+        ("schema: uictest/sweep/2\nname: a\n", "expected uictest/scenario/1, found 'uictest/sweep/2'"),
+        ("schema: uictest/series/1\nname: a\n", "a series is in a file that ends in .series.yaml"),
+        ("name: a\n", "write `schema: uictest/scenario/1`"),
+    ],
+)
+def test_what_is_no_sweep_gets_a_hint_how_a_sweep_starts(load: Load, text: str, hint: str) -> None:
     load()
     Path("other.sweep.yaml").write_text(text)
-    with pytest.raises(ScenarioErrors, match="a sweep starts with `schema: uictest/sweep/1`"):
+    with pytest.raises(ScenarioErrors, match=hint):
         load_sweep(Path("other.sweep.yaml"))
 
 
@@ -275,7 +284,7 @@ def test_a_rail_condition_is_not_swept_beside_the_friction_of_the_scenario(load:
 
 def test_a_scenario_is_no_sweep_and_a_sweep_no_scenario(load: Load) -> None:
     load()
-    with pytest.raises(ScenarioErrors, match="a scenario is run with `uictest run`"):
+    with pytest.raises(ScenarioErrors, match="a scenario without `vary` is run with `uictest run`"):
         load_sweep(Path("stop.yaml"))
     Path("study.sweep.yaml").write_text(HEAD.replace("stop.yaml", "study.sweep.yaml") + GRID)
     with pytest.raises(ScenarioErrors, match="is a sweep, not a scenario"):

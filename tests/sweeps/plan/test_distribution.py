@@ -8,7 +8,7 @@ import pytest
 from scipy import stats
 from scipy.special import erfcx
 
-from uictest.plans.sweeps.model import FARTHEST_END, Distribution
+from uictest.plans.scenario.parts.vary import FARTHEST_END, Distribution
 from uictest.plans.sweeps.sampling import Probabilities, quantile
 
 SHARES = np.linspace(0.0, 0.999, 50)

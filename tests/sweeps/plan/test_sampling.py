@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.stats import qmc
 
-from uictest.plans.sweeps.model import Method
+from uictest.plans.scenario.parts.vary import Method
 from uictest.plans.sweeps.sampling import points
 
 METHODS: list[Method] = ["random", "sobol", "latin-hypercube", "saltelli"]

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from uictest.plans.scenario import ScenarioErrors
+from uictest.plans.scenario.parts.tail_requests import QuantileRequest
 from uictest.plans.sweeps import Plan, load_sweep
-from uictest.plans.sweeps.tail_model import QuantileRequest
 
 from ..conftest import HEAD
 

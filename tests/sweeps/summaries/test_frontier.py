@@ -9,8 +9,8 @@ import pytest
 
 from uictest.analysis.summaries import FrontierError, FrontierSearch
 from uictest.analysis.summaries.frontier import Verdicts
+from uictest.plans.scenario.yaml.decimal_quantity import parse_decimal_quantity
 from uictest.plans.sweeps import Plan
-from uictest.plans.sweeps.decimal_quantity import parse_decimal_quantity
 from uictest.report import FrontierScan, WrittenValue
 
 from ..conftest import Load
@@ -84,7 +84,11 @@ def test_cases_that_were_not_run_are_no_flip(load: Load) -> None:
 @pytest.mark.parametrize(
     ("key", "tolerance", "message"),
     [
-        ("initial_speed", None, "needs two values or more under grid or ranges; there are: brake.command,"),
+        (
+            "initial_speed",
+            None,
+            "needs two values or more under `matrix` or `ranges`; there are: brake.command,",
+        ),
         ("seed", None, "seed is not a quantity"),
         ("brake.command", "0.1", "the tolerance must be above zero and in %"),
     ],

@@ -14,19 +14,19 @@ from numpy.typing import NDArray
 
 from uictest.core.units import KINDS
 from uictest.plans.scenario import Setting, value_label
-from uictest.plans.scenario.yaml import Document, Entry, Place, Quantity, Scalar
-from uictest.plans.sweeps import (
+from uictest.plans.scenario.yaml import (
     DecimalQuantity,
-    ListedGroup,
-    ParameterValue,
-    Plan,
+    Document,
+    Entry,
+    Place,
+    Quantity,
+    Scalar,
     common_unit,
-    content_of,
-    is_free,
     parse_decimal_quantity,
     quantity_text,
     rounded_decimal,
 )
+from uictest.plans.sweeps import ListedGroup, ParameterValue, Plan, content_of, is_free
 from uictest.report import Flip, FrontierScan, WrittenValue
 from uictest.running.campaign import map_on_threads
 from uictest.running.chunked import ChunkRunner, chunk_runner
@@ -159,7 +159,7 @@ def _scanned(plan: Plan, key: str) -> tuple[int, ListedGroup]:
                 return place, group
             raise FrontierError(f"{key} is not a quantity")
     listed = ", ".join(each for each, values in plan.listed().items() if len(values) > 1) or "none"
-    raise FrontierError(f"{key} needs two values or more under grid or ranges; there are: {listed}")
+    raise FrontierError(f"{key} needs two values or more under `matrix` or `ranges`; there are: {listed}")
 
 
 def _is_continuous(plan: Plan, key: str, content: Any) -> bool:

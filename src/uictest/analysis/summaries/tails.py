@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from uictest.core.measures import column_unit
 from uictest.core.statistics import BoundRanks, Side, bound_ranks, draws_needed, quantile_rank
-from uictest.plans.scenario import WHEELSET_NUMBERS
-from uictest.plans.sweeps import KDryRequest, Plan, QuantileRequest, random_sample
+from uictest.plans.scenario import WHEELSET_NUMBERS, KDryRequest, QuantileRequest
+from uictest.plans.sweeps import Plan, random_sample
 from uictest.report import DrawCount, KDry, KDryLevel, MeasureQuantiles, Quantile, WrittenValue
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Verbosity
 from uictest.cli.output import data
 from uictest.core import files
-from uictest.plans import scenario, series, sweeps, validation
+from uictest.plans import scenario, series, validation
 from uictest.recorded import field_data
 from uictest.rig import bench as rig_bench
 
@@ -23,7 +23,6 @@ class SchemaKind(StrEnum):
     """Kinds of file that have a schema."""
 
     SCENARIO = "scenario"
-    SWEEP = "sweep"
     SERIES = "series"
     VALIDATION = "validation"
     BENCH = "bench"
@@ -67,7 +66,6 @@ def schema_text(kind: SchemaKind = SchemaKind.SCENARIO) -> str:
 def _schema(kind: SchemaKind) -> dict[str, Any]:
     of_files: dict[str, Callable[[], dict[str, Any]]] = {
         SchemaKind.SCENARIO: lambda: scenario.json_schema(),
-        SchemaKind.SWEEP: lambda: sweeps.sweep_schema(),
         SchemaKind.SERIES: lambda: series.series_schema(),
         SchemaKind.VALIDATION: lambda: scenario.schema_of(validation.ValidationFile, "uictest validation"),
         SchemaKind.BENCH: lambda: scenario.schema_of(rig_bench.BenchRecipe, "uictest bench"),

@@ -132,6 +132,8 @@ def sweep(
     accepted = report.sweep_format_names()
     format_names = None if formats is None else report_formats(formats, "--report", accepted)
     plan = sweeps.load_sweep(file, tuple(overrides or ()), seed, trusted or ())
+    if plan.written_now and not quiet:
+        message(f"{plan.file}: {plan.written_now}")
     selection = sweeping.selected_cases(plan, expression)
     if selection.size == 0:
         message(f"uictest: nothing selected among {report.counted(plan.size, 'case')}")

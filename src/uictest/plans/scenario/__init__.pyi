@@ -47,8 +47,13 @@ from .json_schema import (
     quantity_definitions as quantity_definitions,
     schema_of as schema_of,
 )
-from .loading import load as load, load_file as load_file
-from .model import SCENARIO_SCHEMA as SCENARIO_SCHEMA, Case as Case, Scenario as Scenario, Slug as Slug
+from .loading import (
+    LoadedCase as LoadedCase,
+    load as load,
+    load_file as load_file,
+    load_with_trees as load_with_trees,
+)
+from .model import Case as Case, Scenario as Scenario
 from .part_keys import (
     PART_KEYS as PART_KEYS,
     PART_KINDS as PART_KINDS,
@@ -74,7 +79,12 @@ from .parts.measures import (
     RequirementId as RequirementId,
     RequirementIds as RequirementIds,
     ShareOfStops as ShareOfStops,
-    repeated_requirements as repeated_requirements,
+)
+from .parts.named_file import (
+    DescribedFile as DescribedFile,
+    NamedFile as NamedFile,
+    Slug as Slug,
+    TestFile as TestFile,
 )
 from .parts.pad import PadLaw as PadLaw
 from .parts.rail import (
@@ -83,6 +93,15 @@ from .parts.rail import (
     RailCondition as RailCondition,
 )
 from .parts.reading import Applicability as Applicability, Nominal as Nominal
+from .parts.tail_requests import KDryRequest as KDryRequest, QuantileRequest as QuantileRequest
+from .parts.vary import (
+    Distribution as Distribution,
+    Method as Method,
+    Normal as Normal,
+    Range as Range,
+    Sample as Sample,
+    Vary as Vary,
+)
 from .parts.vehicle import Vehicle as Vehicle
 from .rail_friction import (
     CONDITION as CONDITION,

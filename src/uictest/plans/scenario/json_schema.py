@@ -8,6 +8,7 @@ from pydantic.json_schema import GenerateJsonSchema
 
 from uictest.core.units import KINDS
 from uictest.plans.scenario.model import Scenario
+from uictest.plans.scenario.parts.vary import Vary
 from uictest.plans.scenario.yaml import QUANTITY_KEYWORD, Quantity, QuantityField, written
 
 SCHEMA_DRAFT: Final = "http://json-schema.org/draft-07/schema#"
@@ -25,6 +26,10 @@ class SchemaGenerator(GenerateJsonSchema):
 def json_schema() -> dict[str, Any]:
     """The schema of ``uictest/scenario/1``, every field described."""
     schema = _schema_2020_of(TypeAdapter(Scenario), "uictest scenario")
+    vary = _schema_2020_of(TypeAdapter(Vary), "Vary")
+    schema["definitions"] |= {**vary.pop("definitions"), "Vary": vary}
+    described = schema["properties"]["vary"]["description"]
+    schema["properties"]["vary"] = {"$ref": f"{_DEFINITIONS}Vary", "description": described}
     _loosen(schema)
     draft: dict[str, Any] = as_draft_07(schema)
     return draft

@@ -16,14 +16,16 @@ from uictest.plans.scenario.identifiers import (
     controller_labels,
     short_keys,
 )
-from uictest.plans.scenario.model import SCENARIO_SCHEMA, Case
+from uictest.plans.scenario.model import Case
 from uictest.plans.scenario.part_keys import PART_KEYS, with_default_parts
 from uictest.plans.scenario.rail_friction import changed_alone, overridden_alone
 from uictest.plans.scenario.references import Parts
 from uictest.plans.scenario.resolution import resolve
 from uictest.plans.scenario.yaml import (
+    SCENARIO_SCHEMA,
     Diagnostic,
     Document,
+    Entry,
     Map,
     Node,
     Override,
@@ -32,19 +34,30 @@ from uictest.plans.scenario.yaml import (
     apply_overrides,
     as_written,
     collecting,
-    describe,
     display_name,
     dotted,
     in_reading_order,
     inherit,
     parse_overrides,
     quoted,
+    require_schema,
     single_error,
     whole_file,
     with_value,
 )
 
 _DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
+_SECTIONS_OF_SWEEPS: Final = ("grid", "ranges", "sample", "quantiles", "k_dry")
+"""Keys that a scenario has only under `vary`, and `grid`, which 0.2 had for `matrix`."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedCase:
+    """A case and the tree that it is resolved from; `vary` is what a sweep of it varies."""
+
+    case: Case
+    tree: Map
+    vary: Entry | None = None
 
 
 def load(
@@ -74,11 +87,22 @@ def load(
 
 def load_file(path: Path, overrides: Sequence[Override], files: Files) -> list[Case]:
     """The cases of one scenario file, read by `files`. Raises ScenarioErrors with all errors of it."""
-    loader = _Loader(files, tuple(overrides))
-    cases = list(loader.cases(path, files.at(path)))
+    return [each.case for each in load_with_trees(path, overrides, Parts(files))]
+
+
+def load_with_trees(
+    path: Path, overrides: Sequence[Override], parts: Parts, *, varied: bool = False
+) -> list[LoadedCase]:
+    """As :func:`load_file`, each case with its tree; parts are resolved by `parts`.
+
+    With `varied`, the file says under `vary` what a sweep varies: it has one case, and lists of cases that it
+    inherits do not count.
+    """
+    loader = _Loader(parts.files, tuple(overrides), parts, varied=varied)
+    loaded = list(loader.loaded(path, parts.files.at(path)))
     if loader.diagnostics:
         raise ScenarioErrors(in_reading_order(loader.diagnostics))
-    return cases
+    return loaded
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,21 +114,35 @@ class _ScenarioFile:
     documents: tuple[Document, ...]
     short: dict[str, str]
     labels: Labels
+    vary: Entry | None = None
     ids: dict[str, Variant] = field(default_factory=dict)
 
 
 class _Loader:
     """Loads one scenario after another and collects the errors of all."""
 
-    def __init__(self, files: Files, overrides: tuple[Override, ...]) -> None:
+    def __init__(
+        self,
+        files: Files,
+        overrides: tuple[Override, ...],
+        parts: Parts | None = None,
+        *,
+        varied: bool = False,
+    ) -> None:
         self.files = files
-        self.parts = Parts(files)
+        self.parts = parts or Parts(files)
         self.overrides = overrides
+        self.varied = varied
         self.diagnostics: list[Diagnostic] = []
         self.file_of_id: dict[str, _ScenarioFile] = {}
 
     def cases(self, path: Path, tree: Map) -> Iterator[Case]:
         """Yield the cases of one file, as far as they are without errors."""
+        for each in self.loaded(path, tree):
+            yield each.case
+
+    def loaded(self, path: Path, tree: Map) -> Iterator[LoadedCase]:
+        """Yield the cases of one file with their trees."""
         file, variants = None, list[Variant]()
         with collecting(self.diagnostics, whole_file(path)):
             file, variants = self._read(path, tree)
@@ -116,13 +154,14 @@ class _Loader:
                 yield case
 
     def _read(self, path: Path, tree: Map) -> tuple[_ScenarioFile, list[Variant]]:
-        _require_scenario_schema(tree)
+        require_schema(tree, SCENARIO_SCHEMA)
         own_name = tree.entries.get("name")
         merged, documents = inherit(
             tree, self._parent, lambda parent, child: self.diagnostics.extend(changed_alone(parent, child))
         )
         # Every scenario has its own name: an inherited one would not be unique.
         merged = merged.without("name") if own_name is None else merged.with_entry("name", own_name)
+        merged, vary = self._without_vary(tree, merged)
         merged = with_default_parts(merged)
         self.diagnostics.extend(overridden_alone(merged, self.overrides, _DOTTED_PART_KEYS))
         merged = apply_overrides(merged, self.overrides, _DOTTED_PART_KEYS)
@@ -135,22 +174,43 @@ class _Loader:
         settings = [setting for variant in variants for setting in variant]
         short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
         labels = controller_labels(settings, self.parts)
-        return _ScenarioFile(path, base, documents, short, labels), variants
+        return _ScenarioFile(path, base, documents, short, labels, vary), variants
+
+    def _without_vary(self, own: Map, merged: Map) -> tuple[Map, Entry | None]:
+        """Take off what a sweep varies. Raises ScenarioErrors where the file should be none, or is none."""
+        vary = merged.entries.get("vary")
+        if vary is not None and isinstance(vary.node, Scalar) and vary.node.value is None:
+            vary = None
+        if not self.varied:
+            if vary is not None:
+                hint = "run it with `uictest sweep`; the name of a sweep's file ends in .sweep.yaml"
+                raise single_error(vary.key, "a scenario with 'vary' is a sweep", "vary", hint)
+            return merged, None
+        for key in (*_SECTIONS_OF_SWEEPS, *(EXPANSION_KEYS if vary is not None else ())):
+            if (entry := own.entries.get(key)) is not None:
+                message = f"a sweep has no {quoted(key)} beside 'vary'"
+                raise single_error(entry.key, message, key, "list what a sweep varies under `vary`")
+        if vary is None:
+            hint = "a scenario without `vary` is run with `uictest run`"
+            raise single_error(own.place, "nothing varies", "vary", hint)
+        return merged.without("vary", *EXPANSION_KEYS), vary
 
     def _parent(self, reference: Scalar) -> Map:
         tree = self.files.beside(reference, "extends")
-        _require_scenario_schema(tree)
+        require_schema(tree, SCENARIO_SCHEMA)
         return tree
 
-    def _case(self, file: _ScenarioFile, variant: Variant) -> Case:
-        scenario, documents = resolve(self._varied(file.tree, variant), self.parts)
-        return Case(
+    def _case(self, file: _ScenarioFile, variant: Variant) -> LoadedCase:
+        tree = self._varied(file.tree, variant)
+        scenario, documents = resolve(tree, self.parts)
+        case = Case(
             id=self._claimed(case_id(scenario.name, variant, file.short, file.labels), file, variant),
             scenario=scenario,
             path=Path(display_name(file.path)),
             parameters={setting.key: as_written(setting.value.node) for setting in variant},
             inputs=_inputs((*file.documents, *documents)),
         )
+        return LoadedCase(case, tree, file.vary)
 
     def _varied(self, base: Map, variant: Variant) -> Map:
         """The tree with the values of one case; settings that fail are reported and skipped."""
@@ -200,25 +260,6 @@ def _duplicate_id(identifier: str, variant: Variant, first: Variant) -> Scenario
 def _twice(node: Node, twin: Node) -> str:
     one, other = quoted(as_written(node)), quoted(as_written(twin))
     return f"{one} appears twice" if one == other else f"{one} and {other} make the same case id"
-
-
-_COMMANDS = {
-    "uictest/sweep/1": "a sweep is run with `uictest sweep`",
-    "uictest/bench/1": "a bench test is run with `uictest bench`",
-    "uictest/validation/1": "a validation is run with `uictest validate`",
-    "uictest/series/1": "a series is in a file that ends in .series.yaml",
-}
-"""Schema of another kind of file -> how to run it."""
-
-
-def _require_scenario_schema(tree: Map) -> None:
-    schema = tree.get("schema")
-    if schema is None:
-        raise single_error(tree.place, "missing key 'schema'", "schema", f"write `schema: {SCENARIO_SCHEMA}`")
-    if not isinstance(schema, Scalar) or schema.value != SCENARIO_SCHEMA:
-        schema_text = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
-        hint = _COMMANDS.get(schema.text, "") if isinstance(schema, Scalar) else ""
-        raise single_error(schema.place, f"expected {SCENARIO_SCHEMA}, found {schema_text}", "schema", hint)
 
 
 def _inputs(documents: Iterable[Document]) -> dict[str, str]:

@@ -30,11 +30,9 @@ from uictest.plans.scenario.parts.measures import (
     MeasureDefinitions,
     OutcomeOfRepeats,
     Repeat,
-    RequirementId,
-    RequirementIds,
-    repeated_requirements,
     seeds_too_large,
 )
+from uictest.plans.scenario.parts.named_file import TestFile
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.sections import Brake, Rail, Rig, Simulation
 from uictest.plans.scenario.stability import ValveConductances, limit_of_air, limit_of_vehicle
@@ -42,41 +40,18 @@ from uictest.plans.scenario.wheelset_values import WHEELSET_NUMBERS, distinct_va
 from uictest.plans.scenario.yaml import (
     DEFAULT_SOURCE,
     Inconsistency,
-    Model,
     PartReference,
     Quantity,
     of_kind,
     quoted,
 )
 
-SCENARIO_SCHEMA = "uictest/scenario/1"
-Slug = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$")]
 
-
-class Scenario(Model):
+class Scenario(TestFile):
     """One stop of the car on the rig, and what is expected of it."""
 
     schema_id: Literal["uictest/scenario/1"] = Field(
-        alias="schema", description="What the file holds and in which version: uictest/scenario/1."
-    )
-    name: Slug = Field(
-        description="Name in every report: lower-case letters, digits, dots, dashes and underscores."
-    )
-    title: str = Field(
-        default="", max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$", description="One line for people."
-    )
-    description: str = Field(
-        default="",
-        max_length=5000,
-        pattern=r"^[^\x00-\x08\x0b-\x1f\x7f]*$",
-        description="What the scenario is for.",
-    )
-    tags: tuple[Slug, ...] = Field(default=(), max_length=32, description="Words that select scenarios (-m).")
-    requirements: RequirementIds = Field(
-        default=(), description="Ids of the requirements that the stop verifies."
-    )
-    test_case: RequirementId | None = Field(
-        default=None, description="Id of the test case in the test management tool, such as WSP-TC-7."
+        alias="schema", description="What the file holds: uictest/scenario/1."
     )
     extends: str | None = Field(
         default=None, description="Relative path of the parent scenario; maps merge, lists replace."
@@ -129,10 +104,13 @@ class Scenario(Model):
     exclude: tuple[dict[str, Any], ...] | None = Field(
         default=None, description="Cases to leave out: those with exactly these values."
     )
+    vary: dict[str, Any] | None = Field(
+        default=None, description="What `uictest sweep` varies: lists, ranges and distributions of values."
+    )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield values of different sections that do not fit together."""
-        yield from repeated_requirements(self.requirements)
+        yield from super().inconsistencies()
         steps = self.controller.cycle_time / self.simulation.time_step
         if abs(steps - round(steps)) > 1e-9 * steps or steps < 1.0:
             yield Inconsistency(

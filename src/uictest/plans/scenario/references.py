@@ -27,6 +27,7 @@ from uictest.plans.scenario.yaml import (
     models_in,
     plain,
     quoted,
+    require_schema,
     single_error,
     suggestion,
     validated,
@@ -146,7 +147,7 @@ class Parts:
         else:
             _require_known_name(reference, folder, full_key)
             tree = self.files.in_library(folder, reference.text)
-        _require_schema(tree, f"uictest/{KIND_OF_FOLDER[folder]}/1")
+        require_schema(tree, f"uictest/{KIND_OF_FOLDER[folder]}/1")
         return tree
 
 
@@ -189,15 +190,6 @@ def _require_known_name(reference: Scalar, folder: str, full_key: str) -> None:
         full_key,
         hint,
     )
-
-
-def _require_schema(tree: Map, expected: str) -> None:
-    schema = tree.get("schema")
-    if schema is None:
-        raise single_error(tree.place, "missing key 'schema'", "schema", f"write `schema: {expected}`")
-    if not isinstance(schema, Scalar) or schema.value != expected:
-        schema_text = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
-        raise single_error(schema.place, f"expected {expected}, found {schema_text}", "schema")
 
 
 def _reject_changed_sources(parent: Map, merged: Map) -> None:

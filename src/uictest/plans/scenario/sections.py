@@ -171,7 +171,7 @@ SURVEY: Final = "survey"
 
 def _no_survey(value: object) -> object:
     if value == SURVEY:
-        hint = f"uictest sweep ... --set simulation.time_step={SURVEY}, or alone under `grid` of a sweep file"
+        hint = f"uictest sweep ... --set simulation.time_step={SURVEY}, or alone under `vary.matrix`"
         context = {"message": f"{quoted(SURVEY)} is the time step of a whole sweep", "hint": hint}
         raise PydanticCustomError("survey", "{message}", context)
     return value

@@ -2,7 +2,6 @@ from .definition import (
     load_series as load_series,
 )
 from .model import (
-    SERIES_SCHEMA as SERIES_SCHEMA,
     SeriesFile as SeriesFile,
     Stops as Stops,
     series_schema as series_schema,

@@ -19,6 +19,8 @@ from uictest.plans.scenario import (
     short_keys,
 )
 from uictest.plans.scenario.yaml import (
+    SCENARIO_SCHEMA,
+    SERIES_SCHEMA,
     Document,
     Map,
     Node,
@@ -27,21 +29,21 @@ from uictest.plans.scenario.yaml import (
     Sequence as List,
     apply_overrides,
     as_written,
-    describe,
     display_name,
     parse_overrides,
     plain,
-    quoted,
     read_file,
-    single_error,
+    require_schema,
     validated,
     without_axis,
 )
-from uictest.plans.series.model import DEFAULT_CRITERIA, SERIES_SCHEMA, SeriesFile
+from uictest.plans.series.model import DEFAULT_CRITERIA, SeriesFile
 from uictest.plans.series.series import Series
 from uictest.plans.series.stop_reader import StopReader
 
-_SCHEMA_HINT: Final = f"a series starts with `schema: {SERIES_SCHEMA}`"
+_NOT_A_SERIES: Final = {
+    SCENARIO_SCHEMA: "give a scenario a file name that does not end in .series.yaml",
+}
 
 
 def load_series(
@@ -61,8 +63,8 @@ def load_series(
 
     """
     files = Files(Roots.of([path], trusted))
-    written = read_file(path, _SCHEMA_HINT)
-    _require_schema(written)
+    written = read_file(path, SERIES_SCHEMA)
+    require_schema(written, SERIES_SCHEMA, hints=_NOT_A_SERIES)
     of_command_line = parse_overrides(overrides, seed)
     profiles, documents = _criteria(written, Parts(files))
     file: SeriesFile = validated(SeriesFile, {**plain(written), "criteria": profiles}, written)
@@ -133,14 +135,3 @@ def _criteria(tree: Map, parts: Parts) -> tuple[tuple[Criteria, ...], tuple[Docu
     resolved = [parts.resolve(each, Criteria, ("criteria",)) for each in nodes]
     documents = tuple(document for each in resolved for document in each.documents)
     return tuple(each.part for each in resolved), documents
-
-
-def _require_schema(tree: Map) -> None:
-    schema = tree.get("schema")
-    if schema is None:
-        raise single_error(tree.place, "missing key 'schema'", "schema", _SCHEMA_HINT)
-    if not isinstance(schema, Scalar) or schema.value != SERIES_SCHEMA:
-        actual = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
-        scenario = isinstance(schema, Scalar) and schema.text.startswith("uictest/scenario/")
-        hint = "give a scenario a file name that does not end in .series.yaml" if scenario else _SCHEMA_HINT
-        raise single_error(schema.place, f"expected {SERIES_SCHEMA}, found {actual}", "schema", hint)

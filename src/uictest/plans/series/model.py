@@ -9,10 +9,7 @@ from pydantic import BeforeValidator, Field
 
 from uictest.plans.scenario import (
     Criteria,
-    RequirementId,
-    RequirementIds,
-    Slug,
-    repeated_requirements,
+    TestFile,
     schema_of,
 )
 from uictest.plans.scenario.yaml import (
@@ -25,7 +22,6 @@ from uictest.plans.scenario.yaml import (
     quoted,
 )
 
-SERIES_SCHEMA: Final = "uictest/series/1"
 DEFAULT_CRITERIA: Final = "uictest-wsp"
 
 
@@ -57,30 +53,11 @@ class Stops(Model):
 StopsField = Annotated[tuple[Stops, ...], BeforeValidator(_entries)]
 
 
-class SeriesFile(Model):
+class SeriesFile(TestFile):
     """A dry reference and wet stops, judged together."""
 
     schema_id: Literal["uictest/series/1"] = Field(
-        alias="schema", description="What the file holds and in which version: uictest/series/1."
-    )
-    name: Slug = Field(
-        description="Name in every report: lower-case letters, digits, dots, dashes and underscores."
-    )
-    title: str = Field(
-        default="", max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$", description="One line for people."
-    )
-    description: str = Field(
-        default="",
-        max_length=5000,
-        pattern=r"^[^\x00-\x08\x0b-\x1f\x7f]*$",
-        description="What the series is for.",
-    )
-    tags: tuple[Slug, ...] = Field(default=(), max_length=32, description="Words that select series (-m).")
-    requirements: RequirementIds = Field(
-        default=(), description="Ids of the requirements that the series verifies."
-    )
-    test_case: RequirementId | None = Field(
-        default=None, description="Id of the test case in the test management tool, such as WSP-TC-7."
+        alias="schema", description="What the file holds: uictest/series/1."
     )
     repeat: Annotated[int, Field(ge=1, le=1000, strict=True)] | None = Field(
         default=None, description="How often each stop is repeated under further seeds."
@@ -125,7 +102,7 @@ class SeriesFile(Model):
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield requirements named twice, empty lists of stops, and criteria of the same name."""
-        yield from repeated_requirements(self.requirements)
+        yield from super().inconsistencies()
         for name in ("dry", "wet"):
             if not getattr(self, name):
                 yield Inconsistency((name,), "an empty list", "name at least one scenario")

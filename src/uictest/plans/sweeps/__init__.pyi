@@ -4,18 +4,8 @@ from .base_case import (
     in_survey_steps as in_survey_steps,
 )
 from .column import Column as Column, ParameterValue as ParameterValue, content_of as content_of
-from .decimal_quantity import (
-    DecimalQuantity as DecimalQuantity,
-    common_unit as common_unit,
-    parse_decimal_quantity as parse_decimal_quantity,
-    quantity_text as quantity_text,
-    rounded_decimal as rounded_decimal,
-)
 from .definition import (
     load_sweep as load_sweep,
-)
-from .model import (
-    sweep_schema as sweep_schema,
 )
 from .nominal import (
     CONTROLLER as CONTROLLER,
@@ -37,4 +27,3 @@ from .scenario_values import (
     is_free as is_free,
     with_values as with_values,
 )
-from .tail_model import KDryRequest as KDryRequest, QuantileRequest as QuantileRequest

@@ -2,56 +2,46 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 from typing import Final
 
-from uictest.plans.scenario import LONGEST, Roots, sets_friction, short_keys
+from uictest.plans.scenario import LONGEST, Files, Parts, Roots, Sample, sets_friction, short_keys
 from uictest.plans.scenario.yaml import (
     FIXED,
     Diagnostic,
     Document,
     Entry,
     Map,
-    Node,
     Override,
-    Scalar,
     ScenarioErrors,
     Sequence as List,
-    describe,
     diagnose,
     display_name,
     in_reading_order,
     parse_overrides,
-    plain,
     quoted,
-    read_file,
     single_error,
-    validated,
 )
 from uictest.plans.sweeps.base_case import (
     REPEAT_KEYS,
     SEEDS_IN_SWEEPS,
     TIME_STEP,
     BaseCase,
-    read_base_case,
     reject_other_steps,
-    requested_survey,
     require_regular_step,
+    survey_in_lists,
+    survey_on_command_line,
 )
 from uictest.plans.sweeps.group_reader import GroupReader, range_node
-from uictest.plans.sweeps.model import MOST_CASES, SWEEP_SCHEMA, Sample, SweepFile
 from uictest.plans.sweeps.plan import Group, ListedGroup, Plan
-from uictest.plans.sweeps.tail_requests import reject_unsupported_tails
+from uictest.plans.sweeps.supported_tails import reject_unsupported_tails
+from uictest.plans.sweeps.sweep_file import SweepFile, read_sweep_file
 
-_SCHEMA_HINT: Final = f"a sweep starts with `schema: {SWEEP_SCHEMA}`"
-_SECTIONS: Final = ("grid", "ranges", "zip")
-_OF_SUMMARY: Final = ("quantiles", "k_dry")
-"""Keys that say what to compute from finished cases."""
+MOST_CASES: Final = 100_000_000
+_SECTIONS: Final = ("matrix", "ranges", "zip")
 SAMPLE_NAME: Final = "sample"
 """Name of the number of a drawn point in case ids."""
 
@@ -62,7 +52,7 @@ def load_sweep(
     """Return the plan of a sweep file.
 
     Args:
-        path: a ``*.sweep.yaml``.
+        path: a ``*.sweep.yaml``: a scenario with `vary`, or a sweep as 0.2 wrote it.
         overrides: ``key=value`` texts. One value fixes a key of the scenario, swept or not; a comma list or
             ``range(first,last,step)`` replaces the values in the file.
         seed: of the sensors' noise in every case.
@@ -71,46 +61,38 @@ def load_sweep(
     Raises:
         ScenarioErrors: with all errors of the file, or of the scenario that it names.
     """
-    parsed = parse_overrides(overrides, seed)
-    tree = read_file(path, _SCHEMA_HINT)
-    _reject_other_schema(tree)
-    _reject_ranges_in_grid(tree)
-    file: SweepFile = validated(SweepFile, plain(tree), tree)
-    survey = requested_survey(tree, parsed)
-    written, tree = tree, _without_keys(tree, {each.key for each in parsed})
+    given = parse_overrides(overrides, seed)
+    survey = survey_on_command_line(given)
+    parsed = given if survey is None else tuple(each for each in given if each.key != TIME_STEP)
+    parts = Parts(Files(Roots.of([path], trusted)))
+    file = read_sweep_file(path, [each for each in parsed if len(each.values) == 1], parts)
+    sections = _without_keys(file.tree, {each.key for each in given})
+    if survey is None:
+        survey = survey_in_lists(sections.get("matrix"))
+        sections = sections if survey is None else _without_entries(sections, "matrix", {TIME_STEP})
     if survey is not None:
-        parsed = tuple(each for each in parsed if each.key != TIME_STEP)
-        tree = _without_entries(tree, "grid", {TIME_STEP})
-    fixed = [each for each in parsed if len(each.values) == 1]
-    roots = Roots.of([path], trusted)
-    base = read_base_case(_scalar(tree, "scenario"), _optional(tree, "case"), fixed, roots)
-    if survey is not None:
-        require_regular_step(base, survey)
-    reader = _Reader(base, tree, file)
+        require_regular_step(file.base, survey)
+    reader = _Reader(file, sections)
     groups = reader.groups([each for each in parsed if len(each.values) > 1])
     if survey is not None:
         reject_other_steps((key for group in groups for key in group.keys), survey)
+    document = parts.files.at(path).place.document
     plan = Plan(
         name=file.name,
         title=file.title,
         file=display_name(path),
-        base=base.case,
+        base=file.base.case,
         groups=groups,
         short=short_keys([key for group in groups for key in group.keys]),
-        inputs=_inputs(base, (tree.place.document, *reader.group_reader.documents)),
-        quantiles=file.quantile_requests,
-        k_dry=file.k_dry,
+        inputs=_inputs(file.base, (document, *reader.group_reader.documents)),
+        quantiles=file.vary.quantile_requests,
+        k_dry=file.vary.k_dry,
         survey=survey is not None,
-        cases_sha256=_sha256_of_cases(written),
+        cases_sha256=file.cases_sha256,
+        written_now=file.written_now,
     )
-    reject_unsupported_tails(plan, tree)
+    reject_unsupported_tails(plan, file)
     return plan
-
-
-def _sha256_of_cases(tree: Map) -> str:
-    content = {key: value for key, value in plain(tree).items() if key not in _OF_SUMMARY}
-    # In the order of the file: it is that of the cases.
-    return hashlib.sha256(json.dumps(content, default=str).encode()).hexdigest()
 
 
 @dataclass(frozen=True)
@@ -122,20 +104,20 @@ class _Axis:
 
 
 class _Reader:
-    """Reads the groups of a file, and collects all errors."""
+    """Reads the groups of a file, and collects all errors; `sections` are what the command line leaves."""
 
-    def __init__(self, base: BaseCase, tree: Map, file: SweepFile) -> None:
-        self.group_reader = GroupReader(base)
-        self._tree = tree
+    def __init__(self, file: SweepFile, sections: Map) -> None:
+        self.group_reader = GroupReader(file.base)
         self._file = file
+        self._tree = sections
 
     def groups(self, swept: Sequence[Override]) -> tuple[Group, ...]:
-        """Return the groups in order: those of the command line, grid, ranges, zip, sample."""
+        """Return the groups in order: those of the command line, lists, ranges, zip, sample."""
         axes = [*_of_command_line(swept), *self._of_file()]
         self._reject_bad_keys(axes)
-        groups: list[Group | None] = [self.group_reader.listed(axis.entries) for axis in axes]
+        groups: list[Group | None] = [self.group_reader.listed(axis.entries, axis.section) for axis in axes]
         sample = self._tree.get("sample")
-        if isinstance(sample, Map) and self._file.sample is not None:
+        if isinstance(sample, Map) and self._file.vary.sample is not None:
             remaining = self._sample_without_overridden(sample)
             if remaining.parameters:
                 groups.append(self.group_reader.sampled(remaining, sample))
@@ -145,32 +127,34 @@ class _Reader:
         return complete
 
     def _of_file(self) -> Iterator[_Axis]:
-        for key, entry in _entries(self._tree, "grid"):
-            yield _Axis("grid", {key: entry})
+        for key, entry in _entries(self._tree, "matrix"):
+            yield _Axis(self._file.key("matrix"), {key: entry})
         for key, entry in _entries(self._tree, "ranges"):
-            values = (self._file.ranges or {})[key]
-            yield _Axis("ranges", {key: Entry(entry.key, range_node(values, entry.node))})
+            values = (self._file.vary.ranges or {})[key]
+            yield _Axis(self._file.key("ranges"), {key: Entry(entry.key, range_node(values, entry.node))})
         zipped = dict(_entries(self._tree, "zip"))
         if zipped:
-            yield _Axis("zip", zipped)
+            yield _Axis(self._file.key("zip"), zipped)
 
     def _sample_without_overridden(self, sample: Map) -> Sample:
-        assert self._file.sample is not None
+        requested = self._file.vary.sample
+        assert requested is not None
         drawn = dict(_entries(sample, "parameters"))
-        parameters = {key: each for key, each in self._file.sample.parameters.items() if key in drawn}
-        return self._file.sample.model_copy(update={"parameters": parameters})
+        parameters = {key: each for key, each in requested.parameters.items() if key in drawn}
+        return requested.model_copy(update={"parameters": parameters})
 
     def _reject_bad_keys(self, axes: Sequence[_Axis]) -> None:
         sample = self._tree.get("sample")
         drawn = dict(_entries(sample, "parameters")) if isinstance(sample, Map) else {}
-        all_axes = (*axes, _Axis("sample", drawn))
+        all_axes = (*axes, _Axis(self._file.key("sample"), drawn))
         self.group_reader.diagnostics.extend(_bad_keys(all_axes))
         keys = [key for axis in all_axes for key in axis.entries]
         if not any(map(sets_friction, keys)):
             for axis in all_axes:
                 self.group_reader.reject_conditions_alone(axis.entries)
         if not keys:
-            hint = "give values under grid, ranges, zip or sample"
+            sections = ("matrix", "ranges", "zip", "sample")
+            hint = "give values under " + ", ".join(map(self._file.key, sections))
             self.group_reader.diagnostics.append(diagnose(self._tree.place, "nothing varies", hint=hint))
         self._raise_diagnostics()
 
@@ -226,33 +210,6 @@ def _longest_label(group: Group) -> int:
     )
 
 
-def _reject_other_schema(tree: Map) -> None:
-    schema = tree.get("schema")
-    if schema is None:
-        raise single_error(tree.place, "missing key 'schema'", "schema", _SCHEMA_HINT)
-    if not isinstance(schema, Scalar) or schema.value != SWEEP_SCHEMA:
-        actual = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
-        scenario = isinstance(schema, Scalar) and schema.text.startswith("uictest/scenario/")
-        hint = "a scenario is run with `uictest run`" if scenario else _SCHEMA_HINT
-        raise single_error(schema.place, f"expected {SWEEP_SCHEMA}, found {actual}", "schema", hint)
-
-
-def _reject_ranges_in_grid(tree: Map) -> None:
-    """Reject a range in the section of lists, and name the section of ranges."""
-    diagnostics = [
-        diagnose(
-            entry.node.place,
-            f"expected a list of values, found {describe(entry.node)}",
-            f"grid.{key}",
-            "a range of numbers goes under `ranges`: {first, last, step} or {first, last, count}",
-        )
-        for key, entry in _entries(tree, "grid")
-        if isinstance(entry.node, Map)
-    ]
-    if diagnostics:
-        raise ScenarioErrors(diagnostics)
-
-
 def _without_keys(tree: Map, keys: set[str]) -> Map:
     """Return the file without the swept keys that the command line sets."""
     for section in _SECTIONS:
@@ -274,17 +231,6 @@ def _entries(tree: Map, section: str) -> Iterator[tuple[str, Entry]]:
     node = tree.get(section)
     if isinstance(node, Map):
         yield from node.entries.items()
-
-
-def _scalar(tree: Map, key: str) -> Scalar:
-    node: Node = tree.entries[key].node
-    assert isinstance(node, Scalar)
-    return node
-
-
-def _optional(tree: Map, key: str) -> Scalar | None:
-    node = tree.get(key)
-    return node if isinstance(node, Scalar) and node.value is not None else None
 
 
 def _inputs(base: BaseCase, documents: Sequence[Document]) -> dict[str, str]:

@@ -7,7 +7,15 @@ from dataclasses import replace
 from operator import attrgetter
 from typing import Annotated, Any, Final, get_args
 
-from uictest.plans.scenario import CONDITION, Setting, controller_labels, value_label
+from uictest.plans.scenario import (
+    CONDITION,
+    Distribution,
+    Range,
+    Sample,
+    Setting,
+    controller_labels,
+    value_label,
+)
 from uictest.plans.scenario.yaml import (
     Diagnostic,
     Document,
@@ -20,24 +28,21 @@ from uictest.plans.scenario.yaml import (
     ScenarioErrors,
     Sequence as List,
     as_written,
+    common_unit,
     diagnose,
     entry_at,
+    evenly_spaced,
     plain,
+    quantity_text,
     quoted,
     scalar_value,
     single_error,
+    spaced_by_step,
     validated,
     visible,
 )
 from uictest.plans.sweeps.base_case import BaseCase
 from uictest.plans.sweeps.column import ParameterValue
-from uictest.plans.sweeps.decimal_quantity import (
-    common_unit,
-    evenly_spaced,
-    quantity_text,
-    spaced_by_step,
-)
-from uictest.plans.sweeps.model import Distribution, Range, Sample
 from uictest.plans.sweeps.plan import ListedGroup, ParameterDraw, SampledGroup
 from uictest.plans.sweeps.scenario_values import inconsistencies, is_free, value_at, with_values
 
@@ -59,10 +64,10 @@ class GroupReader:
         self.documents: list[Document] = []
         self._labels: dict[int, str] = {}
 
-    def listed(self, entries: Mapping[str, Entry]) -> ListedGroup | None:
-        """Return the group in which the given lists change together; None if they cannot."""
+    def listed(self, entries: Mapping[str, Entry], section: str) -> ListedGroup | None:
+        """Return the group in which the given lists of a section change together; None if they cannot."""
         columns = [(key, entry, _items(entry.node)) for key, entry in entries.items()]
-        if not self._equally_long(columns):
+        if not self._equally_long(columns, section):
             return None
         rows = self._rows(columns)
         self._reject_repeated(rows, columns[0], _LABEL, "case ids would be the same")
@@ -90,13 +95,13 @@ class GroupReader:
                 for node in _items(choice or entry.node):
                     self.diagnostics.extend(self._base.changed_alone({key: Entry(entry.key, node)}))
 
-    def _equally_long(self, columns: Sequence[_Column]) -> bool:
+    def _equally_long(self, columns: Sequence[_Column], section: str) -> bool:
         first, _, items = columns[0]
         unequal = [column for column in columns if len(column[2]) != len(items)]
         for key, entry, others in unequal:
             message = f"{len(others)} values where {quoted(first)} has {len(items)}"
-            hint = "lists under zip must be equally long; grid combines lists of any length"
-            self.diagnostics.append(diagnose(entry.key, message, f"zip.{key}", hint))
+            hint = f"lists under {section} must be equally long; others are combined, of any length"
+            self.diagnostics.append(diagnose(entry.key, message, f"{section}.{key}", hint))
         return not unequal
 
     def _rows(self, columns: Sequence[_Column]) -> list[_Row]:

@@ -8,11 +8,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from uictest.plans.scenario import Case, Scenario
+from uictest.plans.scenario import Case, Distribution, KDryRequest, Method, QuantileRequest, Scenario
 from uictest.plans.sweeps.column import Column, ParameterValue, drawn_column, listed_column
-from uictest.plans.sweeps.model import Distribution, Method
 from uictest.plans.sweeps.scenario_values import with_values
-from uictest.plans.sweeps.tail_model import KDryRequest, QuantileRequest
 
 if TYPE_CHECKING:
     import numpy as np
@@ -130,6 +128,8 @@ class Plan:
     """Whether its cases are simulated in survey steps, except where a verdict might hang on it."""
     cases_sha256: str = ""
     """SHA-256 of what the sweep file says of its cases, which `quantiles` and `k_dry` do not change."""
+    written_now: str = ""
+    """How a file of 0.2 is written now, empty for others."""
 
     @property
     def size(self) -> int:

@@ -12,7 +12,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.compute as pc
 
-from uictest.plans.sweeps.decimal_quantity import rounded_text
+from uictest.plans.scenario.yaml import rounded_text
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.plans.sweeps.model import Distribution, Method, Normal
+from uictest.plans.scenario import Distribution, Method, Normal
 
 Points = NDArray[np.float64]
 _BLOCK = 1024

@@ -1,5 +1,4 @@
 from .definition import (
-    VALIDATION_SCHEMA as VALIDATION_SCHEMA,
     PlannedComparison as PlannedComparison,
     ValidationFile as ValidationFile,
     ValidationPlan as ValidationPlan,

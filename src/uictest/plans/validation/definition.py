@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
 from uictest.plans import series
-from uictest.plans.scenario import Case, Files, Roots, Slug, load_file
+from uictest.plans.scenario import Case, Files, NamedFile, Roots, load_file
 from uictest.plans.scenario.yaml import (
+    VALIDATION_SCHEMA,
     Diagnostic,
     Inconsistency,
     Map,
@@ -19,11 +20,9 @@ from uictest.plans.scenario.yaml import (
     Node,
     Override,
     Quantity,
-    Scalar,
     ScenarioErrors,
     Sequence as List,
     default,
-    describe,
     display_name,
     in_reading_order,
     of_kind,
@@ -31,6 +30,7 @@ from uictest.plans.scenario.yaml import (
     plain,
     quoted,
     read_file,
+    require_schema,
     single_error,
     validated,
 )
@@ -69,9 +69,6 @@ class ValidationPlan:
     inputs: Mapping[str, str]
 
 
-VALIDATION_SCHEMA: Final = "uictest/validation/1"
-
-
 class RecordedStops(Model):
     """Recorded stops that one scenario describes."""
 
@@ -91,15 +88,11 @@ class RecordedStops(Model):
     )
 
 
-class ValidationFile(Model):
+class ValidationFile(NamedFile):
     """Recorded stops and the scenarios that simulate them."""
 
     schema_id: Literal["uictest/validation/1"] = Field(
-        alias="schema", description="What the file holds and in which version: uictest/validation/1."
-    )
-    name: Slug = Field(description="Name: lower-case letters, digits, dots, dashes and underscores.")
-    title: str = Field(
-        default="", max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$", description="One line for people."
+        alias="schema", description="What the file holds: uictest/validation/1."
     )
     stops: tuple[RecordedStops, ...] = Field(description="The recorded stops.")
     speed_tolerance: Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="50 km/h")] = Field(
@@ -116,9 +109,6 @@ class ValidationFile(Model):
             yield Inconsistency(("stops",), "an empty list", "name at least one recorded stop")
 
 
-_SCHEMA_HINT: Final = f"a validation starts with `schema: {VALIDATION_SCHEMA}`"
-
-
 def load_validation(
     path: Path, overrides: Sequence[str] = (), trusted: Sequence[Path] = ()
 ) -> ValidationPlan:
@@ -133,8 +123,8 @@ def load_validation(
         ScenarioErrors: with all errors of the file, or of the scenarios that it names.
     """
     files = Files(Roots.of([path], trusted))
-    tree = read_file(path, _SCHEMA_HINT)
-    _require_schema(tree)
+    tree = read_file(path, VALIDATION_SCHEMA)
+    require_schema(tree, VALIDATION_SCHEMA)
     file: ValidationFile = validated(ValidationFile, plain(tree), tree)
     comparisons = tuple(_comparisons(tree, file, files, parse_overrides(overrides, None)))
     document = tree.place.document
@@ -199,14 +189,3 @@ def _all_different(read: Sequence[PlannedComparison], nodes: Sequence[Node]) -> 
                 raise single_error(node.place, message, "recordings", "each recording is one stop")
             seen.add(file.resolve())
         yield comparison
-
-
-def _require_schema(tree: Map) -> None:
-    schema = tree.get("schema")
-    if schema is None:
-        raise single_error(tree.place, "missing key 'schema'", "schema", _SCHEMA_HINT)
-    if not isinstance(schema, Scalar) or schema.value != VALIDATION_SCHEMA:
-        actual = quoted(schema.text) if isinstance(schema, Scalar) else describe(schema)
-        raise single_error(
-            schema.place, f"expected {VALIDATION_SCHEMA}, found {actual}", "schema", _SCHEMA_HINT
-        )

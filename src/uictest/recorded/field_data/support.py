@@ -16,7 +16,6 @@ from uictest.judging.evaluation import Coverage, MissingData
 from uictest.plans.scenario import (
     EXPANSION_KEYS,
     PART_KEYS,
-    SCENARIO_SCHEMA,
     Case,
     Files,
     Parts,
@@ -25,6 +24,7 @@ from uictest.plans.scenario import (
     with_default_parts,
 )
 from uictest.plans.scenario.yaml import (
+    SCENARIO_SCHEMA,
     Document,
     Map,
     apply_overrides,

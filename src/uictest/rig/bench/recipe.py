@@ -11,7 +11,6 @@ from uictest.plans import library
 from uictest.plans.scenario import (
     EXPANSION_KEYS,
     PART_KEYS,
-    SCENARIO_SCHEMA,
     Case,
     Files,
     Parts,
@@ -21,6 +20,8 @@ from uictest.plans.scenario import (
     with_default_parts,
 )
 from uictest.plans.scenario.yaml import (
+    BENCH_SCHEMA,
+    SCENARIO_SCHEMA,
     Entry,
     Map,
     Part,
@@ -34,6 +35,7 @@ from uictest.plans.scenario.yaml import (
     parse_overrides,
     plain,
     read_file,
+    require_schema,
     single_error,
     suggestion,
     validated,
@@ -166,7 +168,8 @@ def load_bench(
 
     Raises ScenarioErrors with every error found.
     """
-    tree = read_file(path)
+    tree = read_file(path, BENCH_SCHEMA)
+    require_schema(tree, BENCH_SCHEMA)
     recipe: BenchRecipe = validated(BenchRecipe, plain(tree), tree)
     stop = _scenario_tree(tree, recipe, overrides, seed)
     files = Files(Roots.of([path], trusted))
@@ -234,7 +237,7 @@ def trace_recipe(
     """Return a recipe of one recording on the library's rig. Raises ScenarioErrors for wrong overrides."""
     place = whole_file(file)
     recipe = BenchRecipe(
-        schema="uictest/bench/1",
+        schema=BENCH_SCHEMA,
         name="trace",
         inputs=(FileReplay(kind="trace", file=file.name, pressure=pressure, command=command),),
     )

@@ -89,7 +89,7 @@ def frontier_search(
     if key is None:
         return None
     try:
-        width = None if tolerance is None else sweeps.parse_decimal_quantity(tolerance)
+        width = None if tolerance is None else yaml.parse_decimal_quantity(tolerance)
         return summaries.FrontierSearch(plan, key, width)
     except summaries.FrontierError:
         raise

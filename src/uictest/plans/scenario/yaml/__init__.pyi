@@ -1,4 +1,15 @@
 from .assignment import FIXED as FIXED, with_value as with_value
+from .decimal_quantity import (
+    DecimalQuantity as DecimalQuantity,
+    DecimalQuantityField as DecimalQuantityField,
+    common_unit as common_unit,
+    evenly_spaced as evenly_spaced,
+    parse_decimal_quantity as parse_decimal_quantity,
+    quantity_text as quantity_text,
+    rounded_decimal as rounded_decimal,
+    rounded_text as rounded_text,
+    spaced_by_step as spaced_by_step,
+)
 from .diagnostics import (
     Diagnostic as Diagnostic,
     ScenarioErrors as ScenarioErrors,
@@ -6,6 +17,14 @@ from .diagnostics import (
     diagnose as diagnose,
     in_reading_order as in_reading_order,
     single_error as single_error,
+)
+from .kinds import (
+    BENCH_SCHEMA as BENCH_SCHEMA,
+    SCENARIO_SCHEMA as SCENARIO_SCHEMA,
+    SERIES_SCHEMA as SERIES_SCHEMA,
+    SWEEP_SCHEMA as SWEEP_SCHEMA,
+    VALIDATION_SCHEMA as VALIDATION_SCHEMA,
+    require_schema as require_schema,
 )
 from .model import (
     NAME_PATTERN as NAME_PATTERN,

@@ -5,7 +5,7 @@ from typing import Final
 from uictest.plans.scenario.yaml.diagnostics import single_error
 from uictest.plans.scenario.yaml.tree import Entry, Map, Node, Place, Scalar, Sequence, describe, quoted
 
-FIXED: Final = frozenset({"schema", "name", "extends", "matrix", "zip", "include", "exclude"})
+FIXED: Final = frozenset({"schema", "name", "extends", "matrix", "zip", "include", "exclude", "vary"})
 """Keys that belong to the file and not to a case."""
 
 

@@ -3,11 +3,16 @@
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from decimal import Decimal
 from pathlib import Path
 from typing import Final
 
 from uictest.plans.scenario.yaml.assignment import with_value
+from uictest.plans.scenario.yaml.decimal_quantity import (
+    common_unit,
+    parse_decimal_quantity,
+    quantity_text,
+    spaced_by_step,
+)
 from uictest.plans.scenario.yaml.diagnostics import Diagnostic, ScenarioErrors, single_error
 from uictest.plans.scenario.yaml.parsing import parse
 from uictest.plans.scenario.yaml.tree import (
@@ -25,7 +30,6 @@ from uictest.plans.scenario.yaml.tree import (
 MOST_VALUES: Final = 10_000
 
 _RANGE = re.compile(r"\s*range\((.*)\)\s*")
-_NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:[0-9]{1,15}\.?[0-9]{0,15}|\.[0-9]{1,15}))\s*(.*?)\s*", re.DOTALL)
 _OPENING, _CLOSING, _QUOTES = "([{", ")]}", "\"'"
 
 
@@ -103,22 +107,20 @@ def _values(document: Document, column: int, piece: str) -> Iterator[Node]:
 
 def _range(arguments: str, place: Place) -> list[str]:
     """The values of ``range(first,last,step)`` as texts, with the last one where a step lands on it."""
-    parts = [_NUMBER_AND_UNIT.fullmatch(part) for part in arguments.split(",")]
-    if len(parts) != 3 or not all(parts):
-        raise single_error(
-            place, "not a range of numbers", hint="write range(first,last,step): range(0.09,0.12,0.01)"
-        )
-    numbers, units = zip(*((Decimal(part[1]), part[2]) for part in parts if part), strict=True)
-    first, last, step = numbers
-    if len(set(units)) != 1:
+    try:
+        first, last, step = map(parse_decimal_quantity, arguments.split(","))
+    except ValueError:
+        hint = "write range(first,last,step): range(0.09,0.12,0.01)"
+        raise single_error(place, "not a range of numbers", hint=hint) from None
+    if common_unit([first, last, step]) is None:
         raise single_error(place, "the three numbers of a range must have the same unit")
-    if step == 0 or (last - first) / step < 0:
+    if step.number == 0 or (last.number - first.number) / step.number < 0:
         raise single_error(place, f"a step of {step} never leads from {first} to {last}")
-    count = int((last - first) / step) + 1
+    count = int((last.number - first.number) / step.number) + 1
     if count > MOST_VALUES:
         raise single_error(place, f"a range of {count} values; at most {MOST_VALUES} are accepted")
-    digits = max(0, *(-int(number.as_tuple().exponent) for number in (first, step)))
-    return [f"{first + index * step:.{digits}f} {units[0]}".strip() for index in range(count)]
+    numbers = spaced_by_step(first.number, last.number, step.number)
+    return [quantity_text(number, first.unit) for number in numbers]
 
 
 def apply_overrides(tree: Map, overrides: Sequence[Override], part_keys: frozenset[str]) -> Map:

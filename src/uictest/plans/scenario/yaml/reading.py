@@ -8,6 +8,7 @@ from typing import Final
 
 from uictest.plans import library
 from uictest.plans.scenario.yaml.diagnostics import ScenarioErrors, single_error
+from uictest.plans.scenario.yaml.kinds import SCENARIO_SCHEMA
 from uictest.plans.scenario.yaml.parsing import parse
 from uictest.plans.scenario.yaml.tree import Document, Entry, Map, Place, Scalar, describe, merge, visible
 
@@ -15,17 +16,16 @@ LARGEST: Final = 256 * 1024
 """Largest file that is read, bytes."""
 LIBRARY: Final = "library:"
 """How the shown name of a library file begins."""
-_BEGINNING: Final = "start with `schema: uictest/scenario/1`"
 
 
-def read_file(path: Path, beginning: str = _BEGINNING) -> Map:
-    """The tree of a YAML file; ``beginning`` is the hint for an empty file. Raises ScenarioErrors."""
+def read_file(path: Path, schema: str = SCENARIO_SCHEMA) -> Map:
+    """The tree of a YAML file; ``schema`` is what an empty one should begin with. Raises ScenarioErrors."""
     display = display_name(path)
     if not _is_unicode(display):
         raise single_error(
             whole_file(path), "the file name is not UTF-8", hint="reports could not name it; rename the file"
         )
-    return _tree(display, path.parent, _content(path), beginning)
+    return _tree(display, path.parent, _content(path), schema)
 
 
 def read_document(path: Path, largest: int, hint: str) -> Document:
@@ -85,10 +85,11 @@ def _content(path: Path, largest: int = LARGEST, hint: str = "is this a scenario
     return content
 
 
-def _tree(display: str, folder: Path, content: bytes, beginning: str = _BEGINNING) -> Map:
+def _tree(display: str, folder: Path, content: bytes, schema: str = SCENARIO_SCHEMA) -> Map:
     document = Document(
         display, folder, _decoded(display, folder, content), hashlib.sha256(content).hexdigest()
     )
+    beginning = f"start with `schema: {schema}`"
     root = parse(document, beginning=beginning)
     if not isinstance(root, Map):
         raise single_error(root.place, "the file must contain a mapping of keys to values", hint=beginning)

@@ -1,4 +1,4 @@
-"""The models of a sweep file, and its JSON Schema."""
+"""What a sweep varies: lists, ranges and distributions of values, and what is computed from its draws."""
 
 from __future__ import annotations
 
@@ -8,13 +8,15 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from uictest.plans.scenario import SCHEMA_DRAFT, SchemaGenerator, Slug, as_draft_07, quantity_definitions
-from uictest.plans.scenario.yaml import Inconsistency, Model
-from uictest.plans.sweeps.decimal_quantity import DecimalQuantity, DecimalQuantityField, common_unit
-from uictest.plans.sweeps.tail_model import KDryRequest, QuantileRequest, Quantiles
+from uictest.plans.scenario.parts.tail_requests import KDryRequest, QuantileRequest, Quantiles
+from uictest.plans.scenario.yaml import (
+    DecimalQuantity,
+    DecimalQuantityField,
+    Inconsistency,
+    Model,
+    common_unit,
+)
 
-SWEEP_SCHEMA: Final = "uictest/sweep/1"
-MOST_CASES: Final = 100_000_000
 MOST_POINTS: Final = 2**24
 FARTHEST_END: Final = 100_000
 """Deviations from the mean to the nearer end of a normal distribution, at most.
@@ -222,35 +224,18 @@ class Sample(Model):
             )
 
 
-class SweepFile(Model):
-    """A sweep: one scenario, run with many values of some of its parameters.
+class Vary(Model):
+    """What a sweep varies: one scenario, run with many values of some of its parameters.
 
-    The cases are all combinations of `grid`, `ranges`, the rows of `zip` and the points of `sample`.
+    The cases are all combinations of `matrix`, `ranges`, the rows of `zip` and the points of `sample`.
     """
 
-    schema_id: Literal["uictest/sweep/1"] = Field(
-        alias="schema", description="Format and version of the file: uictest/sweep/1."
-    )
-    name: Slug = Field(description="Name of the sweep; its results go into a folder of this name.")
-    title: str = Field(
-        default="", max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$", description="One line for people."
-    )
-    description: str = Field(
-        default="",
-        max_length=5000,
-        pattern=r"^[^\x00-\x08\x0b-\x1f\x7f]*$",
-        description="What the sweep is for.",
-    )
-    scenario: str = Field(description="Relative path of the scenario that is swept.")
-    case: str | None = Field(
-        default=None, description="Id of the case to vary, where the scenario has several."
-    )
-    grid: dict[str, Annotated[tuple[Any, ...], Field(min_length=1)]] | None = Field(
+    matrix: dict[str, Annotated[tuple[Any, ...], Field(min_length=1)]] | None = Field(
         default=None,
         description="Lists of values by dotted key; every combination is run, first key slowest.",
     )
     ranges: dict[str, Range] | None = Field(
-        default=None, description="Ranges of numbers by dotted key, combined like lists of `grid`."
+        default=None, description="Ranges of numbers by dotted key, combined like lists of `matrix`."
     )
     zip: dict[str, Annotated[tuple[Any, ...], Field(min_length=1)]] | None = Field(
         default=None, description="Lists of equal length by dotted key; values at the same place go together."
@@ -268,18 +253,3 @@ class SweepFile(Model):
     def quantile_requests(self) -> tuple[QuantileRequest, ...]:
         """The quantiles as a list, whether the file has one request or several."""
         return (self.quantiles,) if isinstance(self.quantiles, QuantileRequest) else self.quantiles or ()
-
-
-_KINDS: Final = ("acceleration", "share")
-"""Kinds of the quantities that stand in a sweep file itself."""
-
-
-def sweep_schema() -> dict[str, Any]:
-    """Return the schema of ``uictest/sweep/1``, every field described."""
-    schema = SweepFile.model_json_schema(
-        by_alias=True, ref_template="#/definitions/{model}", schema_generator=SchemaGenerator
-    )
-    definitions = {**schema.pop("$defs"), **quantity_definitions(_KINDS)}
-    schema = {"$schema": SCHEMA_DRAFT, **schema, "title": "uictest sweep", "definitions": definitions}
-    draft: dict[str, Any] = as_draft_07(schema)
-    return draft

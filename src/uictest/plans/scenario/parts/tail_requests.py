@@ -1,4 +1,4 @@
-"""The models of what a sweep file asks of its draws: quantiles of measures, and K_dry."""
+"""What a sweep asks of its draws: quantiles of measures, and K_dry."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from pydantic_core import PydanticCustomError
 
 from uictest.core.measures import MEASURES, STOP_COLUMNS, WHEELSET_COLUMNS, StopColumn, column_unit
 from uictest.core.statistics import Side
-from uictest.plans.scenario import WHEELSET_NUMBERS
+from uictest.plans.scenario.parts.wheelsets import NUMBERS
 from uictest.plans.scenario.yaml import Model, Quantity, default, of_kind, quoted, suggestion
 
 DECELERATION: Final = "m/s2"
 _COLUMNS: Final = frozenset(
-    {*STOP_COLUMNS, *(f"{name}_{number}" for name in WHEELSET_COLUMNS for number in WHEELSET_NUMBERS)}
+    {*STOP_COLUMNS, *(f"{name}_{number}" for name in WHEELSET_COLUMNS for number in NUMBERS)}
 )
 _COLUMN_OF: Final = {
     name: each.column.name for name, each in MEASURES.items() if isinstance(each.column, StopColumn)

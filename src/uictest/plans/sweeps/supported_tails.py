@@ -6,21 +6,22 @@ from collections.abc import Iterator
 from typing import Final
 
 from uictest.plans.scenario import CONDITION
-from uictest.plans.scenario.yaml import Map, ScenarioErrors, diagnose, quoted
+from uictest.plans.scenario.yaml import ScenarioErrors, diagnose, quoted
 from uictest.plans.sweeps.plan import Plan, SampledGroup, random_sample, scenarios_with_each
+from uictest.plans.sweeps.sweep_file import SweepFile
 
 DRY: Final = "dry"
 """Name of the rail condition that K_dry is defined for."""
 _RANDOM: Final = "a quantile is bounded from independent draws: write `sample: {method: random, ...}`"
 
 
-def reject_unsupported_tails(plan: Plan, tree: Map) -> None:
+def reject_unsupported_tails(plan: Plan, file: SweepFile) -> None:
     """Raise ScenarioErrors where quantiles or K_dry lack a random sample, or K_dry a dry rail.
 
-    `tree` is the sweep file, at whose keys the errors are reported.
+    The errors are reported at the keys of the file.
     """
     diagnostics = [
-        diagnose(tree.entries[section].key, message, section, hint)
+        diagnose(file.tree.entries[section].key, message, file.key(section), hint)
         for section, is_requested in (("quantiles", plan.quantiles), ("k_dry", plan.k_dry is not None))
         if is_requested
         for message, hint in _problems(plan, of_dry_rail=section == "k_dry")

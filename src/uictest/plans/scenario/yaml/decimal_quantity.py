@@ -11,7 +11,7 @@ from typing import Annotated, Any, Final
 from pydantic import PlainSerializer, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
-from uictest.plans.scenario.yaml import quoted
+from uictest.plans.scenario.yaml.tree import quoted
 
 _FORM = re.compile(
     r"\s*([-+]?(?:[0-9]{1,15}(?:\.[0-9]{0,15})?|\.[0-9]{1,15})(?:[eE][-+]?[0-9]{1,2})?)(?![0-9.])\s*(.*?)\s*",

@@ -1,0 +1,131 @@
+"""A sweep is a scenario that says under `vary` what varies; what 0.2 wrote comes out the same."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uictest.plans.scenario import ScenarioErrors, load
+from uictest.plans.sweeps import Plan, load_sweep
+
+from ..conftest import SCENARIO
+
+SECTIONS = """\
+matrix:
+  brake.command: [80 %, 100 %]
+ranges:
+  rail.friction: {first: 0.06, last: 0.10, step: 0.02}
+zip:
+  seed: [1, 2]
+  rig.wsp: [active, bypassed]
+sample: {size: 3, seed: 5, parameters: {brake.system.disc.pad_friction: {uniform: [0.3, 0.4]}}}
+quantiles: {measure: braking_distance, levels: [50 %]}
+"""
+HEAD = "schema: uictest/scenario/1\nname: study\nextends: stop.yaml\n"
+Write = Callable[..., Plan]
+
+
+@pytest.fixture
+def write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Write:
+    """The plan of a sweep file with the given text."""
+    monkeypatch.chdir(tmp_path)
+    Path("stop.yaml").write_text(SCENARIO)
+
+    def to(text: str, *overrides: str) -> Plan:
+        Path("study.sweep.yaml").write_text(text)
+        return load_sweep(Path("study.sweep.yaml"), overrides)
+
+    return to
+
+
+def vary(sections: str = SECTIONS) -> str:
+    return "vary:\n" + "".join(f"  {line}\n" for line in sections.splitlines())
+
+
+def cases(plan: Plan) -> list[tuple[str, list[str]]]:
+    indices = np.arange(plan.size)
+    return [(key, column.texts) for key, column in plan.settings(indices).items()]
+
+
+def test_a_file_of_0_2_has_the_same_cases(write: Write) -> None:
+    now = write(HEAD + vary())
+    old_sections = SECTIONS.replace("matrix:", "grid:")
+    before = write("schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\n" + old_sections)
+    assert cases(before) == cases(now)
+    assert before.ids(np.arange(before.size)) == now.ids(np.arange(now.size))
+    assert before.quantiles == now.quantiles
+    assert before.base.scenario.model_copy(update={"name": "study"}) == now.base.scenario.model_copy(
+        update={"extends": before.base.scenario.extends}
+    )
+    assert "extends: stop.yaml" in before.written_now
+    assert not now.written_now
+
+
+def test_a_case_that_0_2_names_has_its_values(write: Write) -> None:
+    Path("stop.yaml").write_text(SCENARIO + "matrix: {brake.command: [60 %, 90 %]}\n")
+    old = "schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\ngrid: {seed: [1, 2]}\n"
+    plan = write(f"{old}case: stop[command=90]\n")
+    assert plan.base.scenario.brake.command == 0.9
+    assert "the values of stop[command=90]" in plan.written_now
+    with pytest.raises(ScenarioErrors, match="has 2 cases, a sweep starts from one"):
+        write(old)
+
+
+def test_lists_of_cases_that_a_sweep_inherits_do_not_count(write: Write) -> None:
+    Path("stop.yaml").write_text(SCENARIO + "brake: {command: 70 %}\nmatrix: {brake.command: [60 %, 90 %]}\n")
+    plan = write(HEAD + vary("matrix: {seed: [1, 2]}"))
+    assert plan.size == 2
+    assert plan.base.scenario.brake.command == 0.7
+
+
+def test_a_sweep_may_extend_a_sweep(write: Write) -> None:
+    Path("wide.sweep.yaml").write_text(HEAD + vary("matrix: {seed: [1, 2], brake.command: [80 %, 100 %]}"))
+    text = HEAD.replace("stop.yaml", "wide.sweep.yaml")
+    assert write(text + vary("matrix: {seed: [1, 2, 3]}")).size == 6
+
+
+def test_what_it_asks_of_its_draws_does_not_change_which_cases_there_are(write: Write) -> None:
+    plan = write(HEAD + vary())
+    other_level = write(HEAD + vary(SECTIONS.replace("50 %", "40 %")))
+    other_seed = write(HEAD + vary(SECTIONS.replace("seed: 5", "seed: 6")))
+    other_stop = write(HEAD + "initial_speed: 31 km/h\n" + vary())
+    assert plan.cases_sha256 == other_level.cases_sha256
+    assert len({plan.cases_sha256, other_seed.cases_sha256, other_stop.cases_sha256}) == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "message"),
+    [
+        ("", (1, ""), "nothing varies"),
+        ("vary: {}\n", (4, ""), "give values under vary.matrix, vary.ranges, vary.zip, vary.sample"),
+        ("vary: friction\n", (4, "vary"), "expected a mapping, found a text"),
+        ("vary: {grid: {seed: [1]}}\n", (4, "vary.grid"), "unknown key 'grid'"),
+        ("vary: {matrix: {seed: {first: 1, last: 2, step: 1}}}\n", (4, "vary.matrix.seed"), "under `ranges`"),
+        ("vary: {ranges: {seed: {first: 1, last: 2}}}\n", (4, "vary.ranges.seed"), "'step' or 'count'"),
+        ("vary: {matrix: {seed: [1]}}\nmatrix: {seed: [1]}\n", (5, "matrix"), "no 'matrix' beside 'vary'"),
+        ("ranges: {seed: {first: 1, last: 2, step: 1}}\n", (4, "ranges"), "no 'ranges' beside 'vary'"),
+        ("vary: {matrix: {seed: [1]}}\nrepeat: 2\n", (5, "repeat"), "repeats its stop 2 times"),
+        ("vary: {matrix: {vary.matrix: [1]}}\n", (4, "vary.matrix.vary.matrix"), "cannot vary"),
+        (
+            "vary: {matrix: {seed: [1]}, zip: {seed: [1]}}\n",
+            (4, "vary.zip.seed"),
+            "vary.matrix as well",
+        ),
+    ],
+)
+def test_a_mistake_is_told_at_its_key(write: Write, text: str, place: tuple[int, str], message: str) -> None:
+    with pytest.raises(ScenarioErrors, match=message) as caught:
+        write(HEAD + text)
+    first = caught.value.diagnostics[0]
+    assert (first.line, first.key) == place or (not place[1] and first.line)
+
+
+def test_a_sweep_is_not_run_as_a_scenario(write: Write) -> None:
+    write(HEAD + vary())
+    with pytest.raises(ScenarioErrors, match="run it with `uictest sweep`"):
+        load([Path("study.sweep.yaml")])
+    with pytest.raises(ScenarioErrors, match="'vary' belongs to the file"):
+        load([Path("stop.yaml")], ["vary.matrix.seed=1"])
