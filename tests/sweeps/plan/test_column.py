@@ -8,7 +8,7 @@ from hypothesis import given, strategies as st
 
 from uictest.core.units import KINDS
 from uictest.plans.scenario.yaml import parse_quantity
-from uictest.plans.scenario.yaml.decimal_quantity import quantity_text, rounded_decimal, rounded_text
+from uictest.plans.scenario.yaml.quantities import quantity_text, rounded_decimal, rounded_text
 from uictest.plans.sweeps.column import ParameterValue, drawn_column, listed_column
 
 DRAWN = (

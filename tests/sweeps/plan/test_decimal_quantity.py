@@ -5,7 +5,7 @@ from decimal import Decimal
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.plans.scenario.yaml.decimal_quantity import (
+from uictest.plans.scenario.yaml.quantities import (
     DecimalQuantity,
     evenly_spaced,
     parse_decimal_quantity,

@@ -9,7 +9,7 @@ import pytest
 
 from uictest.analysis.summaries import FrontierError, FrontierSearch
 from uictest.analysis.summaries.frontier import Verdicts
-from uictest.plans.scenario.yaml.decimal_quantity import parse_decimal_quantity
+from uictest.plans.scenario.yaml.quantities import parse_decimal_quantity
 from uictest.plans.sweeps import Plan
 from uictest.report import FrontierScan, WrittenValue
 

@@ -40,10 +40,12 @@ from .identifiers import (
     value_label as value_label,
 )
 from .json_schema import (
+    PART_MODELS as PART_MODELS,
     SCHEMA_DRAFT as SCHEMA_DRAFT,
     SchemaGenerator as SchemaGenerator,
     as_draft_07 as as_draft_07,
     json_schema as json_schema,
+    part_schema as part_schema,
     quantity_definitions as quantity_definitions,
     schema_of as schema_of,
 )
@@ -63,7 +65,6 @@ from .part_keys import (
     numbers as numbers,
     with_default_parts as with_default_parts,
 )
-from .part_schema import PART_MODELS as PART_MODELS, part_schema as part_schema
 from .parts.brake import BrakeSystem as BrakeSystem, DiscRing as DiscRing
 from .parts.compensation import (
     COMPENSATION_SETTINGS as COMPENSATION_SETTINGS,

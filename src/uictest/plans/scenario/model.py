@@ -13,14 +13,17 @@ from uictest.core.physics import LONGEST_DELAY_CYCLES
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.faults import MOST_FAULTS
 from uictest.plans.scenario.compensation_fit import unresolved_air, unresolved_cylinder
-from uictest.plans.scenario.faults import impossible_faults, impossible_pole_wheels, line_leak, tank_leak
 from uictest.plans.scenario.feasibility import (
     RIG_CHECKS,
     BrakedWheelset,
     braking_force,
+    impossible_faults,
+    impossible_pole_wheels,
     largest_clamping_force,
+    line_leak,
     rig_checks,
     stopping_time_at_least,
+    tank_leak,
 )
 from uictest.plans.scenario.parts.compensation import COMPENSATION_SETTINGS
 from uictest.plans.scenario.parts.controller import Controller

@@ -8,7 +8,7 @@ from itertools import chain
 from pathlib import Path
 from typing import Final
 
-from uictest.plans.scenario import LONGEST, Files, Parts, Roots, Sample, sets_friction, short_keys
+from uictest.plans.scenario import CONDITION, LONGEST, Files, Parts, Roots, Sample, sets_friction, short_keys
 from uictest.plans.scenario.yaml import (
     FIXED,
     Diagnostic,
@@ -36,9 +36,54 @@ from uictest.plans.sweeps.base_case import (
     survey_on_command_line,
 )
 from uictest.plans.sweeps.group_reader import GroupReader, range_node
-from uictest.plans.sweeps.plan import Group, ListedGroup, Plan
-from uictest.plans.sweeps.supported_tails import reject_unsupported_tails
+from uictest.plans.sweeps.plan import (
+    Group,
+    ListedGroup,
+    Plan,
+    SampledGroup,
+    random_sample,
+    scenarios_with_each,
+)
 from uictest.plans.sweeps.sweep_file import SweepFile, read_sweep_file
+
+DRY: Final = "dry"
+"""Name of the rail condition that K_dry is defined for."""
+_RANDOM: Final = "a quantile is bounded from independent draws: write `sample: {method: random, ...}`"
+
+
+def reject_unsupported_tails(plan: Plan, file: SweepFile) -> None:
+    """Raise ScenarioErrors where quantiles or K_dry lack a random sample, or K_dry a dry rail.
+
+    The errors are reported at the keys of the file.
+    """
+    diagnostics = [
+        diagnose(file.tree.entries[section].key, message, file.key(section), hint)
+        for section, is_requested in (("quantiles", plan.quantiles), ("k_dry", plan.k_dry is not None))
+        if is_requested
+        for message, hint in _problems(plan, of_dry_rail=section == "k_dry")
+    ]
+    if diagnostics:
+        raise ScenarioErrors(diagnostics)
+
+
+def _problems(plan: Plan, *, of_dry_rail: bool) -> Iterator[tuple[str, str]]:
+    """Yield what is wrong and what to write instead."""
+    last = plan.groups[-1]
+    if not isinstance(last, SampledGroup):
+        yield "the values of this sweep are listed, not drawn", _RANDOM
+    elif random_sample(plan) is None:
+        yield f"points of method {last.method} are not independent of each other", _RANDOM
+    if of_dry_rail:
+        for name in dict.fromkeys(_conditions(plan)):
+            if name != DRY:
+                hint = "write `rail: {condition: dry}` in the scenario, and no other condition in the sweep"
+                yield f"K_dry holds for dry rail; the rail condition is {quoted(name)}", hint
+
+
+def _conditions(plan: Plan) -> Iterator[str]:
+    """Yield the names of the rail conditions that the cases have."""
+    yield from (scenario.rail.condition.name for scenario in scenarios_with_each(plan, CONDITION))
+
 
 MOST_CASES: Final = 100_000_000
 _SECTIONS: Final = ("matrix", "ranges", "zip")

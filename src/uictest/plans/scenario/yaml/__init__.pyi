@@ -1,15 +1,3 @@
-from .assignment import FIXED as FIXED, with_value as with_value
-from .decimal_quantity import (
-    DecimalQuantity as DecimalQuantity,
-    DecimalQuantityField as DecimalQuantityField,
-    common_unit as common_unit,
-    evenly_spaced as evenly_spaced,
-    parse_decimal_quantity as parse_decimal_quantity,
-    quantity_text as quantity_text,
-    rounded_decimal as rounded_decimal,
-    rounded_text as rounded_text,
-    spaced_by_step as spaced_by_step,
-)
 from .diagnostics import (
     Diagnostic as Diagnostic,
     ScenarioErrors as ScenarioErrors,
@@ -17,14 +5,6 @@ from .diagnostics import (
     diagnose as diagnose,
     in_reading_order as in_reading_order,
     single_error as single_error,
-)
-from .kinds import (
-    BENCH_SCHEMA as BENCH_SCHEMA,
-    SCENARIO_SCHEMA as SCENARIO_SCHEMA,
-    SERIES_SCHEMA as SERIES_SCHEMA,
-    SWEEP_SCHEMA as SWEEP_SCHEMA,
-    VALIDATION_SCHEMA as VALIDATION_SCHEMA,
-    require_schema as require_schema,
 )
 from .model import (
     NAME_PATTERN as NAME_PATTERN,
@@ -40,18 +20,29 @@ from .model import (
     quantities_in as quantities_in,
 )
 from .overrides import (
+    FIXED as FIXED,
     Override as Override,
     apply_overrides as apply_overrides,
     parse_overrides as parse_overrides,
+    with_value as with_value,
     without_axis as without_axis,
 )
 from .parsing import parse as parse, scalar_value as scalar_value
 from .quantities import (
     DEFAULT_SOURCE as DEFAULT_SOURCE,
     SCENARIO_SOURCE as SCENARIO_SOURCE,
+    DecimalQuantity as DecimalQuantity,
+    DecimalQuantityField as DecimalQuantityField,
     Quantity as Quantity,
     QuantityError as QuantityError,
+    common_unit as common_unit,
+    evenly_spaced as evenly_spaced,
+    parse_decimal_quantity as parse_decimal_quantity,
     parse_quantity as parse_quantity,
+    quantity_text as quantity_text,
+    rounded_decimal as rounded_decimal,
+    rounded_text as rounded_text,
+    spaced_by_step as spaced_by_step,
 )
 from .quantity_field import (
     QUANTITY_KEYWORD as QUANTITY_KEYWORD,
@@ -61,13 +52,19 @@ from .quantity_field import (
     written as written,
 )
 from .reading import (
+    BENCH_SCHEMA as BENCH_SCHEMA,
     LIBRARY as LIBRARY,
+    SCENARIO_SCHEMA as SCENARIO_SCHEMA,
+    SERIES_SCHEMA as SERIES_SCHEMA,
+    SWEEP_SCHEMA as SWEEP_SCHEMA,
+    VALIDATION_SCHEMA as VALIDATION_SCHEMA,
     display_name as display_name,
     inherit as inherit,
     is_file as is_file,
     read_document as read_document,
     read_file as read_file,
     read_library as read_library,
+    require_schema as require_schema,
     unreadable_error as unreadable_error,
     whole_file as whole_file,
 )
