@@ -5,14 +5,21 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, Final
 
 import typer
 
 from uictest import runs
+from uictest.core.document import Column, Table
 from uictest.plans import scenario, series
-from uictest.report import TableColumn, aligned, columns_not_shown, fitted, printable
+from uictest.report import printable, table_lines
 from uictest.running import campaign
+
+_CASES: Final[tuple[Column[scenario.Case], ...]] = (
+    Column(heading="case", text=lambda case: case.id, wraps=True),
+    Column(heading="title", text=lambda case: case.scenario.title, rank=1, wraps=True),
+    Column(heading="tags", text=lambda case: " ".join(case.scenario.tags), rank=2, wraps=True),
+)
 
 
 def select_by_options(
@@ -52,15 +59,7 @@ def case_lines(cases: Sequence[scenario.Case], *, described: bool = False) -> st
 
 def case_table(cases: Sequence[scenario.Case], width: int) -> Iterator[str]:
     """Yield ids, titles and tags as a table in lines of at most so many characters."""
-    columns = [
-        TableColumn("case", [printable(case.id) for case in cases], wraps=True),
-        TableColumn("title", [printable(case.scenario.title) for case in cases], rank=1, wraps=True),
-        TableColumn("tags", [printable(" ".join(case.scenario.tags)) for case in cases], rank=2, wraps=True),
-    ]
-    shown, hidden = fitted(columns, width)
-    yield from aligned(shown)
-    if hidden:
-        yield columns_not_shown(hidden, "--format json has them")
+    return table_lines(Table(_CASES, cases, more="--format json has them"), width)
 
 
 def _described(case: scenario.Case) -> str:

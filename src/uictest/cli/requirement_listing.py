@@ -7,13 +7,14 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Final, Literal
 
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import PlainFormat
 from uictest.cli.output import data, message, terminal_width
+from uictest.core.document import Column, Table
 from uictest.plans import scenario, series
-from uictest.report import TableColumn, aligned, columns_not_shown, counted, counted_in, fitted, printable
+from uictest.report import counted, counted_in, printable, table_lines
 from uictest.running import campaign
 
 Status = Literal["covered", "uncovered", "unknown"]
@@ -60,28 +61,31 @@ def _status(requirement: campaign.CoveredRequirement, listed: frozenset[str] | N
     return "covered" if requirement.covered else "uncovered"
 
 
-def _lines(rows: Sequence[tuple[Status, campaign.CoveredRequirement]], width: int | None) -> Iterator[str]:
+def _lines(rows: Sequence[_Row], width: int | None) -> Iterator[str]:
     """Yield a table for a terminal, else a line per requirement with tabs between its texts."""
-    texts = [(status, each.id, "; ".join(map(_verifier_text, each.verifiers))) for status, each in rows]
     if width is None:
-        yield from ("\t".join(map(printable, line)) for line in texts)
-        return
-    statuses, ids, verifiers = (list(map(printable, column)) for column in zip(*texts, strict=True))
-    columns = [
-        TableColumn("status", statuses),
-        TableColumn("requirement", ids, wraps=True),
-        TableColumn("verified by", verifiers, rank=1, wraps=True),
-    ]
-    fitting, hidden = fitted(columns, width)
-    yield from aligned(fitting)
-    if hidden:
-        yield columns_not_shown(hidden, "--format json has them")
+        yield from ("\t".join(printable(column.text(row)) for column in _COLUMNS) for row in rows)
+    else:
+        yield from table_lines(Table(_COLUMNS, rows, more="--format json has them"), width)
 
 
 def _verifier_text(verifier: campaign.Verifier) -> str:
     of_profile = f" of {verifier.profile}" if verifier.profile else ""
     places = counted_in(len(verifier.cases), len(verifier.series))
     return f"{verifier.kind} {verifier.name}{of_profile} ({places})"
+
+
+_Row = tuple[Status, "campaign.CoveredRequirement"]
+_COLUMNS: Final[tuple[Column[_Row], ...]] = (
+    Column(heading="status", text=lambda row: row[0]),
+    Column(heading="requirement", text=lambda row: row[1].id, wraps=True),
+    Column(
+        heading="verified by",
+        text=lambda row: "; ".join(map(_verifier_text, row[1].verifiers)),
+        rank=1,
+        wraps=True,
+    ),
+)
 
 
 def _form(status: Status, requirement: campaign.CoveredRequirement) -> dict[str, Any]:

@@ -147,15 +147,7 @@ from .terminal.document_lines import (
     table_lines as table_lines,
     titled_lines as titled_lines,
 )
-from .terminal.fitted_columns import (
-    TableColumn as TableColumn,
-    aligned as aligned,
-    aligned_rows as aligned_rows,
-    columns_not_shown as columns_not_shown,
-    fitted as fitted,
-    table_width as table_width,
-    wrapped_name as wrapped_name,
-)
+from .terminal.fitted_columns import aligned_rows as aligned_rows, wrapped_name as wrapped_name
 from .terminal.verdict_table import (
     case_line as case_line,
     criterion_lines as criterion_lines,
