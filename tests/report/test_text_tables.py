@@ -11,12 +11,12 @@ from markdown_it import MarkdownIt
 from uictest.core.document import Column, Document, Lines, Table
 from uictest.report import csv_text
 from uictest.report.escaping import csv_cell
-from uictest.report.text_tables import MarkdownTable, code, document_markdown, number_cell, prose, row
+from uictest.report.text_tables import code, document_markdown, markdown_table, number_cell, prose
 
 _READER = MarkdownIt("commonmark", {"html": True}).enable("table")
 _TEXT = st.text(max_size=50) | st.sampled_from(["`|\\``", "<img src=x>", "[a](javascript:b)", "~~e~~", "#1"])
 _NAMES: Column[str] = Column(heading="name", text=str, literal=True)
-_TEXTS: Column[str] = Column(heading="text", text=str, stands_out=lambda text: len(text) > 20)
+_TEXTS: Column[str] = Column(heading="text", text=str, tone=lambda text: "bad" if len(text) > 20 else None)
 
 
 def _document(texts: list[str]) -> Document:
@@ -31,8 +31,12 @@ def _kinds(text: str) -> set[str]:
     return {each.type for token in tokens for each in (token, *(token.children or []))}
 
 
-def _table(rows: list[str]) -> MarkdownTable:
-    return MarkdownTable(("case", "number_cell"), "lr", rows, "more are elsewhere.")
+def _table(rows: list[tuple[str, str]]) -> Table:
+    columns: list[Column[tuple[str, str]]] = [
+        Column(heading="case", text=lambda row: row[0]),
+        Column(heading="number", text=lambda row: row[1], right=True),
+    ]
+    return Table(columns, rows, more="more are elsewhere.")
 
 
 @given(st.lists(st.fixed_dictionaries({}, optional={"a": _TEXT, "=b": _TEXT})))
@@ -49,23 +53,23 @@ def test_csv_has_exact_numbers_and_an_empty_cell_where_there_is_none() -> None:
 
 
 def test_a_table_says_which_columns_are_figures() -> None:
-    assert _table([row(["a", "1"])]).within(1000) == "| case | number_cell |\n|---|--:|\n| a | 1 |\n"
+    assert markdown_table(_table([("a", "1")])) == "| case | number |\n|---|--:|\n| a | 1 |\n"
 
 
 def test_rows_without_room_are_counted() -> None:
-    lines = _table([row(["é" * 40, str(n)]) for n in range(10)]).within(600).splitlines()
+    lines = markdown_table(_table([("é" * 40, str(n)) for n in range(10)]), 600).splitlines()
     assert lines[-1] == f"{10 - len(lines[2:-2])} more are elsewhere."
 
 
 def test_without_rows_a_table_shows_its_columns() -> None:
-    assert _table([]).within(1000) == "| case | number_cell |\n|---|--:|\n"
+    assert markdown_table(_table([])) == "| case | number |\n|---|--:|\n"
 
 
 @given(st.lists(st.text(max_size=50)), st.integers(-100, 3000))
 def test_a_table_never_takes_more_room_than_there_is(texts: list[str], room: int) -> None:
-    rows = [row([text, "1"]) for text in texts]
-    if rows:
-        assert len(_table(rows).within(room).encode()) <= max(room, 0)
+    if texts:
+        shown = markdown_table(_table([(text, "1") for text in texts]), room)
+        assert len(shown.encode()) <= max(room, 0)
 
 
 @given(st.text())

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, Final, overload
 from uictest import report, runs
 from uictest.api.arguments import PathName
 from uictest.core import measures
-from uictest.core.document import Data
+from uictest.core.document import Column, Data, Table
 from uictest.core.recording import Recording, read_parquet
-from uictest.judging import evaluation, series
+from uictest.judging import evaluation
 from uictest.judging.series import SeriesResult
 from uictest.plans import scenario
 from uictest.plans.scenario.yaml import suggestion
@@ -66,39 +66,27 @@ def _column(values: Sequence[Any]) -> Any:
 
 
 _MOST_ROWS: Final = 50
-_COLOURS: Final = {"good": "#1a7f37", "bad": "#cf222e", "odd": "#8250df"}
-_MEASURES: Final = {"braking_distance_m": "distance, m", "braking_time_s": "time, s"}
-"""Column of measures -> heading."""
+_MEASURES: Final = 2
+"""Measures in the table: distance and time."""
 
 
 def verdict_html(content: report.RunContent) -> str:
     """Return the counts of a run and one row for each case, those not as expected first. Text is escaped."""
+
+    def word(judged: Any) -> str:
+        return (report.series_word if isinstance(judged, SeriesResult) else report.result_word)(judged)
+
+    columns: list[Column[Any]] = [
+        Column(heading="case", text=lambda judged: judged.id),
+        Column(heading="verdict", text=word, tone=lambda judged: report.tone(word(judged))),
+        *report.measure_columns(content.results)[:_MEASURES],
+        Column(heading="reason", text=lambda judged: "" if judged.met else judged.reason),
+    ]
     ranked = sorted(content.results, key=lambda result: result.met)
-    rows = [*(_series_row(each) for each in content.series), *map(_case_row, ranked[:_MOST_ROWS])]
+    rows = [*content.series, *ranked[:_MOST_ROWS]]
     more = len(ranked) - _MOST_ROWS
     note = f"<p>and {report.counted(more, 'more case')}: <code>frame()</code> has all</p>" if more > 0 else ""
-    heads = "".join(f"<th>{escape(head)}</th>" for head in ("case", "verdict", *_MEASURES.values(), "reason"))
-    table = f"<table><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
-    return f"<p>{escape(content.tally)}</p>{table if rows else ''}{note}"
-
-
-def _case_row(result: evaluation.CaseResult) -> str:
-    numbers = [report.number((result.measures or {}).get(name)) for name in _MEASURES]
-    return _row(result.id, report.result_word(result), numbers, "" if result.met else result.reason)
-
-
-def _series_row(result: series.SeriesResult) -> str:
-    word = report.series_word(result)
-    return _row(result.id, word, ["-"] * len(_MEASURES), "" if result.met else result.reason)
-
-
-def _row(name: str, word: str, numbers: Sequence[str], reason: str) -> str:
-    coloured = f'<td style="color:{_COLOURS[report.tone(word)]}">{escape(word)}</td>'
-    return f"<tr>{_cells([name])}{coloured}{_cells(numbers)}{_cells([reason])}</tr>"
-
-
-def _cells(texts: Iterable[str]) -> str:
-    return "".join(f"<td>{escape(report.printable(text))}</td>" for text in texts)
+    return f"<p>{escape(content.tally)}</p>{report.html_table(Table(columns, rows)) if rows else ''}{note}"
 
 
 _SHOWN = 10

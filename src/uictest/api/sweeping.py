@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, Self
+from typing import TYPE_CHECKING, Final, Literal, Self
 
 from uictest import report, runs
 from uictest.api.arguments import (
@@ -20,6 +20,7 @@ from uictest.api.arguments import (
 )
 from uictest.api.results import with_units
 from uictest.core import files
+from uictest.core.document import Column, Table
 from uictest.plans import sweeps
 from uictest.running import chunked
 from uictest.runs import history
@@ -80,13 +81,16 @@ class SweepResults:
         return "\n".join([f"{self.result.name}: {self.tally}", *map(report.printable, lines)])
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{escape(case.id)}</td><td>{escape(case.outcome)}</td><td>{escape(case.reason)}</td></tr>"
-            for case in self.result.missed
-        )
-        head = "<tr><th>not as expected</th><th>outcome</th><th>reason</th></tr>"
-        table = f"<table><thead>{head}</thead><tbody>{rows}</tbody></table>" if rows else ""
+        missed = Table(_MISSED, self.result.missed)
+        table = report.html_table(missed) if missed.rows else ""
         return f"<p>{escape(self.result.name)}: {escape(self.tally)}</p>{table}"
+
+
+_MISSED: Final[tuple[Column[report.MissedCase], ...]] = (
+    Column(heading="not as expected", text=lambda case: case.id),
+    Column(heading="outcome", text=lambda case: case.outcome),
+    Column(heading="reason", text=lambda case: case.reason),
+)
 
 
 def sweep(

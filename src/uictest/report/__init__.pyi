@@ -1,3 +1,4 @@
+from .case_table import measure_columns as measure_columns
 from .content import (
     DRAWN as DRAWN,
     MOST_DRAWN as MOST_DRAWN,
@@ -157,7 +158,12 @@ from .terminal.verdict_table import (
     part_lines as part_lines,
     verdict_table as verdict_table,
 )
-from .text_tables import csv_text as csv_text, document_markdown as document_markdown, prose as prose
+from .text_tables import (
+    csv_text as csv_text,
+    document_markdown as document_markdown,
+    html_table as html_table,
+    prose as prose,
+)
 from .traces.overlay_svg import overlay_svg as overlay_svg
 from .traces.quantities import (
     Panel as Panel,

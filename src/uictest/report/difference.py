@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from uictest.core import measures
+from uictest.core.document import Column, Table
 from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.traces.quantities import WHEELSETS
@@ -86,6 +87,23 @@ def difference_sentence(difference: Difference) -> str:
         )
         sentence += f"; deviation {deviation}, tolerance {allowed}"
     return printable(f"{sentence} ({difference.remark})" if difference.remark else sentence)
+
+
+_COLUMNS: Final[tuple[Column[Difference], ...]] = (
+    Column(heading="case", text=lambda each: each.case, literal=True),
+    Column(heading="quantity", text=lambda each: each.quantity, literal=True),
+    Column(heading="baseline", text=lambda each: side_text(each.first), right=True),
+    Column(heading="this run", text=lambda each: side_text(each.second), right=True),
+    Column(heading="deviation", text=lambda each: number(each.deviation), right=True),
+    Column(heading="tolerance", text=lambda each: number(each.allowed), right=True),
+    Column(heading="unit", text=lambda each: each.unit),
+    Column(heading="remark", text=lambda each: each.remark),
+)
+
+
+def differences_table(differences: Sequence[Difference], most: int | None = None) -> Table:
+    """Return quantities of a run that are out of the tolerance of its baseline."""
+    return Table(_COLUMNS, differences, more="more quantities are in `results.json`.", most=most)
 
 
 def wheelset_quantity(measure: str, wheelset: int) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import TYPE_CHECKING, Final, Literal
 
-from uictest.core.document import Cell
+from uictest.core.document import Cell, Tone
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.report.sheet import MOST_COLUMNS, Row
@@ -23,7 +23,7 @@ _NO_EVIDENCE: Final = frozenset({NOT_APPLICABLE, "skipped", "unexpected skip"})
 _MET: Final = frozenset({"pass", "expected fail", "expected invalid"})
 
 RequirementStatus = Literal["met", "not met", "not tested"]
-REQUIREMENT_TONES: Final = {"met": "good", "not met": "bad", "not tested": "odd"}
+REQUIREMENT_TONES: Final[dict[str, Tone]] = {"met": "good", "not met": "bad", "not tested": "odd"}
 
 
 @dataclass(frozen=True, slots=True)

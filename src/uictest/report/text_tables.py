@@ -7,7 +7,7 @@ import io
 import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from html import escape
 from typing import Any
 
 from uictest.core.document import Cell, Column, Document, Lines, Table
@@ -35,48 +35,7 @@ def _cell(value: Cell) -> str:
 _LONGEST = 300  # characters of one text in a cell
 _BACKTICKS = re.compile("`+")
 _ACTIVE = re.compile(r"[\\`*_{}\[\]<>#|~&@!$^]|:(?! |$)")
-_RULES = {"l": "---", "r": "--:"}
 _RESERVE = 200  # bytes kept for the line that says what was left out
-
-
-@dataclass(frozen=True, slots=True)
-class MarkdownTable:
-    """A table whose cells are Markdown already.
-
-    Args:
-        columns: their headings.
-        alignment: a letter for each column: `l` for texts, `r` for numbers.
-        rows: see `row`.
-        rest: what stands behind the number of rows that were left out, e.g. `more cases are in ...`.
-        most: rows that a reader is to be given, None for all.
-
-    """
-
-    columns: Sequence[str]
-    alignment: str
-    rows: Sequence[str]
-    rest: str = ""
-    most: int | None = None
-
-    def all(self) -> str:
-        """Return every row."""
-        return self._head + "".join(self.rows)
-
-    @property
-    def _head(self) -> str:
-        return row(self.columns) + f"|{'|'.join(_RULES[letter] for letter in self.alignment)}|\n"
-
-    def within(self, room: int) -> str:
-        """Return the table in at most so many bytes; empty where there is no room for a single row.
-
-        Where rows were left out, a last line says how many.
-        """
-        head = self._head
-        shown = list(_fitting(self.rows[: self.most], room - len(head.encode()) - _RESERVE))
-        if not shown and self.rows:
-            return ""
-        left_out = len(self.rows) - len(shown)
-        return head + "".join(shown) + (f"\n{left_out} {self.rest}\n" if left_out else "")
 
 
 def document_markdown(document: Document, limit: int | None = None, level: int = 1) -> str:
@@ -105,28 +64,55 @@ def _section(section: Table | Lines, room: int | None) -> str:
     if not section.rows:
         return ""
     basis = f"{prose(section.basis)}\n\n" if section.basis else ""
-    table = markdown_table(section)
-    shown = table.all() if room is None else table.within(room - len(basis.encode()))
+    shown = markdown_table(section, None if room is None else room - len(basis.encode()))
     return f"{basis}{shown}" if shown else ""
 
 
-def markdown_table(table: Table, most: int | None = None, rest: str = "") -> MarkdownTable:
-    """Return a table as Markdown; `most` and `rest` as there."""
+def markdown_table(table: Table, room: int | None = None) -> str:
+    """Return a table in at most so many bytes; empty where there is no room for a single row.
+
+    Where rows were left out, a last line says how many.
+    """
     columns = [each for each, _ in table.texts]
     cells = [_markdown_cells(each, texts, table.rows) for each, texts in table.texts]
-    headings = [prose(each.heading.replace("\n", ", ")) for each in columns]
-    alignment = "".join("r" if each.right else "l" for each in columns)
+    rules = "|".join("--:" if each.right else "---" for each in columns)
+    head = f"{row(prose(each.heading.replace(chr(10), ', ')) for each in columns)}|{rules}|\n"
     rows = list(map(row, zip(*cells, strict=True)))
-    return MarkdownTable(headings, alignment, rows, rest or table.more, most)
+    fitting = rows[: table.most]
+    if room is not None:
+        fitting = list(_fitting(fitting, room - len(head.encode()) - _RESERVE))
+    if rows and not fitting:
+        return ""
+    left_out = len(rows) - len(fitting)
+    return head + "".join(fitting) + (f"\n{left_out} {table.more}\n" if left_out else "")
 
 
 def _markdown_cells(column: Column[Any], texts: Iterable[str], rows: Iterable[Any]) -> list[str]:
     cells = map(code if column.literal else prose, texts)
-    if column.stands_out is None:
+    if column.tone is None:
         return list(cells)
+    tones = map(column.tone, rows)
     return [
-        f"**{cell}**" if column.stands_out(item) else cell for cell, item in zip(cells, rows, strict=True)
+        f"**{cell}**" if tone in ("bad", "odd") else cell for cell, tone in zip(cells, tones, strict=True)
     ]
+
+
+_COLOURS = {"good": "#1a7f37", "bad": "#cf222e", "odd": "#8250df"}
+
+
+def html_table(table: Table) -> str:
+    """Return a table as HTML that needs no style sheet, for a notebook; texts are escaped."""
+    heads = "".join(f"<th>{escape(each.heading.replace(chr(10), ', '))}</th>" for each, _ in table.texts)
+    body = "".join(
+        f"<tr>{''.join(_html_cell(each, item) for each, _ in table.texts)}</tr>" for item in table.rows
+    )
+    return f"<table><thead><tr>{heads}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def _html_cell(column: Column[Any], item: object) -> str:
+    tone = column.tone(item) if column.tone else None
+    style = f' style="color:{_COLOURS[tone]}"' if tone else ""
+    return f"<td{style}>{escape(printable(column.text(item)))}</td>"
 
 
 def row(cells: Iterable[str]) -> str:

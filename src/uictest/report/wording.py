@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
-from typing import Final, Literal
+from typing import Final
 
+from uictest.core.document import Tone
 from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.repeat_wording import repeat_sentences
@@ -212,10 +213,6 @@ def result_word(result: evaluation.CaseResult) -> str:
 def line_word(word: str) -> str:
     """Return a word of `CASE_WORDS` without blanks: in a line for grep it is the first field."""
     return word.replace(" ", "-")
-
-
-Tone = Literal["good", "bad", "odd"]
-"""How a word is coloured. odd: an error of the program or the scenario, not of what was tested."""
 
 
 def tone(word: str) -> Tone:

@@ -14,6 +14,7 @@ from .table import (
     Document as Document,
     Lines as Lines,
     Table as Table,
+    Tone as Tone,
 )
 from .testcases import (
     Suite as Suite,

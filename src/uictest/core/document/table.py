@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Generic, NamedTuple, Self, TypeVar
+from typing import Any, Generic, Literal, NamedTuple, Self, TypeVar
 
 Cell = str | float | int | bool | None
+Tone = Literal["good", "bad", "odd"]
+"""How a word is coloured. odd: an error of the program or the scenario, not of what was tested."""
 Row = TypeVar("Row")
 
 
@@ -33,7 +35,7 @@ class Column(Generic[Row]):
         right: whether it holds numbers.
         wraps: whether its texts may continue on the next line.
         literal: whether a reader must see each letter of it: a name, an id.
-        stands_out: whether a reader must not overlook the text of a row.
+        tone: of the text of a row: a reader must not overlook one that is bad or odd.
     """
 
     heading: str
@@ -42,7 +44,7 @@ class Column(Generic[Row]):
     right: bool = False
     wraps: bool = False
     literal: bool = False
-    stands_out: Callable[[Row], bool] | None = None
+    tone: Callable[[Row], Tone | None] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +57,7 @@ class Table:
         title: what the table shows.
         basis: what it rests on, in one sentence.
         more: where the columns and rows are that a format has no room for.
+        most: rows that a reader of a summary is given; None: as many as there is room for.
         grouped_by: column whose texts stand above the rows that share them where a terminal is too narrow.
     """
 
@@ -64,6 +67,7 @@ class Table:
     basis: str = ""
     more: str = ""
     grouped_by: Column[Any] | None = None
+    most: int | None = None
 
     @property
     def texts(self) -> list[tuple[Column[Any], list[str]]]:

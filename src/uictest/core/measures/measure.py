@@ -59,17 +59,19 @@ class Overview:
     """How tables of cases show a column, shares in per cent, of wheelsets the largest value.
 
     Args:
-        heading: lines over it; `{}` stands for the train speed above which slides count.
+        heading: a line feed begins the unit; `{}` stands for the train speed above which slides count.
         digits: behind the decimal point.
-        few_digits: where a terminal shows it.
         rank: in which a narrow terminal leaves it out.
+        short: heading where it shows it; empty: the same.
+        few_digits: where it shows it; None: as many.
 
     """
 
     heading: str
     digits: int
-    few_digits: int
     rank: int
+    short: str = ""
+    few_digits: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import accumulate
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Final, NamedTuple
 
-from uictest.core.document import Column, Document, Lines, Table
+from uictest.core.document import Column, Document, Lines, Table, Tone
 from uictest.core.series_measures import SeriesValue
 from uictest.judging.series import SeriesResult, SeriesVerdict
 from uictest.report.escaping import printable
@@ -20,11 +20,12 @@ from uictest.report.series.wording import (
     short,
 )
 from uictest.report.terminal.document_lines import document_lines, table_lines
-from uictest.report.text_tables import markdown_table, prose
 from uictest.report.wording import counted, limits, quantity
 
+_TONES: Final[Mapping[str, Tone]] = {"pass": "good", "fail": "bad", "inconclusive": "odd"}
 _REMARKS: Final = {"fail": "fail", "inconclusive": "inconclusive", "not_applicable": "not applicable"}
-_REST: Final = "more rows are in `series-criteria.csv` and `results.json`."
+_MOST: Final = 300
+"""Rows and lines that a summary of a run gives to its series."""
 
 
 def comparison_table(results: Sequence[SeriesResult]) -> Table:
@@ -90,7 +91,7 @@ _CRITERIA: Final[tuple[Column[_Judged], ...]] = (
     Column(
         heading="verdict",
         text=lambda judged: judged.status,
-        stands_out=lambda judged: judged.status not in ("pass", "not applicable"),
+        tone=lambda judged: _TONES.get(judged.status),
     ),
     Column(
         heading="value",
@@ -133,21 +134,14 @@ def series_table(results: Sequence[SeriesResult], width: int) -> Iterator[str]:
         yield from (f"  {line}" for line in document_lines(document, width - 2))
 
 
-def series_markdown(results: Sequence[SeriesResult], limit: int) -> str:
-    """Return the series in at most so many bytes; empty without any."""
+def series_sections(results: Sequence[SeriesResult]) -> list[Table | Lines]:
+    """Return the comparison, the stops that count, and the criteria of every series; nothing without any."""
     if not results:
-        return ""
-    text = f"{markdown_table(comparison_table(results), rest=_REST).within(limit // 3)}\n"
-    counts = [f"- {prose(f'{result.id}: {line}')}" for result in results for line in _counts(result)]
-    text += f"{_within(counts, limit // 3)}\n"
-    criteria = Table((_SERIES, *_CRITERIA), [judged for result in results for judged in _judged(result)])
-    return f"{text}{markdown_table(criteria, rest=_REST).within(limit - len(text.encode()))}\n"
-
-
-def _within(lines: Sequence[str], limit: int) -> str:
-    """Return as many whole lines as fit into so many bytes, and how many do not."""
-    sizes = accumulate(len(line.encode()) + 1 for line in lines)
-    fitting = sum(size <= limit for size in sizes)
-    rest = len(lines) - fitting
-    more = [f"- {counted(rest, 'more line')} in `series-stops.csv` and `results.json`"] if rest else []
-    return "".join(f"{line}\n" for line in [*lines[:fitting], *more])
+        return []
+    counts = [f"{result.id}: {line}" for result in results for line in _counts(result)]
+    if (rest := len(counts) - _MOST) > 0:
+        counts[_MOST:] = [f"{counted(rest, 'more line')} in series-stops.csv and results.json"]
+    criteria = [judged for result in results for judged in _judged(result)]
+    more = "more rows are in `series-criteria.csv` and `results.json`."
+    compared = replace(comparison_table(results), more=more, most=_MOST)
+    return [compared, Lines(counts), Table((_SERIES, *_CRITERIA), criteria, more=more, most=_MOST)]

@@ -29,6 +29,7 @@ from uictest.report.sweep.wording import (
     swept_words,
 )
 from uictest.report.text_tables import number_cell
+from uictest.report.wording import tone
 
 _MOST_ROWS: Final = 30
 """Values of a parameter, or lines of the frontier, that a reader is shown."""
@@ -123,7 +124,7 @@ _MEASURES: Final[tuple[Column[MeasureHistogram], ...]] = (
     Column(heading="maximum", text=lambda each: number_cell(each.maximum, ".4g"), right=True),
 )
 _NOTABLE: Final[tuple[Column[NotableCase], ...]] = (
-    Column(heading="verdict", text=lambda case: case.word, stands_out=lambda case: not case.met),
+    Column(heading="verdict", text=lambda case: case.word, tone=lambda case: tone(case.word)),
     Column(heading="case", text=lambda case: case.id, literal=True),
     Column(heading="outcome", text=lambda case: case.outcome),
     Column(heading="distance, m", text=lambda case: number_cell(case.distance, ".1f"), right=True),
@@ -158,7 +159,7 @@ def _map_column(place: int, label: str) -> Column[_MapRow]:
         heading=label,
         text=lambda row: share_words(row.met[place], row.cases[place]),
         right=True,
-        stands_out=lambda row: row.met[place] != row.cases[place],
+        tone=lambda row: "good" if row.met[place] == row.cases[place] else "bad",
     )
 
 

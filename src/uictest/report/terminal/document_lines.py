@@ -42,7 +42,7 @@ def titled_lines(sections: Iterable[Table | Lines], width: int | None) -> Iterat
 
 def table_lines(table: Table, width: int | None) -> Iterator[str]:
     """Yield the lines of a table; the last one names the columns left out and where they are."""
-    columns = _columns(table)
+    columns = table_columns(table)
     if width is None or table.grouped_by is None or table_width(columns) <= width:
         shown, hidden = fitted(columns, width)
         yield from aligned(shown)
@@ -61,11 +61,14 @@ def _groups(table: Table, width: int) -> Iterator[tuple[list[str], list[TableCol
     assert common is not None
     others = [each for each in table.columns if each is not common]
     for text, rows in groupby(table.rows, key=common.text):
-        shown, hidden = fitted(_columns(dataclasses.replace(table, columns=others, rows=list(rows))), width)
+        shown, hidden = fitted(
+            table_columns(dataclasses.replace(table, columns=others, rows=list(rows))), width
+        )
         yield [*(wrapped_name(printable(text), width) if text else ()), *aligned(shown)], hidden
 
 
-def _columns(table: Table) -> list[TableColumn]:
+def table_columns(table: Table) -> list[TableColumn]:
+    """Return the columns of a table with their texts."""
     return [
         TableColumn(each.heading, list(map(printable, texts)), each.rank, each.right, each.wraps)
         for each, texts in table.texts

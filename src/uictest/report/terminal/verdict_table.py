@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
-from uictest.core.measures import MEASURES, STOP_COLUMNS, WHEELSET_COLUMNS, Column, Overview
+from uictest.core.document import Column, Table, Tone
+from uictest.core.measures import MEASURES, STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.judging import evaluation
+from uictest.report.case_table import FAILING, measure_columns
 from uictest.report.difference import (
     BaselineComparison,
     Difference,
@@ -18,10 +20,10 @@ from uictest.report.difference import (
 from uictest.report.escaping import printable
 from uictest.report.part_wording import part_sentences, slide_speed
 from uictest.report.repeat_wording import any_repeated, range_cells, repeat_sentences, share_cells, stops_text
-from uictest.report.terminal.fitted_columns import TableColumn, columns_not_shown, fitted
+from uictest.report.terminal.document_lines import table_columns
+from uictest.report.terminal.fitted_columns import columns_not_shown, fitted
 from uictest.report.wording import (
     DIFFERS,
-    Tone,
     criterion_sentences,
     definition_sentence,
     line_word,
@@ -35,7 +37,7 @@ from uictest.report.wording import (
 
 if TYPE_CHECKING:
     from rich.console import JustifyMethod
-    from rich.table import Table
+    from rich.table import Table as RichTable
     from rich.text import Text
 
     from uictest.report.content import RunContent
@@ -120,66 +122,44 @@ def _measures(result: evaluation.CaseResult) -> Iterator[str]:
 
 
 _STYLES: Final[dict[Tone, str]] = {"good": "green", "bad": "bold red", "odd": "bold magenta"}
-_FAILING: Final = 1
-"""Rank of a column that a missed criterion rests on: it is left out last."""
-
-ALL_COLUMNS = "summary.csv and wheelsets.csv have all measures"
 
 
 def verdict_table(
     results: Sequence[evaluation.CaseResult], word: Callable[[evaluation.CaseResult], str], width: int
-) -> tuple[Table, str]:
+) -> tuple[RichTable, str]:
     """Return the table of all cases in so many characters, and a line that names the columns left out.
 
     `word` gives the word of each case. User text enters as text, never as markup.
     """
-    from rich.table import Table
+    from rich.table import Table as RichTable
     from rich.text import Text
 
-    columns, hidden = fitted(_columns(results, word), width)
-    table = Table(box=None, pad_edge=False, header_style="bold")
+    table = Table(_columns(results, word), results, more="summary.csv and wheelsets.csv have all measures")
+    columns, hidden = fitted(table_columns(table), width)
+    shown = RichTable(box=None, pad_edge=False, header_style="bold")
     for column in columns:
         justify: JustifyMethod = "right" if column.right else "left"
-        table.add_column(column.title, justify=justify, no_wrap=not column.wraps, overflow="fold")
-    styles = [_STYLES[tone(word(result))] for result in results]
-    for style, row in zip(styles, zip(*(column.cells for column in columns), strict=True), strict=True):
-        texts = zip(columns, row, strict=True)
-        table.add_row(
-            *(Text(cell, style=style if column.title == "verdict" else "") for column, cell in texts)
-        )
-    return table, columns_not_shown(hidden, ALL_COLUMNS)
+        shown.add_column(column.title, justify=justify, no_wrap=not column.wraps, overflow="fold")
+    for result, *row in zip(results, *(column.cells for column in columns), strict=True):
+        styles = (_STYLES[tone(word(result))] if each.title == "verdict" else "" for each in columns)
+        shown.add_row(*map(Text, row, styles))
+    return shown, columns_not_shown(hidden, table.more)
 
 
 def _columns(
     results: Sequence[evaluation.CaseResult], word: Callable[[evaluation.CaseResult], str]
-) -> list[TableColumn]:
-    columns = [
-        TableColumn("case", [printable(result.id) for result in results], wraps=True),
-        TableColumn("verdict", list(map(word, results))),
-        TableColumn("outcome", [result.outcome for result in results], rank=2),
+) -> list[Column[Any]]:
+    missed, repeated = _missed_criteria(results), any_repeated(results)
+    columns: list[Column[Any]] = [
+        Column(heading="case", text=lambda result: result.id, wraps=True),
+        Column(heading="verdict", text=word),
+        Column(heading="stops", text=lambda result: stops_text(result) or ("-" if repeated else "")),
+        Column(heading="outcome", text=lambda result: result.outcome, rank=2),
+        *measure_columns(results, terminal=True, failing=missed.values()),
     ]
-    if any_repeated(results):
-        columns.insert(2, TableColumn("stops", [stops_text(result) or "-" for result in results]))
-    missed, speed = _missed_criteria(results), slide_speed(results)
-    for column in (*STOP_COLUMNS.values(), *WHEELSET_COLUMNS.values()):
-        if column.overview is not None:
-            rank = _FAILING if column.name in missed.values() else column.overview.rank
-            columns.append(_measure_column(results, column, column.overview, speed, rank))
-    names = {name for name, column in (STOP_COLUMNS | WHEELSET_COLUMNS).items() if column.overview}
-    others = [criterion for criterion, column in missed.items() if column not in names]
-    columns.extend(_criterion_column(results, criterion) for criterion in others)
-    return columns
-
-
-def _measure_column(
-    results: Iterable[evaluation.CaseResult], column: Column, overview: Overview, speed: str, rank: int
-) -> TableColumn:
-    values = [_value(result, column.name) for result in results]
-    cells = [
-        "-" if value is None or math.isnan(value) else column.text(value, overview.few_digits)
-        for value in values
-    ]
-    return TableColumn(overview.heading.format(speed), cells, rank, right=True)
+    shown = {name for name, column in (STOP_COLUMNS | WHEELSET_COLUMNS).items() if column.overview}
+    others = [criterion for criterion, column in missed.items() if column not in shown]
+    return [*columns, *(_criterion_column(results, each) for each in others)]
 
 
 def _missed_criteria(results: Iterable[evaluation.CaseResult]) -> dict[str, str]:
@@ -198,20 +178,18 @@ def _missed_criteria(results: Iterable[evaluation.CaseResult]) -> dict[str, str]
     }
 
 
-def _criterion_column(results: Iterable[evaluation.CaseResult], criterion: str) -> TableColumn:
+def _criterion_column(
+    results: Iterable[evaluation.CaseResult], criterion: str
+) -> Column[evaluation.CaseResult]:
     """Return the values of a criterion whose measure the table does not have."""
-    verdicts = [next((v for v in result.criteria if v.id == criterion), None) for result in results]
-    unit = next((verdict.unit for verdict in verdicts if verdict is not None), "").removeprefix("1")
-    values = [None if verdict is None else verdict.value for verdict in verdicts]
-    cells = ["-" if value is None or math.isnan(value) else f"{value:.4g}" for value in values]
-    return TableColumn(f"{printable(criterion)}\n{unit}", cells, _FAILING, right=True)
+    verdicts = {result.id: each for result in results for each in result.criteria if each.id == criterion}
+    unit = next(each.unit for each in verdicts.values()).removeprefix("1")
 
+    def text(result: evaluation.CaseResult) -> str:
+        value = verdicts[result.id].value if result.id in verdicts else None
+        return "-" if value is None or math.isnan(value) else f"{value:.4g}"
 
-def _value(result: evaluation.CaseResult, measure: str) -> float | None:
-    """Return a measure of a stop, or the largest of its wheelsets; None where there is none."""
-    if measure in STOP_COLUMNS:
-        return (result.measures or {}).get(measure)
-    return max((wheelset[measure] for wheelset in result.wheelsets), default=None)
+    return Column(heading=f"{printable(criterion)}\n{unit}", text=text, rank=FAILING, right=True)
 
 
 def explanation_text(

@@ -82,7 +82,7 @@ MEASURES = (
             "initial_adhesion_g",
             "g",
             meaning="initial adhesion by the first phase of the first criterion that defines one, else 3 s",
-            overview=Overview("adhesion\ng", digits=4, few_digits=3, rank=7),
+            overview=Overview("initial adhesion\ng", digits=4, rank=7, short="adhesion\ng", few_digits=3),
             read=lambda stop, definition: _or_nan(initial_adhesion(stop, definition["first_phase_duration"])),
             defaults={"first_phase_duration": _DEFAULT_FIRST_PHASE},
         ),

@@ -39,7 +39,7 @@ MEASURES = (
             "valve_actuations",
             "1",
             whole=True,
-            overview=Overview("vents\nmax", digits=0, few_digits=0, rank=8),
+            overview=Overview("most vents\nof a wheelset", digits=0, rank=8, short="vents\nmax"),
             read=lambda wheelset: wheelset.valve_actuations,
         ),
         finite_field="valve_actuations",

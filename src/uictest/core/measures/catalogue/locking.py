@@ -29,7 +29,7 @@ MEASURES = (
         column=WheelsetColumn(
             "locked_time_s",
             "s",
-            overview=Overview("locked\nmax s", digits=1, few_digits=1, rank=9),
+            overview=Overview("locked\nmax s", digits=1, rank=9),
             read=lambda wheelset: wheelset.locked_time,
         ),
         finite_field="locked_time",

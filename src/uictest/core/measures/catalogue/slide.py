@@ -121,7 +121,9 @@ MEASURES = (
             meaning="largest slide (v - r omega)/v as a share, 1 where locked, at all speeds above"
             " `moving_speed`: criteria bound the largest above their own cut-off,"
             " `maximum_slide_above_cutoff`",
-            overview=Overview("max slide %\n> {}", digits=1, few_digits=0, rank=4),
+            overview=Overview(
+                "largest slide\nabove {}, %", digits=1, rank=4, short="max slide %\n> {}", few_digits=0
+            ),
             read=lambda wheelset: wheelset.maximum_slide,
         ),
         finite_field="maximum_slide",
@@ -140,7 +142,7 @@ MEASURES = (
         column=WheelsetColumn(
             "sliding_time_s",
             "s",
-            overview=Overview("sliding\nmax s", digits=1, few_digits=1, rank=10),
+            overview=Overview("sliding\nmax s", digits=1, rank=10),
             read=lambda wheelset: wheelset.sliding_duration,
         ),
         finite_field="sliding_duration",

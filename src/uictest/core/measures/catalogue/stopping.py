@@ -59,7 +59,7 @@ MEASURES = (
         column=StopColumn(
             "braking_distance_m",
             "m",
-            overview=Overview("distance\nm", digits=1, few_digits=1, rank=3),
+            overview=Overview("distance\nm", digits=1, rank=3),
             read=lambda stop, definition: stop.braking_distance,
         ),
     ),
@@ -75,7 +75,7 @@ MEASURES = (
         column=StopColumn(
             "braking_time_s",
             "s",
-            overview=Overview("time\ns", digits=1, few_digits=1, rank=6),
+            overview=Overview("time\ns", digits=1, rank=6),
             read=lambda stop, definition: stop.braking_time,
         ),
     ),
@@ -91,7 +91,7 @@ MEASURES = (
         column=StopColumn(
             "mean_deceleration_mps2",
             "m/s2",
-            overview=Overview("mean\nm/s2", digits=3, few_digits=2, rank=5),
+            overview=Overview("mean decel.\nm/s²", digits=3, rank=5, short="mean\nm/s2", few_digits=2),
             read=lambda stop, definition: mean_deceleration(stop).values[0] if stop.stopped else math.nan,
         ),
     ),
