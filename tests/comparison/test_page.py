@@ -28,7 +28,7 @@ def _html(first: Recording, second: Recording, *tolerances: str) -> str:
 def _cells(page: str, channel: str, table: str) -> list[str]:
     """Return the texts of the cells of a channel in a table."""
     rows = page[page.index(f'class="{table}"') :].partition("</table>")[0]
-    (row,) = (each for each in rows.split("<tr") if f"<code>{channel}</code>" in each)
+    (row,) = (each for each in rows.split("<tr") if re.search(rf"[(>]{channel}[)<]", each))
     return [re.sub("<[^>]+>", "", each).strip() for each in re.findall("<td[^>]*>(.*?)</td>", row)]
 
 

@@ -270,5 +270,5 @@ def test_the_largest_slide_says_above_which_speed_it_counts() -> None:
     assert slide_speed([make_result(parts=parts)] * 2) == "10 km/h"
     assert slide_speed([make_result(parts=parts), make_result(parts=other)]) == "moving_speed"
     content = make_content(make_result(parts=parts))
-    assert "slide above 10 km/h, %" in markdown_summary(content)
+    assert "largest slide, above 10 km/h, %" in markdown_summary(content)
     assert "Largest slide<small>above 10 km/h, %</small>" in page_html(content)

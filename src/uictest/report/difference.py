@@ -97,7 +97,7 @@ _COLUMNS: Final[tuple[Column[Difference], ...]] = (
     Column(heading="deviation", text=lambda each: number(each.deviation), right=True),
     Column(heading="tolerance", text=lambda each: number(each.allowed), right=True),
     Column(heading="unit", text=lambda each: each.unit),
-    Column(heading="remark", text=lambda each: each.remark),
+    Column(heading="remark", text=lambda each: each.remark, wraps=True),
 )
 
 

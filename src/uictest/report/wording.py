@@ -57,12 +57,13 @@ def value_and_limits(verdict: evaluation.Verdict) -> str:
     return f"{quantity(verdict.value, verdict.unit)}, {limits(verdict)}"
 
 
-_MOST_URGENT = ("fail", "inconclusive", "pass", "not_applicable")
+MOST_URGENT: Final = ("fail", "inconclusive", "pass", "not_applicable")
+"""Statuses of criteria in the order in which people read them."""
 
 
 def failing_first(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Verdict]:
     """Return verdicts with the failing ones first, then the inconclusive ones, then those that passed."""
-    return sorted(verdicts, key=lambda verdict: _MOST_URGENT.index(verdict.status))
+    return sorted(verdicts, key=lambda verdict: MOST_URGENT.index(verdict.status))
 
 
 def without_rig_that_holds(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Verdict]:

@@ -18,6 +18,8 @@ from uictest.analysis.comparison.paired.wording import (
     paired_table,
     same_text,
 )
+from uictest.analysis.comparison.parameters import ParameterChange
+from uictest.core.document import Column, Table
 from uictest.core.measures import WHEELSET_COLUMNS
 from uictest.core.recording import state_kind
 from uictest.core.units import SIZES
@@ -28,7 +30,6 @@ from uictest.report import (
     PlotLine,
     Value,
     channel_title,
-    counted,
     listed,
     number,
     printable,
@@ -214,19 +215,12 @@ def comparison_html(comparison: Comparison) -> str:
         overlays=overlays,
         fragments={each.overlay.title: each.fragment for each in overlays},
         verdict_line=verdict_line(comparison),
-        signed_deviation=signed_deviation,
+        differences_table=differences_table,
+        parameters_table=parameters_table,
         relative_cell=relative_cell,
         sampling_text=sampling_text,
         state_kind=state_kind,
-        differences=[in_page_units(each) for each in comparison.differences],
-        with_cases=any(each.case for each in comparison.differences),
-        with_remarks=any(each.remark for each in comparison.differences),
-        quantity_title=quantity_title,
         channel_title=channel_title,
-        number=number,
-        side_text=side_text,
-        listed=listed,
-        counted=counted,
         with_plots=bool(overlays),
         running_head=f"{comparison.first} and {comparison.second}",
         paired=[] if comparison.paired is None else [comparison.paired],
@@ -245,6 +239,49 @@ def signed_deviation(difference: Difference) -> str:
 def relative_cell(quantity: str, first: Value, second: Value, unit: str) -> str:
     """Return by how many per cent of A's size B exceeds A, or why it is not said; states have no size."""
     return "-" if state_kind(quantity) else relative_text(first, second, unit)
+
+
+def _quantity_text(difference: Difference) -> str:
+    title = quantity_title(difference)
+    return title if title == difference.quantity else f"{title} ({difference.quantity})"
+
+
+_DIFFERENCES: Final[tuple[Column[Difference], ...]] = (
+    Column(
+        heading="verdict",
+        text=lambda each: "within" if each.within else "differs",
+        tone=lambda each: "good" if each.within else "bad",
+    ),
+    Column(heading="case", text=lambda each: each.case, literal=True),
+    Column(heading="quantity", text=_quantity_text, literal=True),
+    Column(heading="A", text=lambda each: side_text(each.first), right=True),
+    Column(heading="B", text=lambda each: side_text(each.second), right=True),
+    Column(heading="B - A", text=signed_deviation, right=True),
+    Column(
+        heading="% of A",
+        text=lambda each: relative_cell(each.quantity, each.first, each.second, each.unit),
+        right=True,
+    ),
+    Column(heading="allowed", text=lambda each: number(each.allowed), right=True),
+    Column(heading="unit", text=lambda each: each.unit),
+    Column(heading="remark", text=lambda each: each.remark, wraps=True),
+)
+_PARAMETERS: Final[tuple[Column[ParameterChange], ...]] = (
+    Column(heading="parameter", text=lambda change: change.key, literal=True),
+    Column(heading="A", text=lambda change: change.texts[0]),
+    Column(heading="B", text=lambda change: change.texts[1]),
+    Column(heading="cases", text=lambda change: listed(change.cases)),
+)
+
+
+def differences_table(differences: Sequence[Difference]) -> Table:
+    """Return differences in the units of every page, those out of tolerance first."""
+    return Table(_DIFFERENCES, sorted(map(in_page_units, differences), key=lambda each: each.within))
+
+
+def parameters_table(changes: Sequence[ParameterChange]) -> Table:
+    """Return what was changed between two runs, and in which cases."""
+    return Table(_PARAMETERS, changes)
 
 
 def variants_html(run: str, compared: Sequence[PairedComparison]) -> str:

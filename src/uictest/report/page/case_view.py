@@ -40,15 +40,6 @@ HeadlineMeasure = tuple[str, str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class Gauge:
-    """A value and its bounds, in per cent of a common scale; `value` is None where there is none."""
-
-    first: float
-    last: float
-    value: float | None
-
-
-@dataclass(frozen=True, slots=True)
 class CaseView:
     """A drawn case. `anchor` is that of its part of the page; `data` is the JSON its plots are drawn from.
 
@@ -163,25 +154,6 @@ def _headline(result: evaluation.CaseResult) -> Iterator[HeadlineMeasure]:
         yield "valve actuations", f"{vents:g}" if vents == vents else "-", ""
     if measures is not None:
         yield "air consumed", _number(measures["air_consumed_nl"]), "NL"
-
-
-def gauge_of(verdict: evaluation.Verdict) -> Gauge | None:
-    """Return value and bounds on a scale of 100 that holds them and zero; None without a bound."""
-    bounds = [bound for bound in (verdict.lower, verdict.upper) if bound is not None]
-    if not bounds:
-        return None
-    known = [*bounds, 0.0, *([] if verdict.value is None else [verdict.value])]
-    low, high = min(known), max(known)
-    air = 0.08 * (high - low) or 1.0
-    high += air
-    low -= air if low < 0 else 0.0
-
-    def at(value: float) -> float:
-        return round(100 * (value - low) / (high - low), 1)
-
-    first = 0.0 if verdict.lower is None else at(verdict.lower)
-    last = 100.0 if verdict.upper is None else at(verdict.upper)
-    return Gauge(first, last, None if verdict.value is None else at(verdict.value))
 
 
 def plots_json() -> str:

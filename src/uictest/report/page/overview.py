@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 from uictest.judging import evaluation
-from uictest.report.part_wording import base_word, changed_parameters, part_sentences
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,13 +59,6 @@ def _number(key: str, case: evaluation.CaseResult) -> float | None:
 
 _MOST: Final = 100
 """Parts that a page shows: each takes up to 10 kB of it."""
-
-PARAMETER_WORDS: Final[dict[str, Any]] = {
-    "base_word": base_word,
-    "changed_parameters": changed_parameters,
-    "part_sentences": part_sentences,
-}
-"""What parameters.html.j2 puts parts into words with."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,25 +8,23 @@ from itertools import islice
 from typing import Any
 
 from uictest.judging import evaluation
+from uictest.report.case_table import measure_columns
 from uictest.report.content import DRAWN, MOST_DRAWN, RunContent, drawn_cases, worst_first
-from uictest.report.difference import BaselineComparison, baseline_summary, not_compared_sentences, side_text
-from uictest.report.page.case_view import CaseView, case_view, gauge_of, plots_json
+from uictest.report.difference import (
+    BaselineComparison,
+    baseline_summary,
+    differences_table,
+    not_compared_sentences,
+)
+from uictest.report.page.case_view import CaseView, case_view, plots_json
 from uictest.report.page.links import case_anchor, rerun_commands
-from uictest.report.page.overview import PARAMETER_WORDS, maps_of, shown_parts
+from uictest.report.page.overview import maps_of, shown_parts
 from uictest.report.page.rendering import render
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
-from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
 from uictest.report.wording import (
     CASE_WORDS,
     counted,
-    counted_in,
-    failing_first,
-    number,
-    reading_sentences,
-    reading_sources,
-    tone,
-    without_rig_that_holds,
 )
 
 
@@ -53,25 +51,14 @@ def page_html(content: RunContent) -> str:
         varied=(),
         of_which="the drawn stops" if drawn else "the cases",
         all_parts_in="results.json",
-        counted=counted,
-        counted_in=counted_in,
         words=_words(content),
+        measure_columns=measure_columns(content.results),
+        differences_table=differences_table,
         plots=plots_json(),
         with_plots=bool(drawn),
         running_head=content.name,
         baseline_lines=_baseline_lines(content.baseline),
-        failing_first=failing_first,
-        reading_sentences=reading_sentences,
-        reading_sources=reading_sources,
-        without_rig_that_holds=without_rig_that_holds,
-        gauge_of=gauge_of,
-        number=number,
-        tone=tone,
-        side_text=side_text,
-        any_repeated=any_repeated,
         repeats_not_drawn=_repeats_not_drawn(content, drawn),
-        stops_text=stops_text,
-        **PARAMETER_WORDS,
     )
 
 

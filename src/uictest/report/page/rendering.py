@@ -5,19 +5,40 @@ from __future__ import annotations
 import base64
 import hashlib
 import zlib
+from collections.abc import Callable
 from functools import cache
 from importlib import resources
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Final, NamedTuple
 
 from jinja2 import DictLoader, Environment, StrictUndefined
 from jinja2.bccache import Bucket, BytecodeCache, bc_magic
 from markupsafe import Markup
 
 from uictest.core import user_cache
+from uictest.report.difference import side_text
 from uictest.report.escaping import printable
-from uictest.report.part_wording import domain_notices, domain_sentences, slide_speed
+from uictest.report.part_wording import (
+    base_word,
+    changed_parameters,
+    domain_notices,
+    domain_sentences,
+    part_sentences,
+    slide_speed,
+)
+from uictest.report.repeat_wording import any_repeated, stops_text
+from uictest.report.wording import (
+    counted,
+    counted_in,
+    failing_first,
+    listed,
+    number,
+    reading_sentences,
+    reading_sources,
+    tone,
+    without_rig_that_holds,
+)
 
 
 class PackedScript(NamedTuple):
@@ -109,6 +130,14 @@ _STYLES = (
 """Parts of the style sheet; those for narrow windows and for paper change what stands before them."""
 
 
+_WORDS: Final[tuple[Callable[..., Any], ...]] = (
+    *(base_word, changed_parameters, domain_notices, domain_sentences, part_sentences, slide_speed),
+    *(counted, counted_in, failing_first, listed, number, reading_sentences, reading_sources, tone),
+    *(any_repeated, side_text, stops_text, without_rig_that_holds),
+)
+"""What every template can put results into words by."""
+
+
 def render(template: str, *, with_plots: bool, running_head: str = "", **context: Any) -> str:
     """Return a template of this package filled in.
 
@@ -156,11 +185,7 @@ def _environment() -> Environment:
         bytecode_cache=TemplateCache(),
     )
     environment.filters["figure"] = _figure
-    environment.globals |= {
-        "domain_sentences": domain_sentences,
-        "domain_notices": domain_notices,
-        "slide_speed": slide_speed,
-    }
+    environment.globals |= {word.__name__: word for word in _WORDS}
     return environment
 
 

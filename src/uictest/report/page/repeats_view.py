@@ -5,10 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any, Final, NamedTuple
 
-from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core import document
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS, Column
 from uictest.judging import evaluation
+from uictest.report.case_table import measure_columns
 from uictest.report.repeat_wording import drawn_sentence, repeat_sentences
+from uictest.report.text_tables import number_cell
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.wording import failing_first, without_rig_that_holds
 
@@ -46,14 +50,31 @@ class CriterionDots:
     dots: Sequence[Dot]
 
 
-@dataclass(frozen=True, slots=True)
-class MeasureSpread:
+class _MeasureSpread(NamedTuple):
     """Median and spread of one column of results; `wheelset` is None for one of the stop."""
 
-    column: str
-    unit: str
+    column: Column
     wheelset: int | None
     spread: evaluation.Spread
+
+
+def _number(heading: str, name: str) -> document.Column[_MeasureSpread]:
+    return document.Column(
+        heading=heading, text=lambda each: number_cell(getattr(each.spread, name), ".4g"), right=True
+    )
+
+
+_SPREADS: Final[tuple[document.Column[_MeasureSpread], ...]] = (
+    document.Column(heading="measure", text=lambda each: each.column.name, literal=True),
+    document.Column(heading="wheelset", text=lambda each: str(each.wheelset or "")),
+    _number("lowest", "lowest"),
+    _number("quartile", "lower_quartile"),
+    _number("median", "median"),
+    _number("quartile", "upper_quartile"),
+    _number("highest", "highest"),
+    document.Column(heading="unit", text=lambda each: each.column.unit.removeprefix("1")),
+    document.Column(heading="stops", text=lambda each: str(each.spread.count), right=True),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,8 +84,8 @@ class RepeatsView:
     sentences: Sequence[str]
     drawn: str
     criteria: Sequence[CriterionDots]
-    spreads: Sequence[MeasureSpread]
-    stops: Sequence[evaluation.RepeatedStop]
+    spreads: document.Table
+    stops: document.Table
     more: int
 
 
@@ -77,8 +98,8 @@ def repeats_view(result: evaluation.CaseResult) -> RepeatsView | None:
         sentences=list(repeat_sentences(result)),
         drawn=drawn_sentence(result),
         criteria=list(_criteria(result, repeats)),
-        spreads=list(_spreads(repeats)),
-        stops=repeats.stops[:MOST_STOPS],
+        spreads=document.Table(_SPREADS, list(_spreads(repeats))),
+        stops=_stops(result, repeats),
         more=max(len(repeats.stops) - MOST_STOPS, 0),
     )
 
@@ -115,18 +136,21 @@ def _dots(
     return CriterionDots(verdict, counts, first, last, median, dots)
 
 
-def _spreads(repeats: evaluation.Repeats) -> Iterator[MeasureSpread]:
+def _stops(result: evaluation.CaseResult, repeats: evaluation.Repeats) -> document.Table:
+    columns: list[document.Column[Any]] = [
+        document.Column(heading="seed", text=lambda stop: str(stop.seed), literal=True, right=True),
+        document.Column(heading="outcome", text=lambda stop: stop.outcome),
+        *measure_columns([result]),
+        document.Column(heading="why", text=lambda stop: stop.reason, wraps=True),
+    ]
+    return document.Table(columns, repeats.stops[:MOST_STOPS])
+
+
+def _spreads(repeats: evaluation.Repeats) -> Iterator[_MeasureSpread]:
     """Yield the spread of every column that is not the same in all stops."""
-    for name, column in STOP_COLUMNS.items():
-        yield from _spread(name, column.unit, repeats, None)
-    for name, wheelset_column in WHEELSET_COLUMNS.items():
-        for wheelset in WHEELSETS:
-            yield from _spread(name, wheelset_column.unit, repeats, wheelset)
-
-
-def _spread(
-    name: str, unit: str, repeats: evaluation.Repeats, wheelset: int | None
-) -> Iterator[MeasureSpread]:
-    spread = evaluation.spread_of(repeats.values(name, wheelset))
-    if spread is not None and spread.lowest != spread.highest:
-        yield MeasureSpread(name, unit, wheelset, spread)
+    of_stop = ((column, None) for column in STOP_COLUMNS.values())
+    of_wheelsets = ((column, wheelset) for column in WHEELSET_COLUMNS.values() for wheelset in WHEELSETS)
+    for column, wheelset in (*of_stop, *of_wheelsets):
+        spread = evaluation.spread_of(repeats.values(column.name, wheelset))
+        if spread is not None and spread.lowest != spread.highest:
+            yield _MeasureSpread(column, wheelset, spread)

@@ -5,23 +5,29 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Final
 
+from uictest.core.document import Column, Table
 from uictest.core.series_measures import SERIES_MEASURES
 from uictest.judging import evaluation
-from uictest.judging.series import SeriesResult, SeriesStop, SeriesVerdict, SpeedResult, observed_stops
+from uictest.judging.series import SeriesResult, SeriesStop, SpeedResult, observed_stops
 from uictest.report.page.axis import Axis, Tick
 from uictest.report.page.links import fragment, series_anchor
-from uictest.report.series.tables import comparison_table, value_with_interval
+from uictest.report.series.tables import (
+    CRITERIA,
+    Judged,
+    comparison_table,
+    judged_criteria,
+    value_with_interval,
+)
 from uictest.report.series.wording import (
-    confidence_words,
     count_sentences,
     not_counted_sentences,
-    of_dry_stop,
     percent,
     series_word,
 )
-from uictest.report.wording import failing_first, limits, quantity
+from uictest.report.wording import MOST_URGENT
 
 _LEFT, _RIGHT, _TOP, _ROW = 250, 880, 40, 22
 _DISTANCE = "braking_distance_m"
@@ -31,14 +37,9 @@ _OF_DISTANCE = ("braking_distance", "median_braking_distance", "worst_braking_di
 
 SERIES_WORDS: Final = {
     "comparison_table": comparison_table,
-    "confidence_words": confidence_words,
     "count_sentences": count_sentences,
-    "limits": limits,
     "not_counted_sentences": not_counted_sentences,
-    "of_dry_stop": of_dry_stop,
     "percent": percent,
-    "quantity": quantity,
-    "value_with_interval": value_with_interval,
 }
 """What the template of series puts things into words by."""
 
@@ -78,19 +79,14 @@ class DotPlot:
 
 @dataclass(frozen=True, slots=True)
 class SeriesView:
-    """A series with its word, its plots, and the names and units of its measures."""
+    """A series with its word, its plots, and the tables of its criteria and measures."""
 
     anchor: str
     result: SeriesResult
     word: str
     plots: Sequence[DotPlot]
-    units: dict[str, str]
-
-    @property
-    def criteria(self) -> list[SeriesVerdict]:
-        """The verdicts, failing ones first."""
-        by_id = {each.verdict.id: each for each in self.result.criteria}
-        return [by_id[each.id] for each in failing_first(each.verdict for each in self.result.criteria)]
+    criteria: Table
+    measures: Table
 
     @property
     def fragment(self) -> str:
@@ -98,14 +94,44 @@ class SeriesView:
         return fragment(self.anchor)
 
 
+_OF_PAGE: Final[tuple[Column[Judged], ...]] = (
+    Column(heading="from", text=lambda judged: judged.each.place),
+    Column(heading="measure", text=lambda judged: judged.each.verdict.definition.get("measure", "")),
+    Column(heading="requirements", text=lambda judged: ", ".join(judged.each.verdict.requirements)),
+)
+"""Columns of criteria that other formats have no room for."""
+
+
 def series_view(result: SeriesResult) -> SeriesView:
-    """Return the view of a series."""
+    """Return the view of a series; failing criteria stand first."""
     stops = observed_stops(result.cases, result.speed_tolerance_kmh)
     plots = [_plot(result, speed, stops) for speed in result.speeds]
-    units = {name: SERIES_MEASURES[name].unit for name in result.measures if name in SERIES_MEASURES}
+    criteria = sorted(judged_criteria(result), key=lambda each: MOST_URGENT.index(each.each.verdict.status))
     return SeriesView(
-        series_anchor(result.id), result, series_word(result), [plot for plot in plots if plot], units
+        series_anchor(result.id),
+        result,
+        series_word(result),
+        [plot for plot in plots if plot],
+        Table((*CRITERIA, *_OF_PAGE), criteria),
+        _measures(result),
     )
+
+
+def _measures(result: SeriesResult) -> Table:
+    """Return the measures of the whole series and from each speed."""
+    columns: list[Column[str]] = [
+        Column(heading="measure", text=str, literal=True),
+        Column(
+            heading="unit", text=lambda name: SERIES_MEASURES[name].unit if name in SERIES_MEASURES else ""
+        ),
+    ]
+    for place, measures in {
+        "series": result.measures,
+        **{s.place: s.measures for s in result.speeds},
+    }.items():
+        text = partial(lambda own, name: value_with_interval(own[name]), measures)
+        columns.append(Column(heading=place, text=text, right=True))
+    return Table(columns, list(result.measures))
 
 
 def _plot(result: SeriesResult, speed: SpeedResult, stops: Sequence[SeriesStop]) -> DotPlot | None:

@@ -20,7 +20,7 @@ from uictest.report.series.wording import (
     short,
 )
 from uictest.report.terminal.document_lines import document_lines, table_lines
-from uictest.report.wording import counted, limits, quantity
+from uictest.report.wording import counted, limits, quantity, tone
 
 _TONES: Final[Mapping[str, Tone]] = {"pass": "good", "fail": "bad", "inconclusive": "odd"}
 _REMARKS: Final = {"fail": "fail", "inconclusive": "inconclusive", "not_applicable": "not applicable"}
@@ -35,7 +35,7 @@ def comparison_table(results: Sequence[SeriesResult]) -> Table:
         first.setdefault(each.verdict.id, each)
     columns: list[Column[SeriesResult]] = [
         Column(heading="series", text=lambda result: result.id, wraps=True, literal=True),
-        Column(heading="verdict", text=series_word, rank=1),
+        Column(heading="verdict", text=series_word, rank=1, tone=lambda result: tone(series_word(result))),
         Column(
             heading="wet stops",
             text=lambda result: f"{result.wet_stops.counted} of {result.wet_stops.run}",
@@ -74,7 +74,7 @@ def value_with_interval(value: SeriesValue) -> str:
     return f"{short(value.estimate.value)} ({shown})" if shown else short(value.estimate.value)
 
 
-class _Judged(NamedTuple):
+class Judged(NamedTuple):
     """A criterion with the series that it judged."""
 
     result: SeriesResult
@@ -82,11 +82,12 @@ class _Judged(NamedTuple):
 
     @property
     def status(self) -> str:
+        """The verdict in words."""
         return self.each.verdict.status.replace("_", " ")
 
 
-_SERIES: Final[Column[_Judged]] = Column(heading="series", text=lambda judged: judged.result.id, literal=True)
-_CRITERIA: Final[tuple[Column[_Judged], ...]] = (
+_SERIES: Final[Column[Judged]] = Column(heading="series", text=lambda judged: judged.result.id, literal=True)
+CRITERIA: Final[tuple[Column[Judged], ...]] = (
     Column(heading="criterion", text=lambda judged: judged.each.verdict.id, wraps=True, literal=True),
     Column(
         heading="verdict",
@@ -116,8 +117,9 @@ _CRITERIA: Final[tuple[Column[_Judged], ...]] = (
 )
 
 
-def _judged(result: SeriesResult) -> list[_Judged]:
-    return [_Judged(result, each) for each in result.criteria]
+def judged_criteria(result: SeriesResult) -> list[Judged]:
+    """Return the criteria of a series."""
+    return [Judged(result, each) for each in result.criteria]
 
 
 def _counts(result: SeriesResult) -> list[str]:
@@ -130,7 +132,7 @@ def series_table(results: Sequence[SeriesResult], width: int) -> Iterator[str]:
     for result in results:
         yield ""
         yield f"{series_word(result)} {printable(result.id)}"
-        document = Document(result.id, [Table(_CRITERIA, _judged(result)), Lines(_counts(result))])
+        document = Document(result.id, [Table(CRITERIA, judged_criteria(result)), Lines(_counts(result))])
         yield from (f"  {line}" for line in document_lines(document, width - 2))
 
 
@@ -141,7 +143,7 @@ def series_sections(results: Sequence[SeriesResult]) -> list[Table | Lines]:
     counts = [f"{result.id}: {line}" for result in results for line in _counts(result)]
     if (rest := len(counts) - _MOST) > 0:
         counts[_MOST:] = [f"{counted(rest, 'more line')} in series-stops.csv and results.json"]
-    criteria = [judged for result in results for judged in _judged(result)]
+    criteria = [judged for result in results for judged in judged_criteria(result)]
     more = "more rows are in `series-criteria.csv` and `results.json`."
     compared = replace(comparison_table(results), more=more, most=_MOST)
-    return [compared, Lines(counts), Table((_SERIES, *_CRITERIA), criteria, more=more, most=_MOST)]
+    return [compared, Lines(counts), Table((_SERIES, *CRITERIA), criteria, more=more, most=_MOST)]

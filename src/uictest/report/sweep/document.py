@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Final, NamedTuple
 
 from uictest.core.document import Column, Document, Lines, Table
@@ -104,14 +105,19 @@ _FRONTIER: Final[tuple[Column[FrontierScan], ...]] = (
 )
 
 
-def frontier_sections(frontier: Frontier) -> Iterator[Table | Lines]:
+def frontier_table(frontier: Frontier) -> Table:
+    """Return where verdicts flip."""
+    title = f"Frontier along {frontier.parameter}"
+    return Table(_FRONTIER, frontier.scans, title, more="more lines are in `frontier.csv`.")
+
+
+def _frontier_sections(frontier: Frontier) -> Iterator[Table | Lines]:
     """Yield where verdicts flip: few scans all, of many the first, those with flips before the others."""
-    scans: Sequence[FrontierScan] = frontier.scans
-    if len(scans) > _MOST_ROWS:
-        scans = sorted(scans, key=lambda each: not each.flips)[:_MOST_ROWS]
-    more = "more lines are in `frontier.csv`."
-    yield Table(_FRONTIER, scans, f"Frontier along {frontier.parameter}", more=more)
-    if further := len(frontier.scans) - len(scans):
+    table = frontier_table(frontier)
+    if len(table.rows) > _MOST_ROWS:
+        table = replace(table, rows=sorted(table.rows, key=lambda each: not each.flips)[:_MOST_ROWS])
+    yield table
+    if further := len(frontier.scans) - len(table.rows):
         yield Lines([f"{further} more in frontier.csv"])
 
 
@@ -127,11 +133,17 @@ _NOTABLE: Final[tuple[Column[NotableCase], ...]] = (
     Column(heading="verdict", text=lambda case: case.word, tone=lambda case: tone(case.word)),
     Column(heading="case", text=lambda case: case.id, literal=True),
     Column(heading="outcome", text=lambda case: case.outcome),
-    Column(heading="distance, m", text=lambda case: number_cell(case.distance, ".1f"), right=True),
-    Column(heading="margin, %", text=lambda case: number_cell(case.margin, ".1f"), right=True),
+    Column(heading="distance\nm", text=lambda case: number_cell(case.distance, ".1f"), right=True),
+    Column(heading="margin\n%", text=lambda case: number_cell(case.margin, ".1f"), right=True),
     Column(heading="criterion", text=lambda case: case.criterion),
-    Column(heading="why", text=lambda case: case.why),
+    Column(heading="why", text=lambda case: case.why, wraps=True),
 )
+
+
+def notable_table(result: SweepResult) -> Table:
+    """Return the cases most worth looking at, missed ones first."""
+    cases = notable_cases(result)
+    return Table(_NOTABLE, cases, "Cases most worth looking at", more="more cases are in `index.html`.")
 
 
 class _MapRow(NamedTuple):
@@ -182,7 +194,7 @@ def numbers_of_sweep(result: SweepResult) -> Iterator[Table | Lines]:
     if left_out := tables_left_out(result):
         yield Lines(left_out)
     if result.frontier is not None:
-        yield from frontier_sections(result.frontier)
+        yield from _frontier_sections(result.frontier)
 
 
 def sweep_summary(result: SweepResult) -> Document:
@@ -193,12 +205,7 @@ def sweep_summary(result: SweepResult) -> Document:
     sections = [
         Table(_SWEPT, swept, result.title or result.name, more="more parameters were swept."),
         *(_map_table(each) for each in result.maps if each.shows_met),
-        Table(
-            _NOTABLE,
-            notable_cases(result),
-            "Cases most worth looking at",
-            more="more cases are in `index.html`.",
-        ),
+        notable_table(result),
         *numbers_of_sweep(result),
         Table(_MEASURES, result.distributions, "Measures", more="more measures are in `sweep.json`."),
         Lines(list(result.notes), "Notes"),

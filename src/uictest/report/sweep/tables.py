@@ -40,7 +40,7 @@ def csv_tables(result: SweepResult) -> dict[str, str]:
         "trends.csv": csv_text(TREND_COLUMNS, (row for trend in result.trends for row in trend_rows(trend))),
     }
     if result.sensitivities:
-        tables["sensitivity.csv"] = _sensitivity_csv(result)
+        tables["sensitivity.csv"] = sensitivity_csv(result)
     if result.frontier is not None:
         tables["frontier.csv"] = frontier_csv(result.frontier)
     return tables | tail_csv_tables(result)
@@ -108,7 +108,8 @@ def _rates_csv(result: SweepResult) -> str:
     return csv_text(["parameter", "value", "cases", "met", "share_met", *result.outcomes], rate_rows(result))
 
 
-def _sensitivity_csv(result: SweepResult) -> str:
+def sensitivity_csv(result: SweepResult) -> str:
+    """Return the Sobol indices as CSV."""
     circumstances = list(result.sensitivities[0].circumstances)
     return csv_text(["measure", *circumstances, "parameter", *_INDEX_COLUMNS], sensitivity_rows(result))
 

@@ -113,17 +113,6 @@ const offerHeats = (section) => {
 };
 all(".heat-maps").forEach(offerHeats);
 
-/* A row for each measure and parameter: an index, then the ends of its interval. */
-const csvOfIndices = (table) => {
-  const numbers = (cell) => [cell.firstChild.textContent.trim(), ...first("small", cell).textContent.split(" … ")];
-  const lines = all("tbody tr", table).map(({ cells: [measure, parameter, ...indices] }) =>
-    [measure.textContent, parameter.textContent, ...indices.flatMap(numbers)]);
-  const head = ["measure", "parameter", ...["first", "total"].flatMap((order) => [order, `${order}_low`, `${order}_high`])];
-  return csvLines([head, ...lines]);
-};
-for (const button of all("#sensitivities ~ .tools .csv"))
-  button.addEventListener("click", () => save("sensitivity.csv", csvOfIndices(first("table.indices"))));
-
 /* Tables that the page holds as text. */
 if (first("#plot-tables")) {
   const tables = json(first("#plot-tables"));

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Final
 
 from uictest.core.units import in_unit
 from uictest.judging import evaluation
 from uictest.report.page.stop.marks import Taken, taken_at
 from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS
 from uictest.report.traces.trace import PlotTrace
-from uictest.report.wording import limits, quantity, rig_sentence, without_rig_that_holds
+from uictest.report.wording import MOST_URGENT, limits, quantity, rig_sentence, without_rig_that_holds
 
+_WORDS: Final = {"pass": "met", "fail": "missed"}
+"""Status of a criterion that was judged -> what stands for a margin that is no share."""
 _TITLES: Mapping[str, str] = {plot.key: plot.title for plot in (*PANELS, *LOOPS, *STRIPS)}
 
 
@@ -32,6 +35,11 @@ class Margin:
         return self.share if self.share is None or self.verdict.firm else min(self.share, 0.0)
 
     @property
+    def judged(self) -> bool:
+        """Whether the criterion came to a verdict."""
+        return self.verdict.status in _WORDS
+
+    @property
     def bar(self) -> tuple[float, float]:
         """Beginning and width of the bar, in per cent of the scale; the limit is in its middle."""
         share = min(max(self.share or 0.0, -100.0), 100.0)
@@ -45,8 +53,8 @@ class Margin:
     @property
     def share_text(self) -> str:
         """The share to spare with its sign and unit."""
-        if self.to_spare is None:
-            return "met" if self.verdict.status == "pass" else "missed"
+        if self.to_spare is None or not self.judged:
+            return _WORDS.get(self.verdict.status, "")
         return _percent(self.to_spare)
 
     @property
@@ -62,8 +70,12 @@ class Margin:
 
     @property
     def value_text(self) -> str:
-        """The value next to its limits."""
-        return f"{quantity(self.verdict.value, self.verdict.unit)}, {limits(self.verdict, word='')}"
+        """The value next to its limits, with the margin in its unit; the reason where there is no value."""
+        verdict = self.verdict
+        if verdict.value is None and verdict.reason:
+            return verdict.reason
+        margin = f", margin {quantity(verdict.margin, verdict.unit)}" if verdict.margin else ""
+        return f"{quantity(verdict.value, verdict.unit)}, {limits(verdict, word='')}{margin}"
 
     @property
     def taken_text(self) -> str:
@@ -82,18 +94,17 @@ class Margin:
 
 @dataclass(frozen=True, slots=True)
 class Margins:
-    """Criteria that were judged, the narrowest margin first, those that were not, and the rig's checks."""
+    """Criteria, those missed first, then inconclusive ones, then the narrowest margin; the rig's checks."""
 
     judged: Sequence[Margin]
-    inconclusive: Sequence[evaluation.Verdict]
-    not_applicable: Sequence[evaluation.Verdict]
+    not_applicable: Sequence[Margin]
     rig: str
 
 
 def margins_of(
-    verdicts: Iterable[evaluation.Verdict], drawn: Iterable[evaluation.Verdict], trace: PlotTrace
+    verdicts: Sequence[evaluation.Verdict], drawn: Iterable[evaluation.Verdict], trace: PlotTrace
 ) -> Margins:
-    """Return the margins of a case, failing criteria first.
+    """Return the margins of a case.
 
     Args:
         verdicts: of the case.
@@ -101,19 +112,21 @@ def margins_of(
         trace: of the stop that is drawn.
 
     """
-    rig = rig_sentence(verdicts := list(verdicts))
-    verdicts, of_stop = without_rig_that_holds(verdicts), {verdict.id: verdict for verdict in drawn}
-    judged = [
+    of_stop = {verdict.id: verdict for verdict in drawn}
+    criteria = [
         Margin(verdict, margin_share(verdict), taken_at(of_stop.get(verdict.id, verdict), trace))
-        for verdict in verdicts
-        if verdict.status in ("pass", "fail")
+        if verdict.status in _WORDS
+        else Margin(verdict, None, None)
+        for verdict in without_rig_that_holds(verdicts)
     ]
-    return Margins(
-        sorted(judged, key=_urgency),
-        [verdict for verdict in verdicts if verdict.status == "inconclusive"],
-        [verdict for verdict in verdicts if verdict.status == "not_applicable"],
-        rig,
-    )
+    criteria.sort(key=_urgency)
+    applicable = [each for each in criteria if each.verdict.status != "not_applicable"]
+    return Margins(applicable, criteria[len(applicable) :], rig_sentence(verdicts))
+
+
+def _urgency(margin: Margin) -> tuple[int, bool, float]:
+    share = margin.to_spare
+    return MOST_URGENT.index(margin.verdict.status), share is None, 0.0 if share is None else share
 
 
 def margin_share(verdict: evaluation.Verdict) -> float | None:
@@ -126,11 +139,6 @@ def margin_share(verdict: evaluation.Verdict) -> float | None:
     if verdict.margin is None or not bound or says_yes:
         return None
     return 100.0 * verdict.margin / bound
-
-
-def _urgency(margin: Margin) -> tuple[bool, bool, float]:
-    share = margin.to_spare
-    return margin.verdict.status == "pass", share is None, 0.0 if share is None else share
 
 
 def _turns_where(verdict: evaluation.Verdict, sensitivity: evaluation.Sensitivity) -> str:

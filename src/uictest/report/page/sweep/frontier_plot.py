@@ -57,14 +57,6 @@ class FrontierPlot:
     bottom: int = _BOTTOM
 
 
-def frontier_lines(frontier: Frontier) -> list[tuple[str, str, str]]:
-    """Return the lines of a table: the values of the other parameters, the flips, and a note."""
-    return [
-        (circumstances_words(scan.circumstances), "; ".join(map(flip_words, scan.flips)), scan.note)
-        for scan in frontier.scans
-    ]
-
-
 def frontier_plot(frontier: Frontier, logarithmic: Collection[str] = ()) -> FrontierPlot | None:
     """Return the frontier drawn, or None where it depends on no other number.
 

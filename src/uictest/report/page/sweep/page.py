@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 
-from uictest.report.page.case_view import CaseView, case_view, gauge_of, plots_json
-from uictest.report.page.overview import PARAMETER_WORDS, shown_parts
+from uictest.core.document import Table
+from uictest.report.page.case_view import CaseView, case_view, plots_json
+from uictest.report.page.overview import shown_parts
 from uictest.report.page.rendering import render
 from uictest.report.page.stop.overlay_view import script_json
-from uictest.report.page.sweep.frontier_plot import FrontierPlot, frontier_lines, frontier_plot
+from uictest.report.page.sweep.frontier_plot import FrontierPlot, frontier_plot
 from uictest.report.page.sweep.heat import HeatMaps, heat_maps
 from uictest.report.page.sweep.histogram import histogram_plot
 from uictest.report.page.sweep.scatter_view import ScatterView, scatter_view
 from uictest.report.page.sweep.sobol_bars import sobol_plots
 from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
+from uictest.report.sweep.document import frontier_table, notable_table, sensitivity_table
 from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.map_cells import (
     MOST_PARAMETERS,
@@ -26,26 +28,21 @@ from uictest.report.sweep.map_cells import (
 from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.scatter import is_sampled, scatter
 from uictest.report.sweep.summary_rows import ReportedColumns, SummaryRows, reported_columns
-from uictest.report.sweep.tables import TREND_COLUMNS, distribution_rows, frontier_csv, trend_rows
+from uictest.report.sweep.tables import (
+    TREND_COLUMNS,
+    distribution_rows,
+    frontier_csv,
+    sensitivity_csv,
+    trend_rows,
+)
 from uictest.report.sweep.tail_tables import tables_left_out, tail_tables
 from uictest.report.sweep.wording import (
-    circumstances_words,
     command_alone,
-    measure_words,
-    notable_cases,
     share_words,
     sweep_tally,
     swept_words,
 )
 from uictest.report.text_tables import csv_text
-from uictest.report.wording import (
-    counted,
-    failing_first,
-    reading_sentences,
-    reading_sources,
-    tone,
-    without_rig_that_holds,
-)
 
 
 def shown_maps(content: SweepContent, fragments: Mapping[str, str]) -> Iterator[HeatMaps]:
@@ -129,7 +126,8 @@ def sweep_page_html(content: SweepContent) -> str:
         plot_tables=script_json(_plot_tables(result)),
         tails=list(tail_tables(result)),
         tails_left_out=tables_left_out(result),
-        notable=notable_cases(result),
+        notable=notable_table(result),
+        sensitivities=sensitivity_table(result),
         drawn=drawn,
         keys=keys,
         opened=next((view.anchor for view in drawn if not view.result.met), ""),
@@ -141,17 +139,7 @@ def sweep_page_html(content: SweepContent) -> str:
         with_plots=bool(drawn),
         running_head=result.name,
         alone=command_alone(content.manifest),
-        circumstances_words=circumstances_words,
-        counted=counted,
-        failing_first=failing_first,
-        reading_sentences=reading_sentences,
-        reading_sources=reading_sources,
-        without_rig_that_holds=without_rig_that_holds,
-        measure_words=measure_words,
-        gauge_of=gauge_of,
         share_words=share_words,
-        tone=tone,
-        **PARAMETER_WORDS,
     )
 
 
@@ -179,9 +167,9 @@ def _trends(result: SweepResult) -> dict[str, list[TrendPlot]]:
     return plots
 
 
-def _frontier(result: SweepResult) -> tuple[FrontierPlot | None, list[tuple[str, str, str]]] | None:
+def _frontier(result: SweepResult) -> tuple[FrontierPlot | None, Table] | None:
     frontier = result.frontier
-    return (frontier_plot(frontier, result.logarithmic), frontier_lines(frontier)) if frontier else None
+    return (frontier_plot(frontier, result.logarithmic), frontier_table(frontier)) if frontier else None
 
 
 def _plot_tables(result: SweepResult) -> dict[str, str]:
@@ -194,4 +182,6 @@ def _plot_tables(result: SweepResult) -> dict[str, str]:
         tables["distributions.csv"] = csv_text(list(dict.fromkeys(chain.from_iterable(rows))), rows)
     if result.frontier is not None:
         tables["frontier.csv"] = frontier_csv(result.frontier)
+    if result.sensitivities:
+        tables["sensitivity.csv"] = sensitivity_csv(result)
     return tables
