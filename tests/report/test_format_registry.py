@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from uictest.report import format_names, formats, write_formats
-from uictest.report.format_registry import IN_EVERY_RUN, format_named
+from uictest.report.formats import IN_EVERY_RUN, format_named
 
 from .builders import make_content, make_result
 
@@ -29,7 +29,7 @@ def test_the_formats_of_every_run_are_there_and_only_the_page_draws() -> None:
 
 def test_a_new_format_is_one_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "yaml.py").write_text(
-        "from uictest.report.format_registry import ReportFormat\n"
+        "from uictest.report.formats import ReportFormat\n"
         "FORMAT = ReportFormat(lambda content: {'run.yaml': content.name.encode()})\n"
     )
     monkeypatch.setattr(formats, "__path__", [*formats.__path__, str(tmp_path)])

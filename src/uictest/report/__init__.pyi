@@ -20,7 +20,6 @@ from .difference import (
     wheelset_quantity as wheelset_quantity,
     worst_of_wheelsets as worst_of_wheelsets,
 )
-from .document import differences_form as differences_form, subjects_form as subjects_form
 from .escaping import (
     argument as argument,
     csv_cell as csv_cell,
@@ -28,12 +27,12 @@ from .escaping import (
     printable as printable,
     xml_text as xml_text,
 )
-from .format_registry import (
+from .formats import (
     IN_EVERY_RUN as IN_EVERY_RUN,
     draws_stops as draws_stops,
+    format_names as format_names,
     write_formats as write_formats,
 )
-from .formats import format_names as format_names
 from .formats.csv import run_tables as run_tables
 from .formats.junit import run_suites as run_suites, suites_of_run as suites_of_run
 from .formats.md import append_step_summary as append_step_summary
@@ -51,7 +50,7 @@ from .manifest import (
     run_manifest as run_manifest,
     without_machine as without_machine,
 )
-from .own_page import may_replace as may_replace
+from .page.links import may_replace as may_replace
 from .part_wording import (
     deviation_text as deviation_text,
     domain_lines as domain_lines,
@@ -60,29 +59,27 @@ from .part_wording import (
 )
 from .repeat_wording import repeat_sentences as repeat_sentences, rule_text as rule_text
 from .requirements import requirements_of as requirements_of
-from .run_contents import (
-    read_run as read_run,
-    run_content as run_content,
-    with_recorded_traces as with_recorded_traces,
-)
 from .run_report import (
     RECORDINGS as RECORDINGS,
     RESULTS as RESULTS,
+    differences_form as differences_form,
+    read_run as read_run,
     recording_path as recording_path,
+    run_content as run_content,
     run_name as run_name,
+    subjects_form as subjects_form,
+    with_recorded_traces as with_recorded_traces,
     write_recording as write_recording,
     write_reports as write_reports,
-)
-from .series.lines import (
-    series_annotations as series_annotations,
-    series_line as series_line,
-    series_lines as series_lines,
 )
 from .series.tables import series_table as series_table
 from .series.wording import (
     count_sentences as count_sentences,
     not_counted_sentences as not_counted_sentences,
+    series_annotations as series_annotations,
     series_explanation as series_explanation,
+    series_line as series_line,
+    series_lines as series_lines,
     series_tally as series_tally,
     series_verdict_sentence as series_verdict_sentence,
     series_word as series_word,
@@ -99,8 +96,7 @@ from .sweep.folder import (
 )
 from .sweep.formats import sweep_format_names as sweep_format_names
 from .sweep.formats.md import append_sweep_step_summary as append_sweep_step_summary
-from .sweep.github import sweep_annotations as sweep_annotations
-from .sweep.junit import sweep_suite as sweep_suite
+from .sweep.junit import sweep_annotations as sweep_annotations, sweep_suite as sweep_suite
 from .sweep.limits import (
     OutsideCount as OutsideCount,
     SurveyBias as SurveyBias,
@@ -143,12 +139,13 @@ from .sweep.wording import (
     not_judged_words as not_judged_words,
     sweep_tally as sweep_tally,
 )
-from .terminal.document_lines import (
+from .terminal.fitted_columns import (
+    aligned_rows as aligned_rows,
     document_lines as document_lines,
     table_lines as table_lines,
     titled_lines as titled_lines,
+    wrapped_name as wrapped_name,
 )
-from .terminal.fitted_columns import aligned_rows as aligned_rows, wrapped_name as wrapped_name
 from .terminal.verdict_table import (
     case_line as case_line,
     criterion_lines as criterion_lines,

@@ -1,18 +1,118 @@
-"""The files of a run folder, written."""
+"""The folder of a run, written and read back: its documents in JSON and its recordings."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import dataclasses
+import json
+import math
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import Any, Final
+from typing import Annotated, Any, Final
+
+from pydantic import (
+    BeforeValidator,
+    ConfigDict,
+    SerializerFunctionWrapHandler,
+    TypeAdapter,
+    WrapSerializer,
+)
 
 from uictest.core import files, recording
 from uictest.judging import evaluation, series
-from uictest.report.content import RunContent
-from uictest.report.document import baseline_form, subjects_form
-from uictest.report.format_registry import IN_EVERY_RUN, write_formats
-from uictest.report.manifest import RunManifest, manifest_digest, manifest_form
+from uictest.report.content import CaseDescription, RunContent, drawn_cases
+from uictest.report.difference import BaselineComparison, Difference
+from uictest.report.formats import IN_EVERY_RUN, write_formats
+from uictest.report.manifest import RunManifest, manifest_digest, manifest_form, read_manifest
+from uictest.report.traces.trace import PlotTrace, trace_of
+
+_CONFIG: Final = ConfigDict(extra="forbid", defer_build=True)
+_SIDES: Final = ("first", "second")
+
+
+def _with_nulls(difference: Difference, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+    form: dict[str, Any] = evaluation.json_form(write(difference))
+    return form
+
+
+def _with_nan(content: object) -> object:
+    if isinstance(content, Mapping):
+        return {**content, **{side: math.nan for side in _SIDES if content.get(side, 0.0) is None}}
+    return content
+
+
+WrittenDifference = Annotated[Difference, WrapSerializer(_with_nulls), BeforeValidator(_with_nan)]
+"""In JSON a side without a number is null."""
+
+
+def _flat(baseline: BaselineComparison, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+    """Return the form with one list of differences, each of which names its case, and with `agrees`."""
+    form = write(baseline)
+    return {
+        "folder": form["folder"],
+        "sha256": form["sha256"],
+        "agrees": baseline.agrees,
+        **form,
+        "differences": differences_form(baseline.all_differences),
+    }
+
+
+def _by_case(content: object) -> object:
+    if not (isinstance(content, Mapping) and isinstance(content.get("differences"), list)):
+        return content
+    by_case: dict[str, list[Difference]] = {}
+    for difference in evaluation.from_json_form(_DIFFERENCES, content["differences"]):
+        by_case.setdefault(difference.case, []).append(difference)
+    return {**{name: value for name, value in content.items() if name != "agrees"}, "differences": by_case}
+
+
+_SUBJECTS: Final = TypeAdapter(
+    dict[str, Annotated[CaseDescription, evaluation.required("title", "tags", "settings")]],
+    config=ConfigDict(defer_build=True),
+)
+_DIFFERENCES: Final = TypeAdapter(list[WrittenDifference], config=_CONFIG)
+_BASELINE: Final = TypeAdapter(
+    list[Annotated[BaselineComparison, WrapSerializer(_flat), BeforeValidator(_by_case)]], config=_CONFIG
+)
+
+
+def subjects_form(subjects: Mapping[str, CaseDescription]) -> dict[str, Any]:
+    """Return the JSON form of the subjects of cases, by the ids of the cases."""
+    form: dict[str, Any] = evaluation.to_json_form(_SUBJECTS, subjects)
+    return form
+
+
+def read_subjects(document: Mapping[str, Any]) -> dict[str, CaseDescription]:
+    """Return the subjects of the cases in a document; none where an earlier version wrote it.
+
+    Raises ValueError where one lacks a field, or a field holds something else.
+    """
+    try:
+        return evaluation.from_json_form(_SUBJECTS, document.get("subjects", {}), place="subjects")
+    except ValueError as error:
+        raise ValueError(f"not the subject of a case: {error}") from error
+
+
+def differences_form(differences: Sequence[Difference]) -> list[dict[str, Any]]:
+    """Return the JSON form of differences, NaN as None."""
+    form: list[dict[str, Any]] = evaluation.to_json_form(_DIFFERENCES, list(differences))
+    return form
+
+
+def baseline_form(baseline: BaselineComparison) -> dict[str, Any]:
+    """Return the JSON form of a comparison, with `agrees` for readers that need no more."""
+    form: dict[str, Any] = evaluation.to_json_form(_BASELINE, [baseline])[0]
+    return form
+
+
+def read_baseline_comparison(document: Mapping[str, Any]) -> BaselineComparison | None:
+    """Return how the run of a document compared with its baseline; None without one.
+
+    Raises ValueError where the document holds something else.
+    """
+    content = document.get("baseline")
+    return evaluation.from_json_form(_BASELINE, [content], place="baseline")[0] if content else None
+
 
 RECORDINGS: Final = "recordings"
 _ELSEWHERE: Final = ("", ".", "..")
@@ -89,3 +189,61 @@ def write_recording(folder: Path, case_id: str, samples: recording.Recording) ->
     path = recording_path(folder, case_id)
     files.write(folder, path.relative_to(folder).as_posix(), recording.parquet_bytes(samples))
     return path
+
+
+def read_run(folder: Path, *, traces: bool = False) -> RunContent:
+    """Return what a run folder holds; with `traces`, what a page draws from its recordings, too.
+
+    Raises:
+        OSError: results.json or a recording cannot be read.
+        ValueError: one of them is not what it should be.
+
+    """
+    path = folder / RESULTS
+    try:
+        content = run_content(json.loads(path.read_text(encoding="utf-8")), folder.resolve().name)
+    except (ValueError, RecursionError) as error:  # RecursionError: nested deeper than JSON is read
+        raise ValueError(f"{path}: not the results of a run: {error}") from error
+    return with_recorded_traces(content, folder) if traces else content
+
+
+def with_recorded_traces(content: RunContent, folder: Path, chosen: Collection[str] = ()) -> RunContent:
+    """Return a run with what a page draws from the recordings in its folder; `chosen` cases first, by id.
+
+    Raises OSError, and ValueError where a recording is none.
+    """
+    recorded = [result for result in content.all_results if recording_path(folder, result.id).is_file()]
+    traces = read_traces(folder, drawn_cases(recorded, chosen))
+    return dataclasses.replace(content, traces=traces, drawn_first=chosen)
+
+
+def run_content(document: object, name: str) -> RunContent:
+    """Return what a results document holds, nothing to draw. Raises ValueError where it is none."""
+    if not isinstance(document, Mapping):
+        raise ValueError(f"expected a JSON object, found {type(document).__name__}")
+    try:
+        results = evaluation.results_of(document)
+        subjects = read_subjects(document)
+        manifest = read_manifest(document)
+        baseline = read_baseline_comparison(document)
+        judged = series.series_results_of(document["series"]) if "series" in document else []
+    except (AttributeError, TypeError) as error:
+        raise ValueError(str(error)) from error
+    complete = document.get("complete", True)
+    if not isinstance(complete, bool):
+        raise ValueError(f"'complete' must be true or false, found {complete!r}")
+    content = RunContent(name, results, manifest, complete, subjects, baseline=baseline, series=judged)
+    require_names(result.id for result in content.all_results)
+    return content
+
+
+def read_traces(folder: Path, results: Iterable[evaluation.CaseResult]) -> dict[str, PlotTrace]:
+    """Return what there is to draw of the cases that have a recording in the folder, by id.
+
+    Raises OSError, and ValueError where a recording is none.
+    """
+    return {
+        result.id: trace_of(recording.read_parquet(path), result.drawn_stop.criteria)
+        for result in results
+        if (path := recording_path(folder, result.id)).is_file()
+    }

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.stats import qmc
 
-from uictest.report.sweep.scatter import MOST_POINTS, Scatter, chosen_rows, is_sampled, scatter
+from uictest.report.page.sweep.scatter import MOST_POINTS, Scatter, chosen_rows, is_sampled, scatter
 from uictest.report.sweep.summary_rows import SummaryRows
 
 from ..sweep_rows import DRAWN, drawn_rows, sweep_result, write_rows

@@ -15,9 +15,15 @@ from uictest.report import titled_lines
 from uictest.report.page import sweep_page_html
 from uictest.report.sweep.formats.md import sweep_markdown
 from uictest.report.sweep.formats.xlsx import sweep_workbook_bytes
-from uictest.report.sweep.k_dry_file import k_dry_yaml
 from uictest.report.sweep.result import SweepResult
-from uictest.report.sweep.tail_tables import MOST_TABLES, k_dry_rows, k_dry_text, tables_left_out, tail_tables
+from uictest.report.sweep.tail_tables import (
+    MOST_TABLES,
+    k_dry_rows,
+    k_dry_text,
+    k_dry_yaml,
+    tables_left_out,
+    tail_tables,
+)
 
 from ..builders import MakeSweep
 from ..test_page import Page

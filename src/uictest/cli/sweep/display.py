@@ -44,7 +44,7 @@ def show_result(result: report.SweepResult, document: str, shown: Format, *, qui
 
 def show_annotations(content: report.SweepContent) -> None:
     """Write the worst missed cases and the counts of the sweep as annotations to stdout."""
-    for line in report.sweep_annotations(content):
+    for line in report.sweep_annotations(content.result, str(content.manifest.get("file", ""))):
         data(line)
 
 

@@ -10,7 +10,7 @@ from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.content import RunContent
-from uictest.report.format_registry import ReportFormat
+from uictest.report.formats import ReportFormat
 from uictest.report.part_wording import changes_of, controller_of
 from uictest.report.repeat_wording import (
     CRITERION_COLUMNS,

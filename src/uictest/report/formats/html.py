@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from uictest.report import page
 from uictest.report.content import RunContent
-from uictest.report.format_registry import ReportFormat
+from uictest.report.formats import ReportFormat
 
 
 def _files(content: RunContent) -> dict[str, bytes]:

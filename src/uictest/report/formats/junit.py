@@ -17,7 +17,7 @@ from uictest.report.difference import (
     case_word,
     difference_sentences,
 )
-from uictest.report.format_registry import ReportFormat
+from uictest.report.formats import ReportFormat
 from uictest.report.junit import WITH_TEST_PROPERTIES, junit_text, suite_properties, test_properties
 from uictest.report.part_wording import changes_line, controller_of, controllers_text, domain_sentences
 from uictest.report.repeat_wording import repeat_sentences

@@ -17,7 +17,7 @@ from uictest.report.difference import (
     not_compared_sentences,
     worst_of_wheelsets,
 )
-from uictest.report.format_registry import ReportFormat
+from uictest.report.formats import ReportFormat
 from uictest.report.github import LIMIT, append_to_step_summary
 from uictest.report.part_wording import domain_notices
 from uictest.report.requirements import REQUIREMENT_TONES, VerifiedRequirement, verified_requirements

@@ -12,7 +12,7 @@ from uictest.report import series as series_views
 from uictest.report.content import RunContent
 from uictest.report.cover_sheet import COVER, insert_charts, write_cover
 from uictest.report.difference import Difference, baseline_summary, not_compared_sentences
-from uictest.report.format_registry import ReportFormat
+from uictest.report.formats import ReportFormat
 from uictest.report.formats.csv import CHANGED, REQUIREMENTS, controller_cells, criterion_cells
 from uictest.report.manifest import manifest_form
 from uictest.report.part_wording import changes_of, domain_sentences

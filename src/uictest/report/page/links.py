@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from urllib.parse import quote
 
 from uictest.report.content import RunContent
@@ -67,3 +68,15 @@ def _kept(arguments: Sequence[str]) -> Iterator[str]:
             yield from (word, next(words, ""))
         elif word in _FLAGS or word.startswith(tuple(f"{option}=" for option in _WITH_VALUE)):
             yield word
+
+
+def may_replace(path: Path, mark: str) -> bool:
+    """Return whether a page may be written here: there is none yet, or one with this mark.
+
+    A template writes the mark as the attribute `data-document`. Raises OSError.
+    """
+    if path.is_symlink():
+        return False
+    if not path.exists():
+        return True
+    return path.is_file() and f'data-document="{mark}"'.encode() in path.read_bytes()

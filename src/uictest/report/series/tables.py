@@ -19,7 +19,7 @@ from uictest.report.series.wording import (
     series_word,
     short,
 )
-from uictest.report.terminal.document_lines import document_lines, table_lines
+from uictest.report.terminal.fitted_columns import document_lines, table_lines
 from uictest.report.wording import counted, limits, quantity, tone
 
 _TONES: Final[Mapping[str, Tone]] = {"pass": "good", "fail": "bad", "inconclusive": "odd"}

@@ -8,14 +8,17 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 
 from uictest.core import statistics
-from uictest.core.series_measures import Estimate, Method
+from uictest.core.series_measures import SERIES_MEASURES, Estimate, Method
 from uictest.judging.series import SeriesResult, SeriesVerdict
 from uictest.report.escaping import printable
+from uictest.report.github import annotation
 from uictest.report.wording import (
     CASE_WORDS,
     UNSETTLED,
     counted,
     limits,
+    line_word,
+    number,
     outcome_sentence,
     outcome_word,
     quantity,
@@ -160,3 +163,37 @@ def unsettled_of_series(result: SeriesResult) -> list[str]:
     """Return which verdicts of a strict series and of its cases are not settled, and why."""
     pairs = [(printable(name), each) for name, each in result.unsettled]
     return [f"{name}: {line}" for name, each in pairs for line in unsettled_sentences([each])]
+
+
+SHOWN_MEASURES = ("k_wet", "stopping_distance_extension", "passing_share")
+
+
+def series_line(result: SeriesResult) -> str:
+    """Return the line of a series: word, id, outcome, and its measures as `key=value`."""
+    words = [line_word(series_word(result)), printable(result.id)]
+    words += [f"outcome={result.outcome}", f"expect={result.expect}"]
+    for name in SHOWN_MEASURES:
+        of_rails = {f"{name}[{each.place.replace(' ', '')}]": each for each in result.speeds if each.rail}
+        pooled = SERIES_MEASURES[name].pooled or not of_rails
+        for key, measured in ({name: result} if pooled else of_rails).items():
+            estimate = measured.measures[name].estimate
+            words.append(f"{key}={number(None if estimate is None else estimate.value)}")
+    if not result.met:
+        reasons = [result.reason] if result.reason else unsettled_of_series(result)
+        words.append(f"reason={printable('; '.join(reasons))}")
+    return " ".join(words)
+
+
+def series_lines(result: SeriesResult) -> Iterator[str]:
+    """Yield what stands below the line of a series: its criteria, the stops that count and that do not."""
+    for each in result.criteria:
+        yield f"criterion {printable(result.id)} {series_verdict_sentence(each, result.confidence)}"
+    for sentence in (*count_sentences(result), *not_counted_sentences(result)):
+        yield f"stops {printable(result.id)} {sentence}"
+
+
+def series_annotations(result: SeriesResult) -> Iterator[str]:
+    """Yield an `::error` command for a series that misses its expectation."""
+    if not result.met:
+        title = f"{series_word(result)} {result.id}"
+        yield annotation(result.file, title, "\n".join(series_explanation(result)))

@@ -1,13 +1,16 @@
-"""JUnit of a sweep: one testcase per value of its first parameter, never one per case."""
+"""What a CI server is told of a sweep: a testcase per value of its first parameter, the worst cases."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Final
 
 from uictest.core.document import Suite, Testcase, TestcaseStatus, class_name
 from uictest.judging import evaluation
+from uictest.report.github import annotation
 from uictest.report.junit import suite_properties, test_properties
 from uictest.report.sweep.result import OutcomeCount, SweepResult
+from uictest.report.sweep.wording import notable_cases, sweep_tally
 
 
 def sweep_suite(result: SweepResult, file: str, *, with_properties: bool = False) -> Suite:
@@ -44,3 +47,16 @@ def _explanation(result: SweepResult, count: OutcomeCount) -> Iterator[str]:
     if result.missed and count.met < count.cases:
         yield "the first of the whole sweep:"
         yield from (f"{case.id}: {case.outcome}, {case.reason}" for case in result.missed)
+
+
+MOST_ANNOTATED: Final = 10
+"""GitHub shows ten annotations of one kind per step."""
+
+
+def sweep_annotations(result: SweepResult, file: str) -> Iterator[str]:
+    """Yield an `::error` for each of the worst cases that are not met, and a `::notice` with the counts."""
+    missed = [case for case in notable_cases(result) if not case.met]
+    for case in missed[:MOST_ANNOTATED]:
+        yield annotation(file, f"{case.word} {case.id}", case.why)
+    title = f"uictest sweep {result.name}"
+    yield annotation(file, title, sweep_tally(result), level="notice")

@@ -8,8 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from uictest.report.page.sweep.scatter_view import scatter_view
-from uictest.report.sweep.scatter import PointNumbers, Scatter
+from uictest.report.page.sweep.scatter import PointNumbers, Scatter, scatter_view
 
 
 def scatter(cases: int, shown: int, added: int = 0) -> Scatter:

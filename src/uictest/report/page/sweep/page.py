@@ -13,7 +13,7 @@ from uictest.report.page.stop.overlay_view import script_json
 from uictest.report.page.sweep.frontier_plot import FrontierPlot, frontier_plot
 from uictest.report.page.sweep.heat import HeatMaps, heat_maps
 from uictest.report.page.sweep.histogram import histogram_plot
-from uictest.report.page.sweep.scatter_view import ScatterView, scatter_view
+from uictest.report.page.sweep.scatter import ScatterView, is_sampled, scatter, scatter_view
 from uictest.report.page.sweep.sobol_bars import sobol_plots
 from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
 from uictest.report.sweep.document import frontier_table, notable_table, sensitivity_table
@@ -26,7 +26,6 @@ from uictest.report.sweep.map_cells import (
     mapped_pairs,
 )
 from uictest.report.sweep.result import SweepResult
-from uictest.report.sweep.scatter import is_sampled, scatter
 from uictest.report.sweep.summary_rows import ReportedColumns, SummaryRows, reported_columns
 from uictest.report.sweep.tables import (
     TREND_COLUMNS,
