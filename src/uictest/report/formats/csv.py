@@ -50,18 +50,10 @@ def summary_table(results: Sequence[evaluation.CaseResult], uictest_version: str
     """
     keys = dict.fromkeys(f"parameters.{key}" for result in results for key in result.parameters)
     columns = [
-        "id",
-        "scenario",
+        *("id", "scenario"),
         *keys,
-        "expect",
-        "outcome",
-        "met",
-        "reason",
-        "controller",
-        "controller_version",
-        CHANGED,
-        "test_case",
-        REQUIREMENTS,
+        *("expect", "outcome", "met", "reason", "controller", "controller_version"),
+        *(CHANGED, "test_case", REQUIREMENTS),
         *_of_repeated(results, SHARE_COLUMNS),
         *STOP_COLUMNS,
         *_of_repeated(results, range_columns(STOP_COLUMNS)),
@@ -72,7 +64,7 @@ def summary_table(results: Sequence[evaluation.CaseResult], uictest_version: str
 def wheelsets_table(results: Sequence[evaluation.CaseResult]) -> Data:
     """Return one row per case and wheelset; wheelset 1 leads. Ranges as in :func:`summary_table`."""
     ranges = _of_repeated(results, range_columns(WHEELSET_COLUMNS))
-    return Data(["id", "wheelset", *WHEELSET_COLUMNS, *ranges], list(_wheelset_rows(results)))
+    return Data(["id", "wheelset", *WHEELSET_COLUMNS, *ranges], list(wheelset_rows(results)))
 
 
 def criteria_table(results: Sequence[evaluation.CaseResult]) -> Data:
@@ -82,7 +74,7 @@ def criteria_table(results: Sequence[evaluation.CaseResult]) -> Data:
     """
     own = [*_of_repeated(results, CRITERION_COLUMNS), REQUIREMENTS]
     columns = ["id", "criterion", *_CRITERION_FIELDS, READINGS, *own, "definition"]
-    return Data(columns, list(_criterion_rows(results)))
+    return Data(columns, list(criterion_rows(results)))
 
 
 def repeats_table(results: Sequence[evaluation.CaseResult]) -> Data:
@@ -142,29 +134,30 @@ def controller_cells(result: evaluation.CaseResult, uictest_version: str) -> dic
     return {"controller": name, "controller_version": version}
 
 
-def _wheelset_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
+def wheelset_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
+    """Yield one row per case and wheelset."""
     for result in results:
         for position, wheelset in enumerate(result.wheelsets, start=1):
             ranges = range_cells(result, WHEELSET_COLUMNS, position)
             yield {"id": result.id, "wheelset": position, **wheelset, **ranges}
 
 
-def _criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
+def criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
+    """Yield one row per case and criterion; with its sensitivity, which a file has no column for."""
     for result in results:
         for verdict in result.criteria:
-            own = {"id": result.id, "criterion": verdict.id, "definition": definition_sentence(verdict)}
-            yield {**own, **criterion_cells(verdict), **criterion_share_cells(verdict)}
+            yield {
+                "id": result.id,
+                "criterion": verdict.id,
+                **{column: getattr(verdict, name) for column, name in _CRITERION_FIELDS.items()},
+                READINGS: "; ".join(reading_sentences(verdict)),
+                REQUIREMENTS: "; ".join(verdict.requirements),
+                **criterion_share_cells(verdict),
+                "definition": definition_sentence(verdict),
+                "sensitivity": "; ".join(map(str, verdict.sensitivity)),
+            }
 
 
-def criterion_cells(verdict: evaluation.Verdict) -> dict[str, Cell]:
-    """Return the cells of a verdict that every table of criteria has."""
-    own: dict[str, Cell] = {column: getattr(verdict, name) for column, name in _CRITERION_FIELDS.items()}
-    own[READINGS] = "; ".join(reading_sentences(verdict))
-    return own | {REQUIREMENTS: "; ".join(verdict.requirements)}
-
-
-def _files(content: RunContent) -> dict[str, bytes]:
-    return {f"{name}.csv": csv_text(*table).encode() for name, table in run_tables(content).items()}
-
-
-FORMAT = ReportFormat(_files)
+FORMAT = ReportFormat(
+    lambda content: {f"{name}.csv": csv_text(*table).encode() for name, table in run_tables(content).items()}
+)

@@ -6,17 +6,17 @@ import io
 import json
 from collections.abc import Iterable, Iterator, Mapping
 
-from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.measures import STOP_COLUMNS
 from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.content import RunContent
 from uictest.report.cover_sheet import COVER, insert_charts, write_cover
 from uictest.report.difference import Difference, baseline_summary, not_compared_sentences
 from uictest.report.formats import ReportFormat
-from uictest.report.formats.csv import CHANGED, REQUIREMENTS, controller_cells, criterion_cells
+from uictest.report.formats.csv import CHANGED, REQUIREMENTS, controller_cells, criterion_rows, wheelset_rows
 from uictest.report.manifest import manifest_form
 from uictest.report.part_wording import changes_of, domain_sentences
-from uictest.report.repeat_wording import criterion_share_cells, range_cells, share_cells, stop_rows
+from uictest.report.repeat_wording import range_cells, share_cells, stop_rows
 from uictest.report.requirements import (
     REQUIREMENTS_SHEET,
     requirement_matrix,
@@ -32,7 +32,7 @@ from uictest.report.sheet import (
     styles_of,
     write_table,
 )
-from uictest.report.wording import definition_sentence, result_word
+from uictest.report.wording import result_word
 
 
 def workbook_bytes(content: RunContent) -> bytes:
@@ -52,32 +52,49 @@ def workbook_bytes(content: RunContent) -> bytes:
 
 
 def _sheets(content: RunContent) -> Mapping[str, Iterable[Row]]:
-    """Return the rows of each sheet by its name; those that grow with the cases are made when read."""
-    return {
+    """Return the rows of each sheet by its name; those that grow with the cases are made when read.
+
+    There is no sheet of what the run has nothing of.
+    """
+    results, baseline = content.results, content.baseline
+    requirements = verified_requirements(results, content.series)
+    known = [result for result in content.all_results if result.parts]
+    sheets: dict[str, Iterable[Row]] = {
         **series_views.series_sheets(content.series),
         "Cases": RowsMadeAnew(lambda: _cases(content)),
-        "Wheelsets": RowsMadeAnew(lambda: _wheelsets(content)),
-        "Criteria": RowsMadeAnew(lambda: _criteria(content)),
-        **_repeats(content),
-        **_requirements(content),
-        **_baseline_sheet(content),
-        **_parts(content),
-        "Provenance": list(_provenance(content)),
+        "Wheelsets": RowsMadeAnew(lambda: map(_of_case, wheelset_rows(results))),
+        "Criteria": RowsMadeAnew(lambda: map(_of_case, criterion_rows(results))),
     }
+    if next(iter(stop_rows(results)), None) is not None:
+        sheets["Repeats"] = RowsMadeAnew(lambda: map(_of_case, stop_rows(results)))
+    if requirements:
+        sheets[REQUIREMENTS_SHEET] = requirement_matrix(requirements)
+    if baseline is not None:
+        sheets["Baseline"] = [_difference_row(each) for each in baseline.all_differences]
+    if known:
+        sheets["Parts"] = RowsMadeAnew(
+            lambda: (
+                {"case": each.id, **{role: part.id for role, part in each.parts.items()}} for each in known
+            )
+        )
+        sheets["Parameters"] = list(parameter_rows(each.parts for each in known))
+    return {**sheets, "Provenance": list(_provenance(content))}
+
+
+def _of_case(row: Row) -> Row:
+    """Return a row of a file as one of a sheet, where the id of a case is its case."""
+    return {"case": row["id"], **{name: cell for name, cell in row.items() if name != "id"}}
 
 
 def _cases(content: RunContent) -> Iterator[Row]:
     for result in content.results:
         subject = content.subject(result.id)
-        about: Row = {"title": subject.title, "tags": " ".join(subject.tags), "scenario": result.scenario}
-        about |= controller_cells(result, content.uictest_version)
-        yield {"case": result.id, **about, **result_row(result), **_against_baseline(content, result)}
-
-
-def _against_baseline(content: RunContent, result: evaluation.CaseResult) -> Row:
-    if content.baseline is None:
-        return {}
-    return {"baseline": "differs" if content.differences(result.id) else "agrees"}
+        row: Row = {"case": result.id, "title": subject.title, "tags": " ".join(subject.tags)}
+        row |= {"scenario": result.scenario, **controller_cells(result, content.uictest_version)}
+        row |= result_row(result)
+        if content.baseline is not None:
+            row["baseline"] = "differs" if content.differences(result.id) else "agrees"
+        yield row
 
 
 def result_row(result: evaluation.CaseResult) -> Row:
@@ -94,44 +111,6 @@ def result_row(result: evaluation.CaseResult) -> Row:
     return row | {CHANGED: "; ".join(changes_of(result)), "reason": result.reason}
 
 
-def _wheelsets(content: RunContent) -> Iterator[Row]:
-    for result in content.results:
-        for position, wheelset in enumerate(result.wheelsets, start=1):
-            ranges = range_cells(result, WHEELSET_COLUMNS, position)
-            yield {"case": result.id, "wheelset": position, **wheelset, **ranges}
-
-
-def _criteria(content: RunContent) -> Iterator[Row]:
-    for result in content.results:
-        for verdict in result.criteria:
-            row: Row = {"case": result.id, "criterion": verdict.id}
-            row |= {**criterion_cells(verdict), **criterion_share_cells(verdict)}
-            firm = "; ".join(str(sensitivity) for sensitivity in verdict.sensitivity)
-            yield row | {"definition": definition_sentence(verdict), "sensitivity": firm}
-
-
-def _repeats(content: RunContent) -> dict[str, Iterable[Row]]:
-    """Return the stops of repeated cases; no sheet where there are none."""
-    if next(iter(stop_rows(content.results)), None) is None:
-        return {}
-    return {"Repeats": RowsMadeAnew(lambda: map(_stop_row, stop_rows(content.results)))}
-
-
-def _stop_row(row: Row) -> Row:
-    return {"case": row["id"], **{name: cell for name, cell in row.items() if name != "id"}}
-
-
-def _requirements(content: RunContent) -> dict[str, Iterable[Row]]:
-    requirements = verified_requirements(content.results, content.series)
-    return {REQUIREMENTS_SHEET: requirement_matrix(requirements)} if requirements else {}
-
-
-def _baseline_sheet(content: RunContent) -> dict[str, Iterable[Row]]:
-    if content.baseline is None:
-        return {}
-    return {"Baseline": [_difference_row(each) for each in content.baseline.all_differences]}
-
-
 def _difference_row(difference: Difference) -> Row:
     return {
         "case": difference.case,
@@ -143,21 +122,6 @@ def _difference_row(difference: Difference) -> Row:
         "unit": difference.unit,
         "remark": difference.remark,
     }
-
-
-def _parts(content: RunContent) -> dict[str, Iterable[Row]]:
-    """Return the parts of each case, and the parameters of these; no sheet where none is known."""
-    known = [result for result in content.all_results if result.parts]
-    if not known:
-        return {}
-    return {
-        "Parts": RowsMadeAnew(lambda: ({"case": each.id, **_part_ids(each)} for each in known)),
-        "Parameters": list(parameter_rows(each.parts for each in known)),
-    }
-
-
-def _part_ids(result: evaluation.CaseResult) -> Row:
-    return {role: part.id for role, part in result.parts.items()}
 
 
 def parameter_rows(cases: Iterable[Mapping[str, evaluation.EffectivePart]]) -> Iterator[Row]:
@@ -192,8 +156,4 @@ def manifest_rows(manifest: Mapping[str, object]) -> Iterator[Row]:
             yield {"what": name, "value": value if isinstance(value, str) else json.dumps(value)}
 
 
-def _files(content: RunContent) -> dict[str, bytes]:
-    return {"report.xlsx": workbook_bytes(content)}
-
-
-FORMAT = ReportFormat(_files)
+FORMAT = ReportFormat(lambda content: {"report.xlsx": workbook_bytes(content)})

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from uictest.core.document import Cell, Data
-from uictest.core.series_measures import SERIES_MEASURES, Estimate, SeriesValue
-from uictest.judging.series import SeriesResult, SeriesVerdict, observed_stops
+from uictest.core.series_measures import SERIES_MEASURES, Estimate
+from uictest.judging.series import SeriesResult, observed_stops
 from uictest.report.series.wording import series_word
 from uictest.report.wording import definition_sentence
 
@@ -47,13 +47,9 @@ def measure_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
                 unit = SERIES_MEASURES[name].unit if name in SERIES_MEASURES else "1"
                 about: Row = {"series": result.id, "speed_kmh": speed, "rail": rail}
                 about |= {"measure": name, "unit": unit}
-                yield {**about, **_value_cells(value)}
-
-
-def _value_cells(value: SeriesValue) -> Row:
-    estimate = value.estimate
-    cells: Row = {"value": None if estimate is None else estimate.value}
-    return {**cells, **_estimate_cells(estimate), "reason": value.unavailable_reason}
+                estimate = value.estimate
+                about["value"] = None if estimate is None else estimate.value
+                yield {**about, **_estimate_cells(estimate), "reason": value.unavailable_reason}
 
 
 def _estimate_cells(estimate: Estimate | None) -> Row:
@@ -64,29 +60,23 @@ def criterion_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
     """Yield one row per series and criterion."""
     for result in results:
         for each in result.criteria:
-            yield {"series": result.id, "criterion": each.verdict.id, **_criterion_cells(each)}
-
-
-def _criterion_cells(each: SeriesVerdict) -> Row:
-    verdict = each.verdict
-    return {
-        "layer": verdict.layer,
-        "verdict": verdict.status,
-        "value": verdict.value,
-        "unit": verdict.unit,
-        "lower": verdict.lower,
-        "upper": verdict.upper,
-        "margin": verdict.margin,
-        "speed_kmh": each.speed_kmh,
-        "rail": each.rail,
-        "certain": each.confident,
-        "kept": each.kept,
-        **_estimate_cells(each.estimate),
-        "stops": each.stops if each.estimate is None else each.estimate.stops,
-        "reason": verdict.reason,
-        "requirements": "; ".join(verdict.requirements),
-        "definition": definition_sentence(verdict),
-    }
+            verdict = each.verdict
+            yield {
+                "series": result.id,
+                "criterion": verdict.id,
+                "layer": verdict.layer,
+                "verdict": verdict.status,
+                **{name: getattr(verdict, name) for name in ("value", "unit", "lower", "upper", "margin")},
+                "speed_kmh": each.speed_kmh,
+                "rail": each.rail,
+                "certain": each.confident,
+                "kept": each.kept,
+                **_estimate_cells(each.estimate),
+                "stops": each.stops if each.estimate is None else each.estimate.stops,
+                "reason": verdict.reason,
+                "requirements": "; ".join(verdict.requirements),
+                "definition": definition_sentence(verdict),
+            }
 
 
 def stop_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
@@ -98,16 +88,10 @@ def stop_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
                 for position, wheelset in enumerate(stop.figures.wheelsets, start=1)
                 for name, value in wheelset.items()
             }
+            own = ("case", "role", "rail", "speed_kmh", "seed", "counts", "outcome", "reason")
             yield {
                 "series": result.id,
-                "case": stop.case,
-                "role": stop.role,
-                "rail": stop.rail,
-                "speed_kmh": stop.speed_kmh,
-                "seed": stop.seed,
-                "counts": stop.counts,
-                "outcome": stop.outcome,
-                "reason": stop.reason,
+                **{name: getattr(stop, name) for name in own},
                 **stop.figures.measures,
                 **wheelsets,
             }

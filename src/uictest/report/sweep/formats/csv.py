@@ -6,11 +6,7 @@ import shutil
 from pathlib import Path
 
 from uictest.core import files
-from uictest.report.sweep.folder import SweepContent, SweepFormat
-
-
-def _write(folder: Path, content: SweepContent) -> list[Path]:
-    return [_copied(path, folder) for path in sorted(content.folder.glob("*.csv"))]
+from uictest.report.sweep.folder import SweepFormat
 
 
 def _copied(table: Path, folder: Path) -> Path:
@@ -22,4 +18,6 @@ def _copied(table: Path, folder: Path) -> Path:
     return target
 
 
-FORMAT = SweepFormat(_write)
+FORMAT = SweepFormat(
+    lambda folder, content: [_copied(path, folder) for path in sorted(content.folder.glob("*.csv"))]
+)

@@ -3,11 +3,6 @@
 from __future__ import annotations
 
 from uictest.report import page
-from uictest.report.sweep.folder import SweepContent, one_file
+from uictest.report.sweep.folder import one_file
 
-
-def _page(content: SweepContent) -> bytes:
-    return page.sweep_page_html(content).encode()
-
-
-FORMAT = one_file("index.html", _page)
+FORMAT = one_file("index.html", lambda content: page.sweep_page_html(content).encode())

@@ -23,8 +23,4 @@ def append_sweep_step_summary(content: SweepContent) -> None:
     append_to_step_summary(partial(sweep_markdown, content))
 
 
-def _text(content: SweepContent) -> bytes:
-    return sweep_markdown(content).encode()
-
-
-FORMAT = one_file("summary.md", _text)
+FORMAT = one_file("summary.md", lambda content: sweep_markdown(content).encode())
