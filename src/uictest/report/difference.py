@@ -79,7 +79,10 @@ def percent_text(percent: float | None) -> str:
 
 def difference_sentence(difference: Difference) -> str:
     """Return one line: `outcome was pass, is fail`, for numbers with deviation and tolerance."""
-    first, second = (_with_unit(side, difference.unit) for side in (difference.first, difference.second))
+    first, second = (
+        side if isinstance(side, str) else quantity(side, difference.unit)
+        for side in (difference.first, difference.second)
+    )
     sentence = f"{difference.quantity} was {first}, is {second}"
     if difference.deviation is not None and difference.allowed is not None:
         deviation, allowed = (
@@ -139,10 +142,6 @@ def _excess(difference: Difference) -> float:
     if difference.deviation is None or not difference.allowed:
         return math.inf
     return difference.deviation / difference.allowed
-
-
-def _with_unit(value: Value, unit: str) -> str:
-    return value if isinstance(value, str) else quantity(value, unit)
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,12 +16,12 @@ _NOT_XML = re.compile("[^\t\n\r\u0020-\u007e\u0085\u00a0-\ud7ff\ue000-\ufffd\U00
 
 def printable(text: str) -> str:
     """Return the text on one line with every control, format and unassigned character spelled out."""
-    return text if text.isprintable() else "".join(map(_spelled_out, text))
-
-
-def _spelled_out(character: str) -> str:
-    # `isprintable` is false for exactly what can move the cursor, reverse the reading direction or hide.
-    return character if character.isprintable() else character.encode("unicode_escape").decode("ascii")
+    if text.isprintable():
+        return text
+    # It is not for exactly what can move the cursor, reverse the reading direction or hide.
+    return "".join(
+        each if each.isprintable() else each.encode("unicode_escape").decode("ascii") for each in text
+    )
 
 
 def argument(path: str) -> str:

@@ -48,8 +48,10 @@ def run_suites(
     """
     differences = baseline.differences if baseline else {}
     missing = [
-        _missing_testcase(case_id, scenario, differences[case_id])
-        for case_id, scenario in (baseline.beside_cases if baseline else {}).items()
+        Testcase(
+            class_name(file), own_id, "failure", difference_sentences(differences[own_id]), "baseline", 0.0
+        )
+        for own_id, file in (baseline.beside_cases if baseline else {}).items()
     ]
     own: dict[evaluation.Program | None, list[evaluation.CaseResult]] = {None: []} if missing else {}
     for result in results:
@@ -98,11 +100,6 @@ def _testcase(
         result.duration,
         test_properties(result.test_case, requirements_of(result)) if with_properties else {},
     )
-
-
-def _missing_testcase(case_id: str, scenario: str, differences: Sequence[Difference]) -> Testcase:
-    lines = difference_sentences(differences)
-    return Testcase(class_name(scenario), case_id, "failure", lines, "baseline", 0.0)
 
 
 def _status(result: evaluation.CaseResult, *, differs: bool) -> TestcaseStatus:

@@ -11,7 +11,6 @@ from uictest.judging import evaluation
 from uictest.report.case_table import measure_columns
 from uictest.report.content import DRAWN, MOST_DRAWN, RunContent, drawn_cases, worst_first
 from uictest.report.difference import (
-    BaselineComparison,
     baseline_summary,
     differences_table,
     not_compared_sentences,
@@ -31,6 +30,8 @@ from uictest.report.wording import (
 def page_html(content: RunContent) -> str:
     """Return the page: one document that loads nothing, and can be read without JavaScript."""
     drawn = _drawn(content)
+    words = [content.word(result) for result in content.results]
+    baseline = content.baseline
     keys = {view.result.id: view.fragment for view in drawn}
     return render(
         "run.html.j2",
@@ -51,13 +52,13 @@ def page_html(content: RunContent) -> str:
         varied=(),
         of_which="the drawn stops" if drawn else "the cases",
         all_parts_in="results.json",
-        words=_words(content),
+        words={word: words.count(word) for word in CASE_WORDS if word in words},
         measure_columns=measure_columns(content.results),
         differences_table=differences_table,
         plots=plots_json(),
         with_plots=bool(drawn),
         running_head=content.name,
-        baseline_lines=_baseline_lines(content.baseline),
+        baseline_lines=[baseline_summary(baseline), *not_compared_sentences(baseline)] if baseline else [],
         repeats_not_drawn=_repeats_not_drawn(content, drawn),
     )
 
@@ -117,16 +118,6 @@ def _opened(content: RunContent, drawn: Sequence[CaseView]) -> str:
     if len(drawn) == 1:
         return drawn[0].anchor
     return next((view.anchor for view in drawn if not content.passes(view.result)), "")
-
-
-def _words(content: RunContent) -> dict[str, int]:
-    words = [content.word(result) for result in content.results]
-    return {word: words.count(word) for word in CASE_WORDS if word in words}
-
-
-def _baseline_lines(baseline: BaselineComparison | None) -> list[str]:
-    """Return how the run compares with its baseline and what was not compared."""
-    return [baseline_summary(baseline), *not_compared_sentences(baseline)] if baseline else []
 
 
 def _not_drawn(content: RunContent, drawn: Sequence[CaseView]) -> str:

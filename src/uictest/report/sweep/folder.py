@@ -132,9 +132,5 @@ def write_sweep_formats(folder: Path, content: SweepContent, names: Iterable[str
 
     Raises OSError, and ValueError where summary.parquet cannot be read.
     """
-    return [path for name in names for path in _format_named(name).write(folder, content)]
-
-
-def _format_named(name: str) -> SweepFormat:
-    registered: SweepFormat = import_module(f"{formats.__name__}.{name}").FORMAT
-    return registered
+    registered = [import_module(f"{formats.__name__}.{name}").FORMAT for name in names]
+    return [path for each in registered for path in each.write(folder, content)]

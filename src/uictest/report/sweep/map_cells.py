@@ -135,11 +135,6 @@ def map_cells(
     return [each.cells(result) for each in sums]
 
 
-def _axis(result: SweepResult, key: str, places: Fold) -> CellAxis:
-    values = [count.value for count in result.rates[key]]
-    return CellAxis(key, [values[each.start : each.stop] for each in places])
-
-
 @dataclass
 class _Sums:
     """Sums over the cells of one map."""
@@ -181,7 +176,11 @@ class _Sums:
 
     def cells(self, result: SweepResult) -> MapCells:
         """Return the cells of the cases that were added."""
-        rows, columns = (_axis(result, *each) for each in zip(self.pair, self.folds, strict=True))
+        values = [[count.value for count in result.rates[key]] for key in self.pair]
+        rows, columns = (
+            CellAxis(key, [own[each.start : each.stop] for each in places])
+            for key, own, places in zip(self.pair, values, self.folds, strict=True)
+        )
         cases = np.sum([self._zeros(), *self._outcomes.values()], axis=0)
         return MapCells(rows, columns, cases, self._met, self._outcomes, dict(self._means()))
 

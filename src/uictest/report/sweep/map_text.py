@@ -129,8 +129,10 @@ def _fold_note(sweep_map: SweepMap, shown: FoldedMap) -> Iterator[str]:
 
 
 def _table(shown: FoldedMap, *, shows_met: bool) -> Iterator[str]:
-    cell_text = _share_sign if shows_met else _mean_text
-    cells = [[cell_text(mean) for mean in row] for row in shown.means]
+    cells = [
+        ["" if mean is None else _share_sign(mean) if shows_met else f"{mean:.4g}" for mean in row]
+        for row in shown.means
+    ]
     labels = [range_label(values) for values in shown.rows]
     heads = list(zip(*map(_column_head, shown.columns), strict=True))
     lines = [("", head) for head in heads if any(head)] + list(zip(labels, cells, strict=True))
@@ -149,13 +151,7 @@ def _column_head(values: Sequence[SweptValue]) -> tuple[str, str]:
     return first.label, "" if len(values) == 1 else f".. {last.label}"
 
 
-def _mean_text(mean: float | None) -> str:
-    return "" if mean is None else f"{mean:.4g}"
-
-
-def _share_sign(share: float | None) -> str:
-    if share is None:
-        return ""
+def _share_sign(share: float) -> str:
     # Only what is whole is shown as whole: one case of a thousand that misses must be seen.
     return _SIGNS[0 if share == 0.0 else 10 if share == 1.0 else min(max(round(10.0 * share), 1), 9)]
 

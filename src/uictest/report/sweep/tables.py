@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Final
 
 from uictest.core.document import Cell
 from uictest.report.cover_sheet import Cells, Plotted, histogram_chart, line_chart
 from uictest.report.sheet import columns_of, heading_rows
 from uictest.report.sweep.result import (
-    Flip,
     Frontier,
     MeasureHistogram,
-    SobolSensitivity,
     SweepMap,
     SweepResult,
     Trend,
@@ -28,6 +26,7 @@ if TYPE_CHECKING:
 
 
 TREND_COLUMNS: Final = ("parameter", "value", "measure", "unit", "cases", "minimum", "mean", "maximum")
+_RATE_COLUMNS: Final = ["parameter", "value", "cases", "met", "share_met"]
 _FRONTIER_COLUMNS: Final = ("from", "to", "met_at_from", "flips", "note")
 _INDEX_COLUMNS: Final = [f"{order}{end}" for order in ("first", "total") for end in ("", "_low", "_high")]
 
@@ -35,7 +34,7 @@ _INDEX_COLUMNS: Final = [f"{order}{end}" for order in ("first", "total") for end
 def csv_tables(result: SweepResult) -> dict[str, str]:
     """Return the CSV files of a sweep besides its summary, by file name."""
     tables = {
-        "rates.csv": _rates_csv(result),
+        "rates.csv": csv_text([*_RATE_COLUMNS, *result.outcomes], rate_rows(result)),
         **{f"map-{each.measure}.csv": map_csv(each) for each in result.maps},
         "trends.csv": csv_text(TREND_COLUMNS, (row for trend in result.trends for row in trend_rows(trend))),
     }
@@ -78,7 +77,9 @@ def sensitivity_rows(result: SweepResult, prefix: str = "") -> Iterator[dict[str
             f"{prefix}{key}": value.text for key, value in sensitivity.circumstances.items()
         }
         own: dict[str, Cell] = {"measure": sensitivity.measure, "parameter": sensitivity.key}
-        yield {**own, **at, **_indices(sensitivity)}
+        indices = (sensitivity.first, sensitivity.total)
+        numbers = [number for index in indices for number in (index.value, index.low, index.high)]
+        yield {**own, **at, **dict(zip(_INDEX_COLUMNS, numbers, strict=True))}
 
 
 def frontier_rows(frontier: Frontier, prefix: str = "") -> Iterator[dict[str, Cell]]:
@@ -86,7 +87,10 @@ def frontier_rows(frontier: Frontier, prefix: str = "") -> Iterator[dict[str, Ce
     for scan in frontier.scans:
         at: dict[str, Cell] = {f"{prefix}{key}": value.text for key, value in scan.circumstances.items()}
         for flip in scan.flips or (None,):
-            yield {**at, **_flip_cells(flip), "flips": len(scan.flips), "note": scan.note}
+            cells: dict[str, Cell] = {"from": None, "to": None, "met_at_from": None}
+            if flip is not None:
+                cells = {"from": flip.low.text, "to": flip.high.text, "met_at_from": flip.met_at_low}
+            yield {**at, **cells, "flips": len(scan.flips), "note": scan.note}
 
 
 def map_csv(sweep_map: SweepMap) -> str:
@@ -104,26 +108,10 @@ def frontier_csv(frontier: Frontier) -> str:
     return csv_text([*frontier.scans[0].circumstances, *_FRONTIER_COLUMNS], frontier_rows(frontier))
 
 
-def _rates_csv(result: SweepResult) -> str:
-    return csv_text(["parameter", "value", "cases", "met", "share_met", *result.outcomes], rate_rows(result))
-
-
 def sensitivity_csv(result: SweepResult) -> str:
     """Return the Sobol indices as CSV."""
     circumstances = list(result.sensitivities[0].circumstances)
     return csv_text(["measure", *circumstances, "parameter", *_INDEX_COLUMNS], sensitivity_rows(result))
-
-
-def _indices(sensitivity: SobolSensitivity) -> Mapping[str, Cell]:
-    indices = (sensitivity.first, sensitivity.total)
-    numbers = [number for index in indices for number in (index.value, index.low, index.high)]
-    return dict(zip(_INDEX_COLUMNS, numbers, strict=True))
-
-
-def _flip_cells(flip: Flip | None) -> dict[str, Cell]:
-    if flip is None:
-        return {"from": None, "to": None, "met_at_from": None}
-    return {"from": flip.low.text, "to": flip.high.text, "met_at_from": flip.met_at_low}
 
 
 SUMMARY_SHEET: Final = "Summary"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from operator import itemgetter
 from typing import Any, Final
 
 from uictest.core import document
@@ -114,23 +115,20 @@ def tables_left_out(result: SweepResult) -> list[str]:
 
 
 def _table(headings: Sequence[str], rows: Sequence[_Texts], title: str, basis: str, file: str) -> Table:
-    columns = [_column(place, heading) for place, heading in enumerate(headings)]
+    columns = [
+        Column(heading=heading, text=itemgetter(place), right=place > 0)
+        for place, heading in enumerate(headings)
+    ]
     return Table(columns, rows, title, basis, f"more levels are in `{file}`.")
 
 
-def _column(place: int, heading: str) -> Column[_Texts]:
-    return Column(heading=heading, text=lambda texts: texts[place], right=place > 0)
-
-
 def _quantiles(table: MeasureQuantiles) -> Table:
-    rows = [_quantile(each, table.sample) for each in table.quantiles]
+    rows = []
+    for each in table.quantiles:
+        bound = bound_text(each) if each.is_supported else refusal_text(each.draws_needed, table.sample)
+        rows.append((share_text(each.level), str(each.draws_needed), number(each.estimate), bound))
     basis = _basis(table.confidence, table.sample)
     return _table(_QUANTILES, rows, quantiles_title(table), basis, "quantiles.csv")
-
-
-def _quantile(each: Quantile, sample: DrawCount) -> _Texts:
-    bound = bound_text(each) if each.is_supported else refusal_text(each.draws_needed, sample)
-    return share_text(each.level), str(each.draws_needed), number(each.estimate), bound
 
 
 def _k_dry(table: KDry) -> Table:

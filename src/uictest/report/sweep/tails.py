@@ -108,14 +108,10 @@ class KDry:
 
     def over(self, nominal: float | None) -> KDry:
         """Return the table for a nominal deceleration, m/s2; NaN and None stand for none."""
-        if nominal is not None and not (math.isfinite(nominal) and nominal > 0.0):
-            nominal = None
-        return replace(
-            self,
-            nominal=nominal,
-            levels=tuple(replace(level, k_dry=_ratio(level.deceleration, nominal)) for level in self.levels),
-        )
-
-
-def _ratio(deceleration: float | None, nominal: float | None) -> float | None:
-    return None if deceleration is None or nominal is None else deceleration / nominal
+        if nominal is None or not (math.isfinite(nominal) and nominal > 0.0):
+            return replace(
+                self, nominal=None, levels=tuple(replace(each, k_dry=None) for each in self.levels)
+            )
+        factors = [None if each.deceleration is None else each.deceleration / nominal for each in self.levels]
+        levels = [replace(each, k_dry=factor) for each, factor in zip(self.levels, factors, strict=True)]
+        return replace(self, nominal=nominal, levels=tuple(levels))

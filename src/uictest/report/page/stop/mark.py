@@ -121,21 +121,19 @@ def labels_of(title: str, marks: Sequence[Mark], x: Axis) -> Labels:
         text = f"{_SAMPLES.get(mark.kind, '')}{mark.label}"
         place = next((end for end in (mark.x0, mark.x1) if end is not None), None)
         left = max(x.start, min(x.end if place is None else x.at(place), x.end - _width(text)))
-        taken = (left, left + _width(text))
-        row = next((k for k, own in enumerate(rows) if _free(own, taken)), len(rows))
+        right = left + _width(text)
+        row = next(
+            (k for k, own in enumerate(rows) if all(right <= a or left >= b for a, b in own)), len(rows)
+        )
         if row == len(rows):
             rows.append([])
-        rows[row].append(taken)
+        rows[row].append((left, right))
         labels.append(Label(text, left, row, mark.status))
     return Labels(labels, len(rows))
 
 
 def _width(text: str) -> float:
     return _CHARACTER * len(text) + 8.0
-
-
-def _free(row: Sequence[tuple[float, float]], wanted: tuple[float, float]) -> bool:
-    return all(wanted[1] <= left or wanted[0] >= right for left, right in row)
 
 
 Bar = tuple[float, float, float]

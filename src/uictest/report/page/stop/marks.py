@@ -27,17 +27,15 @@ def marks_of(verdicts: Iterable[evaluation.Verdict], trace: PlotTrace) -> list[M
             mark,
             criterion=verdict.id,
             status=verdict.status,
-            label=_with_status(mark.label, verdict.status),
+            # In words, not by its colour alone, where a criterion was not decided.
+            label=f"{mark.label} (inconclusive)"
+            if mark.label and verdict.status == "inconclusive"
+            else mark.label,
         )
         for verdict in failing_first(verdicts)
         if verdict.status != "not_applicable" and (decided := _decided(verdict)) is not None
         for mark in _marks(verdict, decided, trace)
     ]
-
-
-def _with_status(label: str, status: evaluation.Status) -> str:
-    """Return a label that says in words, not by its colour alone, that a criterion was not decided."""
-    return f"{label} (inconclusive)" if label and status == "inconclusive" else label
 
 
 def fault_marks(trace: PlotTrace) -> Iterator[Mark]:

@@ -134,7 +134,10 @@ def placed_cells(
 
 def _listed(axis: CellAxis, start: float, end: float, *, upright: bool) -> PlacedCells:
     edges = [start + (end - start) * k / len(axis.groups) for k in range(len(axis.groups) + 1)]
-    labels = [_shortened(short_label(group)) for group in axis.groups]
+    labels = [
+        label if len(label) <= _LONGEST_LABEL else f"{label[: _LONGEST_LABEL - 1]}…"
+        for label in map(short_label, axis.groups)
+    ]
     ticks = [((edges[k] + edges[k + 1]) / 2, label) for k, label in enumerate(labels)]
     ticks = ticks[:: -(-len(ticks) // _MOST_LABELS)]
     return PlacedCells(axis.parameter, "listed", edges, ticks, slanted=not (upright or _fit(ticks)))
@@ -153,10 +156,15 @@ def _bounds(groups: Sequence[Sequence[SweptValue]], *, logarithmic: bool) -> lis
     if _intervals(groups):
         return [groups[0][0].low, *(group[-1].high for group in groups)]  # type: ignore[union-attr]
     numbers = [value.number for value in values]
-    if None in numbers or len(groups) < 2 or not _is_monotonic(numbers):  # type: ignore[arg-type]
+    if None in numbers or len(groups) < 2:
+        return None
+    rising = {after > before for before, after in pairwise(numbers)}  # type: ignore[operator]
+    if len(rising) > 1 or len(set(numbers)) < len(numbers):
         return None
     bounds = _between_values(groups, logarithmic=logarithmic)
-    return bounds if _are_readable(bounds, logarithmic=logarithmic) else None
+    scaled = list(map(math.log, bounds)) if logarithmic else bounds
+    widths = [abs(after - before) for before, after in pairwise(scaled)]
+    return bounds if min(widths) >= _NARROWEST * sum(widths) / len(widths) else None
 
 
 def _between_values(groups: Sequence[Sequence[SweptValue]], *, logarithmic: bool) -> list[float]:
@@ -169,17 +177,6 @@ def _between_values(groups: Sequence[Sequence[SweptValue]], *, logarithmic: bool
     return [back(bound) for bound in (first, *inner, last)]
 
 
-def _are_readable(bounds: Sequence[float], *, logarithmic: bool) -> bool:
-    scaled = list(map(math.log, bounds)) if logarithmic else bounds
-    widths = [abs(after - before) for before, after in pairwise(scaled)]
-    return min(widths) >= _NARROWEST * sum(widths) / len(widths)
-
-
-def _is_monotonic(numbers: Sequence[float]) -> bool:
-    steps = [after - before for before, after in pairwise(numbers)]
-    return all(step > 0.0 for step in steps) or all(step < 0.0 for step in steps)
-
-
 def _intervals(groups: Sequence[Sequence[SweptValue]]) -> bool:
     return all(isinstance(value, DrawnInterval) for group in groups for value in group)
 
@@ -190,10 +187,6 @@ def _number_tick(group: Sequence[SweptValue], numbers: NumberAxis) -> Tick:
     pixels = [numbers.at(value.number) for value in ends if value.number is not None]
     texts = [value.label.split(" ", 1)[0] for value in ends]
     return sum(pixels) / len(pixels), texts[0] if len(group) == 1 else " … ".join(texts)
-
-
-def _shortened(label: str) -> str:
-    return label if len(label) <= _LONGEST_LABEL else f"{label[: _LONGEST_LABEL - 1]}…"
 
 
 def _apart(ticks: Sequence[Tick]) -> list[Tick]:

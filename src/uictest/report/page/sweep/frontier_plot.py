@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from uictest.report.page.axis import Tick, axis_title
 from uictest.report.page.sweep.cell_axis import NumberAxis, spanned
-from uictest.report.sweep.result import Circumstances, Flip, Frontier, FrontierScan
+from uictest.report.sweep.result import Frontier, FrontierScan
 from uictest.report.sweep.values import WrittenValue
 from uictest.report.sweep.wording import circumstances_words, flip_words
 
@@ -87,11 +87,14 @@ def frontier_plot(frontier: Frontier, logarithmic: Collection[str] = ()) -> Fron
 
 def _flips(scans: Sequence[FrontierScan], key: str) -> Iterator[_Flip]:
     for scan in scans:
-        others = _others(scan.circumstances, key)
+        fixed = {name: value for name, value in scan.circumstances.items() if name != key}
+        others = circumstances_words(fixed) if fixed else "the verdict flips here"
         for flip in scan.flips:
-            middle = _middle(flip)
-            if middle is not None:
-                yield _Flip(_number_at(scan, key), middle, others, flip.met_at_low, flip_words(flip))
+            low, high = flip.low.number, flip.high.number
+            if low is not None and high is not None:
+                yield _Flip(
+                    _number_at(scan, key), 0.5 * (low + high), others, flip.met_at_low, flip_words(flip)
+                )
 
 
 def _number_at(scan: FrontierScan, key: str) -> float:
@@ -138,13 +141,3 @@ def _numeric_key(scans: Sequence[FrontierScan]) -> str | None:
         if None not in numbers and len(numbers) > 1:
             return key
     return None
-
-
-def _others(circumstances: Circumstances, key: str) -> str:
-    others = {name: value for name, value in circumstances.items() if name != key}
-    return circumstances_words(others) if others else "the verdict flips here"
-
-
-def _middle(flip: Flip) -> float | None:
-    low, high = flip.low.number, flip.high.number
-    return None if low is None or high is None else 0.5 * (low + high)

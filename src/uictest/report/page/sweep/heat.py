@@ -15,7 +15,7 @@ from uictest.report.page.axis import axis_title
 from uictest.report.page.links import fragment
 from uictest.report.page.sweep.colour_scale import CIVIDIS, VIRIDIS, ColourScale
 from uictest.report.page.sweep.heat_plot import SIGNS, HeatPlot, heat_plot, marked
-from uictest.report.sweep.map_cells import CellAxis, MapCells
+from uictest.report.sweep.map_cells import MapCells
 from uictest.report.sweep.map_text import short_label
 from uictest.report.sweep.result import MET
 from uictest.report.sweep.wording import share_words
@@ -117,7 +117,11 @@ def heat_maps(
         cells.columns.parameter,
         maps,
         list(_notes(cells, others)),
-        list(_sign_words(cells)),
+        [
+            (SIGNS[name], f"{counted(count, 'cell')} {_SIGN_WORDS[name]}")
+            for name, chosen in marked(cells).items()
+            if (count := int(chosen.sum()))
+        ],
         int((cells.cases == 0).sum()),
         bool(maps[0].plot.boundary),
     )
@@ -199,11 +203,8 @@ def _heat_map(
     down, across = cells.rows.parameter, cells.columns.parameter
     heading = f"{title[0].upper()}{title[1:]}, over {down} and {across}"
     columns = list(map(short_label, cells.columns.groups))
-    return HeatMap(_anchor(measure, down, across), measure, title, heading, plot, columns, rows)
-
-
-def _anchor(*names: str) -> str:
-    return "-".join(("map", *("-".join(printable(name).split()) for name in names)))
+    names = ("-".join(printable(name).split()) for name in (measure, down, across))
+    return HeatMap("-".join(("map", *names)), measure, title, heading, plot, columns, rows)
 
 
 def _rows(
@@ -237,14 +238,5 @@ def _notes(cells: MapCells, others: Sequence[str]) -> Iterator[str]:
         yield f"A cell has all cases with its two values, whatever their {', '.join(others)}."
     for axis in (cells.rows, cells.columns):
         if axis.is_folded:
-            yield _folded_words(axis)
-
-
-def _folded_words(axis: CellAxis) -> str:
-    return f"Folded: neighbours of {axis.values} values of {axis.parameter} share {len(axis.groups)} cells."
-
-
-def _sign_words(cells: MapCells) -> Iterator[tuple[str, str]]:
-    for name, chosen in marked(cells).items():
-        if count := int(chosen.sum()):
-            yield SIGNS[name], f"{counted(count, 'cell')} {_SIGN_WORDS[name]}"
+            values = f"{axis.values} values of {axis.parameter}"
+            yield f"Folded: neighbours of {values} share {len(axis.groups)} cells."

@@ -118,9 +118,14 @@ def heat_plot(
 
 def boundary_path(verdicts: NDArray[Any], across: PlacedCells, down: PlacedCells) -> str:
     """Return the lines between neighbouring cells of which one is met (1) and the other is not (0)."""
-    return "".join(
-        [*_lines_between_columns(verdicts, across, down), *_lines_between_rows(verdicts, across, down)]
-    )
+    lines = []
+    for row, column in _changes(verdicts[:, :-1], verdicts[:, 1:]):
+        upper, lower = down.span(row)
+        lines.append(f"M{across.edges[column + 1]:.1f} {upper:.1f}V{lower:.1f}")
+    for row, column in _changes(verdicts[:-1], verdicts[1:]):
+        first, last = across.span(column)
+        lines.append(f"M{first:.1f} {down.edges[row + 1]:.1f}H{last:.1f}")
+    return "".join(lines)
 
 
 def marked(cells: MapCells) -> dict[str, NDArray[np.bool_]]:
@@ -130,18 +135,6 @@ def marked(cells: MapCells) -> dict[str, NDArray[np.bool_]]:
         name: cells.outcomes.get(name, nothing) > 0 for name in ("error", "inconclusive", "skipped")
     }
     return {**of_outcomes, "mixed": (cells.met > 0) & (cells.met < cells.cases)}
-
-
-def _lines_between_columns(verdicts: NDArray[Any], across: PlacedCells, down: PlacedCells) -> Iterator[str]:
-    for row, column in _changes(verdicts[:, :-1], verdicts[:, 1:]):
-        upper, lower = down.span(row)
-        yield f"M{across.edges[column + 1]:.1f} {upper:.1f}V{lower:.1f}"
-
-
-def _lines_between_rows(verdicts: NDArray[Any], across: PlacedCells, down: PlacedCells) -> Iterator[str]:
-    for row, column in _changes(verdicts[:-1], verdicts[1:]):
-        first, last = across.span(column)
-        yield f"M{first:.1f} {down.edges[row + 1]:.1f}H{last:.1f}"
 
 
 def _changes(before: NDArray[Any], after: NDArray[Any]) -> list[list[int]]:

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 
-from uictest.core.document import Table
-from uictest.report.page.case_view import CaseView, case_view, plots_json
+from uictest.report.page.case_view import case_view, plots_json
 from uictest.report.page.overview import shown_parts
 from uictest.report.page.rendering import render
 from uictest.report.page.stop.overlay_view import script_json
-from uictest.report.page.sweep.frontier_plot import FrontierPlot, frontier_plot
+from uictest.report.page.sweep.frontier_plot import frontier_plot
 from uictest.report.page.sweep.heat import HeatMaps, heat_maps
 from uictest.report.page.sweep.histogram import histogram_plot
 from uictest.report.page.sweep.scatter import ScatterView, is_sampled, scatter, scatter_view
@@ -106,7 +105,13 @@ _MOST_VALUES = 40
 
 def sweep_page_html(content: SweepContent) -> str:
     """Return the page: one document that loads nothing, and can be read without JavaScript."""
-    result, drawn = content.result, _drawn(content)
+    result = content.result
+    frontier = result.frontier
+    drawn = [
+        case_view(case, result.subject(case.id), content.traces[case.id])
+        for case in result.worst
+        if case.id in content.traces
+    ]
     keys = {view.result.id: view.fragment for view in drawn}
     return render(
         "sweep.html.j2",
@@ -118,7 +123,7 @@ def sweep_page_html(content: SweepContent) -> str:
         maps_left_out=maps_left_out(content),
         scatter=_scatter(content, keys),
         rates={key: counts for key, counts in result.rates.items() if len(counts) <= _MOST_VALUES},
-        frontier=_frontier(result),
+        frontier=frontier and (frontier_plot(frontier, result.logarithmic), frontier_table(frontier)),
         trends=_trends(result),
         sobol_plots=list(sobol_plots(result.sensitivities)),
         histograms=list(map(histogram_plot, result.distributions)),
@@ -142,12 +147,6 @@ def sweep_page_html(content: SweepContent) -> str:
     )
 
 
-def _drawn(content: SweepContent) -> list[CaseView]:
-    result = content.result
-    traced = [case for case in result.worst if case.id in content.traces]
-    return [case_view(case, result.subject(case.id), content.traces[case.id]) for case in traced]
-
-
 def _scatter(content: SweepContent, fragments: Mapping[str, str]) -> ScatterView | None:
     rows = SummaryRows(content.folder)
     if not rows.exists or not is_sampled(content.result):
@@ -164,11 +163,6 @@ def _trends(result: SweepResult) -> dict[str, list[TrendPlot]]:
         if plot is not None:
             plots.setdefault(trend.parameter, []).append(plot)
     return plots
-
-
-def _frontier(result: SweepResult) -> tuple[FrontierPlot | None, Table] | None:
-    frontier = result.frontier
-    return (frontier_plot(frontier, result.logarithmic), frontier_table(frontier)) if frontier else None
 
 
 def _plot_tables(result: SweepResult) -> dict[str, str]:

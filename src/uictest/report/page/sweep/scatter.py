@@ -14,7 +14,7 @@ from uictest.report.escaping import printable
 from uictest.report.page.stop.overlay_view import script_json
 from uictest.report.sweep.cases import every_case
 from uictest.report.sweep.result import SweepResult
-from uictest.report.sweep.summary_rows import ReportedColumns, SummaryRows, reported_columns
+from uictest.report.sweep.summary_rows import SummaryRows, reported_columns
 from uictest.report.sweep.values import DrawnInterval
 from uictest.report.wording import counted, outcome_word, tone
 
@@ -92,7 +92,12 @@ def scatter(result: SweepResult, rows: SummaryRows, wanted: Collection[str]) -> 
         [word for table in tables for word in _words(table)],
         points.words,
         [_parameter(result, rows, key, tables) for key in keys],
-        [_measure(measure, tables) for measure in measures],
+        [
+            PointNumbers(
+                each.name, each.unit.removeprefix("1"), np.concatenate([each.of(table) for table in tables])
+            )
+            for each in measures
+        ],
         [key for key in result.rates if key not in keys],
     )
 
@@ -145,11 +150,6 @@ def _parameter(result: SweepResult, rows: SummaryRows, key: str, tables: Sequenc
     numbers = [rows.numbers(table, key) for table in tables]
     unit = result.rates[key][0].value.unit
     return PointNumbers(key, unit, np.concatenate(numbers), key in result.logarithmic)
-
-
-def _measure(measure: ReportedColumns, tables: Sequence[pa.Table]) -> PointNumbers:
-    unit = "" if measure.unit == "1" else measure.unit
-    return PointNumbers(measure.name, unit, np.concatenate([measure.of(table) for table in tables]))
 
 
 def _number_keys(result: SweepResult) -> list[str]:
