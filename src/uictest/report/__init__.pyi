@@ -84,7 +84,7 @@ from .series.wording import (
     series_verdict_sentence as series_verdict_sentence,
     series_word as series_word,
 )
-from .sheet_columns import sheet_column as sheet_column
+from .sheet import sheet_column as sheet_column
 from .sweep.cases import LARGEST_CSV as LARGEST_CSV, every_case as every_case
 from .sweep.document import numbers_of_sweep as numbers_of_sweep
 from .sweep.folder import (

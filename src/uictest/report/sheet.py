@@ -12,14 +12,86 @@ from typing import TYPE_CHECKING, Any, Final
 
 from uictest.core import files
 from uictest.core.document import Cell
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report.escaping import printable
-from uictest.report.sheet_columns import NUMBER_FORMATS, SheetColumn, sheet_column
 from uictest.report.wording import CASE_WORDS, tone
 
 if TYPE_CHECKING:
     from xlsxwriter import Workbook
     from xlsxwriter.format import Format
     from xlsxwriter.worksheet import Worksheet
+
+
+_BY_UNIT: Final = {
+    "m": "0.0",
+    "s": "0.00",
+    "m/s2": "0.000",
+    "g": "0.0000",
+    "bar": "0.00",
+    "NL": "0",
+    "kJ": "0.0",
+    "N": "0",
+    "degC": "0",
+}
+"""Unit -> number format: the digits that a brake engineer compares, the cell holds them all."""
+
+_OWN: Final = {
+    "narrowest_margin": ("%", "0.0 %"),
+    "narrowest_criterion": ("", ""),
+    "share": ("%", "0 %"),
+    "share_low": ("%", "0 %"),
+    "share_high": ("%", "0 %"),
+    "share_met": ("%", "0 %"),
+}
+"""Column that is no measure -> unit and number format."""
+
+_COUNT, _SHARE, _RESIDUAL = "0", "0.0 %", "0.0E+00"
+NUMBER_FORMATS: Final = frozenset(
+    {*_BY_UNIT.values(), *(own for _, own in _OWN.values()), _COUNT, _SHARE, _RESIDUAL} - {""}
+)
+"""Every number format that a column can have."""
+
+_ENDS: Final = ("_lowest", "_highest")
+
+
+@dataclass(frozen=True, slots=True)
+class SheetColumn:
+    """How a column is shown; `unit` and `number_format` are empty where it has none of its own."""
+
+    heading: str
+    unit: str = ""
+    number_format: str = ""
+
+
+def sheet_column(name: str) -> SheetColumn:
+    """Return how a column of the tables is shown: a measure in words with its unit, others under their name.
+
+    A range of repeats (`..._lowest`) and the number of a wheelset (`..._3`) may follow the name of a measure.
+    """
+    measure, end = _without_end(name)
+    column = STOP_COLUMNS.get(measure) or WHEELSET_COLUMNS.get(measure)
+    if column is None:
+        return SheetColumn(name.replace("_", " "), *_OWN[name]) if name in _OWN else SheetColumn(name)
+    in_unit = f"_{column.unit.lower().replace('/', 'p')}"
+    words = f"{measure.removesuffix(in_unit)}{end}".replace("_", " ")
+    return SheetColumn(words, *_unit_and_format(measure, column.unit, whole=column.whole))
+
+
+def _without_end(name: str) -> tuple[str, str]:
+    """Return a name without what may follow a measure, and that."""
+    stem, _, last = name.rpartition("_")
+    if name in STOP_COLUMNS or name in WHEELSET_COLUMNS or not stem:
+        return name, ""
+    return (stem, f"_{last}") if last.isdigit() or f"_{last}" in _ENDS else (name, "")
+
+
+def _unit_and_format(measure: str, unit: str, *, whole: bool) -> tuple[str, str]:
+    if unit != "1":
+        return unit, _BY_UNIT.get(unit, "")
+    if measure.endswith("_residual"):
+        return "", _RESIDUAL
+    return ("", _COUNT) if whole else ("%", _SHARE)
+
 
 LONGEST_TEXT = 32_767
 """Characters a cell can hold."""
@@ -77,14 +149,10 @@ def open_workbook(target: io.BytesIO, *, streaming: bool = False) -> Iterator[Wo
         except FileCreateError as error:
             raise error.args[0] from error
         finally:
-            _close_rows(workbook)
-
-
-def _close_rows(workbook: Workbook) -> None:
-    # The library leaves them open where a sheet stays empty or something goes wrong.
-    for sheet in workbook.worksheets():
-        if sheet.row_data_fh is not None:
-            sheet.row_data_fh.close()
+            # The library leaves rows open where a sheet stays empty or something goes wrong.
+            for sheet in workbook.worksheets():
+                if sheet.row_data_fh is not None:
+                    sheet.row_data_fh.close()
 
 
 def styles_of(workbook: Workbook) -> Styles:
@@ -132,7 +200,9 @@ def write_table(
     top = heading_rows(columns)
     _write_headings(sheet, shown, top, styles)
     for place, (name, column) in enumerate(zip(columns, shown, strict=True)):
-        broad = _width(column, (row.get(name) for row in first))
+        # A heading in words may wrap; a name may not.
+        words = column.heading.split() if column.unit or column.number_format else [column.heading]
+        broad = width(max(words, key=len, default=""), (row.get(name) for row in first))
         style = styles.get(column.number_format or ("wrapped" if broad == _WIDEST else ""))
         sheet.set_column(place, place, broad, style)
     count = 0
@@ -181,17 +251,13 @@ def print_on_a4(sheet: Worksheet) -> None:
 def write_cell(sheet: Worksheet, row: int, column: int, value: Cell, style: Format | None = None) -> None:
     """Write a cell as what it is; nothing is taken for a formula, a link or a number that is not one."""
     if isinstance(value, str):
-        sheet.write_string(row, column, _text(value), style)
+        shown = printable(value)
+        cut = shown if len(shown) <= LONGEST_TEXT else f"{shown[: LONGEST_TEXT - 1]}…"
+        sheet.write_string(row, column, cut, style)
     elif isinstance(value, bool):
         sheet.write_boolean(row, column, value, style)
     elif value is not None and abs(value) < float("inf"):
         sheet.write_number(row, column, value, style)
-
-
-def _width(column: SheetColumn, values: Iterable[Cell]) -> int:
-    """Return the width of a column. A heading in words may wrap; a name may not."""
-    words = column.heading.split() if column.unit or column.number_format else [column.heading]
-    return width(max(words, key=len, default=""), values)
 
 
 def width(name: str, values: Iterable[Cell]) -> int:
@@ -220,8 +286,3 @@ def _runs(columns: Iterable[int]) -> Iterator[tuple[int, int]]:
     for _, run in itertools.groupby(enumerate(columns), key=lambda pair: pair[1] - pair[0]):
         numbers = [column for _, column in run]
         yield numbers[0], numbers[-1]
-
-
-def _text(text: str) -> str:
-    shown = text if text.isprintable() else printable(text)
-    return shown if len(shown) <= LONGEST_TEXT else f"{shown[: LONGEST_TEXT - 1]}…"

@@ -10,6 +10,7 @@ from typing import Any
 from uictest.core.measures import column_unit
 from uictest.judging import evaluation
 from uictest.report.escaping import argument, printable
+from uictest.report.sheet import sheet_column
 from uictest.report.sweep.result import Circumstances, Flip, MissedCase, SweepResult
 from uictest.report.sweep.values import DrawnInterval, SweptValue, range_label
 from uictest.report.wording import counted, counts_text, explanation, outcome_word, result_word
@@ -72,11 +73,8 @@ def circumstances_words(circumstances: Circumstances) -> str:
 
 def measure_words(column: str) -> str:
     """Return the name of a column of measures for readers, e.g. `braking distance, m`."""
-    name, unit = column, column_unit(column)
-    if unit != "1":
-        name, _, _ = column.rpartition("_")
-        return f"{name.replace('_', ' ')}, {unit}"
-    return name.replace("_", " ")
+    words, unit = sheet_column(column).heading.replace("_", " "), column_unit(column)
+    return words if unit == "1" else f"{words}, {unit}"
 
 
 def flip_words(flip: Flip) -> str:
