@@ -6,7 +6,7 @@ import pytest
 
 from uictest.plans.scenario import load
 from uictest.report import CaseDescription, subjects_form
-from uictest.report.run_report import read_subjects
+from uictest.report.run_folder import read_subjects
 from uictest.running.campaign import descriptions_of
 
 _TEXT = "schema: uictest/scenario/1\nname: stop\ntitle: A stop\ntags: [a, b]\ninitial_speed: 80 km/h\n"

@@ -30,7 +30,7 @@ from uictest.report import (
     missing_lines,
     run_suites,
 )
-from uictest.report.run_report import baseline_form, read_baseline_comparison
+from uictest.report.run_folder import baseline_form, read_baseline_comparison
 
 MakeCase = Callable[..., CaseResult]
 MakeSeries = Callable[..., series.SeriesResult]

@@ -5,7 +5,7 @@ from typing import Any
 from uictest.plans.scenario import Case
 from uictest.recorded.field_data import recorded_description, stated_case
 from uictest.report import subjects_form
-from uictest.report.run_report import read_subjects
+from uictest.report.run_folder import read_subjects
 
 
 def test_a_recorded_stop_is_headed_by_its_file_and_by_what_was_read_and_derived(

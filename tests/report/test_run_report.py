@@ -9,7 +9,7 @@ import numpy as np
 from uictest.core.recording import Recording, read_parquet
 from uictest.judging.evaluation import results_of
 from uictest.report import RunContent, RunManifest
-from uictest.report.run_report import run_name, write_recording, write_reports
+from uictest.report.run_folder import run_name, write_recording, write_reports
 
 from .builders import make_result
 

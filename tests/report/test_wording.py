@@ -6,7 +6,7 @@ import pytest
 
 from uictest.judging import evaluation
 from uictest.judging.evaluation.result import Outcome
-from uictest.report.wording import (
+from uictest.report.verdict_sentences import (
     CASE_WORDS,
     counts_text,
     explanation,

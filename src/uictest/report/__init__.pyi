@@ -59,7 +59,7 @@ from .part_wording import (
 )
 from .repeat_wording import repeat_sentences as repeat_sentences, rule_text as rule_text
 from .requirements import requirements_of as requirements_of
-from .run_report import (
+from .run_folder import (
     RECORDINGS as RECORDINGS,
     RESULTS as RESULTS,
     differences_form as differences_form,
@@ -72,8 +72,7 @@ from .run_report import (
     write_recording as write_recording,
     write_reports as write_reports,
 )
-from .series.tables import series_table as series_table
-from .series.wording import (
+from .series.series_sentences import (
     count_sentences as count_sentences,
     not_counted_sentences as not_counted_sentences,
     series_annotations as series_annotations,
@@ -84,9 +83,10 @@ from .series.wording import (
     series_verdict_sentence as series_verdict_sentence,
     series_word as series_word,
 )
+from .series.tables import series_table as series_table
 from .sheet import sheet_column as sheet_column
 from .sweep.cases import LARGEST_CSV as LARGEST_CSV, every_case as every_case
-from .sweep.document import numbers_of_sweep as numbers_of_sweep
+from .sweep.ci_messages import sweep_annotations as sweep_annotations, sweep_suite as sweep_suite
 from .sweep.folder import (
     SWEEP_RESULTS as SWEEP_RESULTS,
     SweepContent as SweepContent,
@@ -96,7 +96,6 @@ from .sweep.folder import (
 )
 from .sweep.formats import sweep_format_names as sweep_format_names
 from .sweep.formats.md import append_sweep_step_summary as append_sweep_step_summary
-from .sweep.junit import sweep_annotations as sweep_annotations, sweep_suite as sweep_suite
 from .sweep.limits import (
     OutsideCount as OutsideCount,
     SurveyBias as SurveyBias,
@@ -121,6 +120,13 @@ from .sweep.result import (
     SweepResult as SweepResult,
     Trend as Trend,
 )
+from .sweep.summary_tables import numbers_of_sweep as numbers_of_sweep
+from .sweep.sweep_sentences import (
+    circumstances_words as circumstances_words,
+    flip_words as flip_words,
+    not_judged_words as not_judged_words,
+    sweep_tally as sweep_tally,
+)
 from .sweep.tails import (
     DrawCount as DrawCount,
     KDry as KDry,
@@ -133,13 +139,7 @@ from .sweep.values import (
     SweptValue as SweptValue,
     WrittenValue as WrittenValue,
 )
-from .sweep.wording import (
-    circumstances_words as circumstances_words,
-    flip_words as flip_words,
-    not_judged_words as not_judged_words,
-    sweep_tally as sweep_tally,
-)
-from .terminal.fitted_columns import (
+from .terminal.table_lines import (
     aligned_rows as aligned_rows,
     document_lines as document_lines,
     table_lines as table_lines,
@@ -175,7 +175,7 @@ from .traces.trace import (
     thinned as thinned,
     trace_of as trace_of,
 )
-from .wording import (
+from .verdict_sentences import (
     CASE_WORDS as CASE_WORDS,
     DIFFERS as DIFFERS,
     counted as counted,

@@ -13,7 +13,7 @@ from uictest.judging import evaluation
 from uictest.report.content import RunContent
 from uictest.report.part_wording import changes_of, slide_speed
 from uictest.report.repeat_wording import stops_text
-from uictest.report.wording import tone
+from uictest.report.verdict_sentences import tone
 
 Stop = evaluation.CaseResult | evaluation.RepeatedStop
 FAILING: Final = 1

@@ -13,7 +13,16 @@ from uictest.core.document import Column, Table
 from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.traces.quantities import WHEELSETS
-from uictest.report.wording import DIFFERS, counted, explanation, listed, number, quantity, result_word, tally
+from uictest.report.verdict_sentences import (
+    DIFFERS,
+    counted,
+    explanation,
+    listed,
+    number,
+    quantity,
+    result_word,
+    tally,
+)
 
 CELSIUS: Final = "degC"
 _LARGEST_PERCENT: Final = 1000

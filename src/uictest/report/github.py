@@ -19,7 +19,7 @@ from uictest.report.difference import (
 from uictest.report.escaping import workflow_message, workflow_property
 from uictest.report.part_wording import changes_line
 from uictest.report.repeat_wording import repeat_sentences, stops_text
-from uictest.report.wording import DIFFERS
+from uictest.report.verdict_sentences import DIFFERS
 
 LIMIT = 1_000_000
 """Bytes of a summary at most: GitHub refuses a step's summary above 1 MiB."""

@@ -10,7 +10,7 @@ from uictest import controllers
 from uictest.core.units import KINDS, in_unit, value_text
 from uictest.judging import evaluation
 from uictest.report.escaping import printable
-from uictest.report.wording import counted
+from uictest.report.verdict_sentences import counted
 
 _PATHS = (".yaml", ".yml")
 _DIGITS = 12

@@ -11,7 +11,7 @@ from uictest.core.document import Cell, Tone
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.report.sheet import MOST_COLUMNS, Row
-from uictest.report.wording import outcome_word
+from uictest.report.verdict_sentences import outcome_word
 
 if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult

@@ -14,7 +14,7 @@ from uictest.core import files
 from uictest.core.document import Cell
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report.escaping import printable
-from uictest.report.wording import CASE_WORDS, tone
+from uictest.report.verdict_sentences import CASE_WORDS, tone
 
 if TYPE_CHECKING:
     from xlsxwriter import Workbook

@@ -23,7 +23,7 @@ from uictest.report import (
     write_reports,
 )
 from uictest.report.formats.md import markdown_summary
-from uictest.report.series.wording import series_explanation, series_line, series_lines, series_tally
+from uictest.report.series.series_sentences import series_explanation, series_line, series_lines, series_tally
 
 from ..builders import HOSTILE, make_content, make_result
 from .made_up import MISSED, make_series

@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from uictest.report.sweep.wording import notable_cases
+from uictest.report.sweep.sweep_sentences import notable_cases
 
 from ..builders import MakeSweep, make_result
 

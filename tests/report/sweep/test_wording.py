@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from uictest.report import DrawnInterval, Flip, SweepResult, SweptValue, WrittenValue
-from uictest.report.sweep.wording import (
+from uictest.report.sweep.sweep_sentences import (
     bar,
     circumstances_words,
     command_alone,

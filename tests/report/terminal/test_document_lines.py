@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.core.document import Column, Document, Lines, Table
-from uictest.report.terminal.fitted_columns import document_lines, table_lines, titled_lines
+from uictest.report.terminal.table_lines import document_lines, table_lines, titled_lines
 
 _ANY = st.text(st.characters(codec=None, exclude_categories=[]), max_size=30)
 _GROUP: Column[tuple[str, str]] = Column(heading="group", text=lambda row: row[0], wraps=True)

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.report.terminal.fitted_columns import (
+from uictest.report.terminal.table_lines import (
     TableColumn,
     aligned,
     columns_not_shown,

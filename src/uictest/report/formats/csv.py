@@ -25,7 +25,7 @@ from uictest.report.repeat_wording import (
 from uictest.report.requirements import requirement_rows, verified_requirements
 from uictest.report.text_tables import csv_text
 from uictest.report.traces.quantities import WHEELSETS
-from uictest.report.wording import definition_sentence, reading_sentences
+from uictest.report.verdict_sentences import definition_sentence, reading_sentences
 
 if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult

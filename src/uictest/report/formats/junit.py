@@ -22,7 +22,7 @@ from uictest.report.junit import WITH_TEST_PROPERTIES, junit_text, suite_propert
 from uictest.report.part_wording import changes_line, controller_of, controllers_text, domain_sentences
 from uictest.report.repeat_wording import repeat_sentences
 from uictest.report.requirements import requirements_of
-from uictest.report.wording import DIFFERS, real_time_sentences
+from uictest.report.verdict_sentences import DIFFERS, real_time_sentences
 
 if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult

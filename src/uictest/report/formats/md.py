@@ -22,7 +22,7 @@ from uictest.report.github import LIMIT, append_to_step_summary
 from uictest.report.part_wording import domain_notices
 from uictest.report.requirements import REQUIREMENT_TONES, VerifiedRequirement, verified_requirements
 from uictest.report.text_tables import document_markdown
-from uictest.report.wording import listed, reading_sentences
+from uictest.report.verdict_sentences import listed, reading_sentences
 
 _MOST: Final = 100
 """Requirements, readings and quantities out of tolerance that a reader is shown here."""

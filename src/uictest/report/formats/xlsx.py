@@ -32,7 +32,7 @@ from uictest.report.sheet import (
     styles_of,
     write_table,
 )
-from uictest.report.wording import result_word
+from uictest.report.verdict_sentences import result_word
 
 
 def workbook_bytes(content: RunContent) -> bytes:

@@ -1,6 +1,6 @@
 from .links import case_anchor as case_anchor, fragment as fragment, series_anchor as series_anchor
-from .page import page_html as page_html
 from .rendering import render as render
+from .run_page import page_html as page_html
 from .stop.mark import Mark as Mark
 from .stop.overlay_view import STEPS as STEPS, OverlayView as OverlayView, overlay_view as overlay_view
-from .sweep.page import sweep_page_html as sweep_page_html
+from .sweep.sweep_page import sweep_page_html as sweep_page_html

@@ -33,7 +33,7 @@ from uictest.report.traces.quantities import (
     panel_lines,
 )
 from uictest.report.traces.trace import BINS, Curve, PlotTrace
-from uictest.report.wording import real_time_sentences
+from uictest.report.verdict_sentences import real_time_sentences
 
 HeadlineMeasure = tuple[str, str, str]
 """Label, number (empty where there is none), unit."""

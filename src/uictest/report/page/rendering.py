@@ -28,7 +28,7 @@ from uictest.report.part_wording import (
     slide_speed,
 )
 from uictest.report.repeat_wording import any_repeated, stops_text
-from uictest.report.wording import (
+from uictest.report.verdict_sentences import (
     counted,
     counted_in,
     failing_first,

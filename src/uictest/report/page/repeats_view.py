@@ -14,7 +14,7 @@ from uictest.report.case_table import measure_columns
 from uictest.report.repeat_wording import drawn_sentence, repeat_sentences
 from uictest.report.text_tables import number_cell
 from uictest.report.traces.quantities import WHEELSETS
-from uictest.report.wording import failing_first, without_rig_that_holds
+from uictest.report.verdict_sentences import failing_first, without_rig_that_holds
 
 MOST_STOPS = 100
 """Stops that are listed and drawn one by one; the numbers and the counts are those of all."""

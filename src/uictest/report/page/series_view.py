@@ -14,6 +14,12 @@ from uictest.judging import evaluation
 from uictest.judging.series import SeriesResult, SeriesStop, SpeedResult, observed_stops
 from uictest.report.page.axis import Axis, Tick
 from uictest.report.page.links import fragment, series_anchor
+from uictest.report.series.series_sentences import (
+    count_sentences,
+    not_counted_sentences,
+    percent,
+    series_word,
+)
 from uictest.report.series.tables import (
     CRITERIA,
     Judged,
@@ -21,13 +27,7 @@ from uictest.report.series.tables import (
     judged_criteria,
     value_with_interval,
 )
-from uictest.report.series.wording import (
-    count_sentences,
-    not_counted_sentences,
-    percent,
-    series_word,
-)
-from uictest.report.wording import MOST_URGENT
+from uictest.report.verdict_sentences import MOST_URGENT
 
 _LEFT, _RIGHT, _TOP, _ROW = 250, 880, 40, 22
 _DISTANCE = "braking_distance_m"

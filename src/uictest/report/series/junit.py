@@ -11,7 +11,7 @@ from uictest.plans.scenario import in_order_of_ids
 from uictest.report.junit import suite_properties, test_properties
 from uictest.report.part_wording import controller_of
 from uictest.report.requirements import requirements_of
-from uictest.report.series.wording import (
+from uictest.report.series.series_sentences import (
     count_sentences,
     not_counted_sentences,
     series_explanation,

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from uictest.core.document import Cell, Data
 from uictest.core.series_measures import SERIES_MEASURES, Estimate
 from uictest.judging.series import SeriesResult, observed_stops
-from uictest.report.series.wording import series_word
-from uictest.report.wording import definition_sentence
+from uictest.report.series.series_sentences import series_word
+from uictest.report.verdict_sentences import definition_sentence
 
 Row = dict[str, Cell]
 ALL_SPEEDS = "all"

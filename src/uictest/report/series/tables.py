@@ -10,7 +10,7 @@ from uictest.core.document import Column, Document, Lines, Table, Tone
 from uictest.core.series_measures import SeriesValue
 from uictest.judging.series import SeriesResult, SeriesVerdict
 from uictest.report.escaping import printable
-from uictest.report.series.wording import (
+from uictest.report.series.series_sentences import (
     confidence_words,
     count_sentences,
     interval,
@@ -19,8 +19,8 @@ from uictest.report.series.wording import (
     series_word,
     short,
 )
-from uictest.report.terminal.fitted_columns import document_lines, table_lines
-from uictest.report.wording import counted, limits, quantity, tone
+from uictest.report.terminal.table_lines import document_lines, table_lines
+from uictest.report.verdict_sentences import counted, limits, quantity, tone
 
 _TONES: Final[Mapping[str, Tone]] = {"pass": "good", "fail": "bad", "inconclusive": "odd"}
 _REMARKS: Final = {"fail": "fail", "inconclusive": "inconclusive", "not_applicable": "not applicable"}

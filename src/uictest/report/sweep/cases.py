@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from uictest.report.sheet import Row, Styles, heading_rows, write_table
-from uictest.report.wording import outcome_word
+from uictest.report.verdict_sentences import outcome_word
 
 if TYPE_CHECKING:
     import pyarrow.parquet as pq

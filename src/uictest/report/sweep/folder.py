@@ -12,9 +12,9 @@ from typing import Any, Final
 from uictest.core import files
 from uictest.judging import evaluation
 from uictest.report.junit import WITH_TEST_PROPERTIES, junit_text
-from uictest.report.run_report import read_traces, require_names
+from uictest.report.run_folder import read_traces, require_names
 from uictest.report.sweep import formats
-from uictest.report.sweep.junit import sweep_suite
+from uictest.report.sweep.ci_messages import sweep_suite
 from uictest.report.sweep.result import SweepResult, read_sweep_document, sweep_document
 from uictest.report.sweep.tables import csv_tables
 from uictest.report.sweep.tail_tables import K_DRY_FILE, k_dry_yaml

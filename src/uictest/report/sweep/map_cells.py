@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from uictest.report.sweep.map_text import MOST_SHOWN, Fold, fold, folded
 from uictest.report.sweep.result import SweepMap, SweepResult
 from uictest.report.sweep.summary_rows import ReportedColumns, SummaryRows
+from uictest.report.sweep.sweep_sentences import measure_words
 from uictest.report.sweep.values import SweptValue, WrittenValue
-from uictest.report.sweep.wording import measure_words
 
 MOST_VALUES: Final = 60
 """Most rows or columns of the first map: with more, a cell on a page is a few pixels wide. Chosen."""

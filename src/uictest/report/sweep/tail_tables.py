@@ -10,10 +10,10 @@ from typing import Any, Final
 from uictest.core import document
 from uictest.core.document import Cell, Column, Table
 from uictest.report.sweep.result import SweepResult
+from uictest.report.sweep.sweep_sentences import circumstances_words
 from uictest.report.sweep.tails import DrawCount, KDry, KDryLevel, MeasureQuantiles, Quantile
-from uictest.report.sweep.wording import circumstances_words
 from uictest.report.text_tables import csv_text
-from uictest.report.wording import counted, number, quantity
+from uictest.report.verdict_sentences import counted, number, quantity
 
 _K_DRY_DECIMALS = 3
 

@@ -20,8 +20,8 @@ from uictest.report.difference import (
 from uictest.report.escaping import printable
 from uictest.report.part_wording import part_sentences, slide_speed
 from uictest.report.repeat_wording import any_repeated, range_cells, repeat_sentences, share_cells, stops_text
-from uictest.report.terminal.fitted_columns import columns_not_shown, fitted, table_columns
-from uictest.report.wording import (
+from uictest.report.terminal.table_lines import columns_not_shown, fitted, table_columns
+from uictest.report.verdict_sentences import (
     DIFFERS,
     criterion_sentences,
     definition_sentence,

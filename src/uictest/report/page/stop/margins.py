@@ -11,7 +11,13 @@ from uictest.judging import evaluation
 from uictest.report.page.stop.marks import Taken, taken_at
 from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS
 from uictest.report.traces.trace import PlotTrace
-from uictest.report.wording import MOST_URGENT, limits, quantity, rig_sentence, without_rig_that_holds
+from uictest.report.verdict_sentences import (
+    MOST_URGENT,
+    limits,
+    quantity,
+    rig_sentence,
+    without_rig_that_holds,
+)
 
 _WORDS: Final = {"pass": "met", "fail": "missed"}
 """Status of a criterion that was judged -> what stands for a margin that is no share."""

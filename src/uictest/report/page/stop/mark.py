@@ -14,7 +14,7 @@ from uictest.report.escaping import printable
 from uictest.report.page.axis import Axis
 from uictest.report.traces.quantities import VENT, WHEELSETS, Lane, Strip
 from uictest.report.traces.trace import PlotTrace, States
-from uictest.report.wording import quantity
+from uictest.report.verdict_sentences import quantity
 
 Kind = Literal["limit", "mean", "window", "band", "tolerance", "instant", "point", "interval"]
 

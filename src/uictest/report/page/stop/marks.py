@@ -14,7 +14,7 @@ from uictest.report.page.stop.mark import Mark, instant, limit_marks, misses, po
 from uictest.report.traces.moments import TRAIN, Moments, duration
 from uictest.report.traces.quantities import PANELS, STRIPS
 from uictest.report.traces.trace import PlotTrace
-from uictest.report.wording import failing_first, limits, number, quantity, value_and_limits
+from uictest.report.verdict_sentences import failing_first, limits, number, quantity, value_and_limits
 
 _UNITS: Final = {panel.key: panel.unit for panel in PANELS}
 _STRIPS: Final = frozenset(strip.key for strip in STRIPS)

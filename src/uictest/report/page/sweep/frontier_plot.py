@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from uictest.report.page.axis import Tick, axis_title
 from uictest.report.page.sweep.cell_axis import NumberAxis, spanned
 from uictest.report.sweep.result import Frontier, FrontierScan
+from uictest.report.sweep.sweep_sentences import circumstances_words, flip_words
 from uictest.report.sweep.values import WrittenValue
-from uictest.report.sweep.wording import circumstances_words, flip_words
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62, 600, 24, 252
 _SIDES = ((_LEFT, _RIGHT), (_BOTTOM, _TOP))

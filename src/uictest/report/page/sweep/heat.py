@@ -18,8 +18,8 @@ from uictest.report.page.sweep.heat_plot import SIGNS, HeatPlot, heat_plot, mark
 from uictest.report.sweep.map_cells import MapCells
 from uictest.report.sweep.map_text import short_label
 from uictest.report.sweep.result import MET
-from uictest.report.sweep.wording import share_words
-from uictest.report.wording import counted
+from uictest.report.sweep.sweep_sentences import share_words
+from uictest.report.verdict_sentences import counted
 
 _SIGN_WORDS: Final = {
     "error": "with an error",

@@ -16,7 +16,7 @@ from uictest.report.sweep.cases import every_case
 from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.summary_rows import SummaryRows, reported_columns
 from uictest.report.sweep.values import DrawnInterval
-from uictest.report.wording import counted, outcome_word, tone
+from uictest.report.verdict_sentences import counted, outcome_word, tone
 
 if TYPE_CHECKING:
     import pyarrow as pa

@@ -9,7 +9,7 @@ from typing import Final
 
 from uictest.report.page.axis import Axis, Tick
 from uictest.report.sweep.result import MET, SobolIndex, SobolSensitivity
-from uictest.report.sweep.wording import circumstances_words, measure_words
+from uictest.report.sweep.sweep_sentences import circumstances_words, measure_words
 
 _LEFT, _RIGHT, _TOP = 12, 470, 10
 _NAME, _BAR, _GAP = 15, 10, 9

@@ -10,7 +10,7 @@ import numpy as np
 from uictest.report.page.axis import Axis, Tick, axis_title, span
 from uictest.report.page.sweep.cell_axis import NumberAxis, spanned
 from uictest.report.sweep.result import OutcomeCount, Trend
-from uictest.report.wording import counted
+from uictest.report.verdict_sentences import counted
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 52, 402, 26, 166
 Pixels = tuple[float, float]

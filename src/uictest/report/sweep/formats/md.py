@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import partial
 
 from uictest.report.github import LIMIT, append_to_step_summary
-from uictest.report.sweep.document import sweep_summary
 from uictest.report.sweep.folder import SweepContent, one_file
+from uictest.report.sweep.summary_tables import sweep_summary
 from uictest.report.text_tables import document_markdown
 
 

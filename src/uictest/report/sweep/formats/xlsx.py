@@ -11,6 +11,7 @@ from uictest.report.sweep.cases import MOST_CASES, left_out, write_cases
 from uictest.report.sweep.folder import SweepContent, one_file
 from uictest.report.sweep.map_text import write_maps
 from uictest.report.sweep.result import SweepResult
+from uictest.report.sweep.sweep_sentences import notable_cases, swept_words
 from uictest.report.sweep.tables import (
     DISTRIBUTIONS_SHEET,
     SUMMARY_SHEET,
@@ -23,7 +24,6 @@ from uictest.report.sweep.tables import (
     trend_rows,
 )
 from uictest.report.sweep.tail_tables import k_dry_rows, quantile_rows
-from uictest.report.sweep.wording import notable_cases, swept_words
 
 
 def sweep_workbook_bytes(content: SweepContent, most_cases: int = MOST_CASES) -> bytes:

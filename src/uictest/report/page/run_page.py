@@ -21,7 +21,7 @@ from uictest.report.page.overview import maps_of, shown_parts
 from uictest.report.page.rendering import render
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
 from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
-from uictest.report.wording import (
+from uictest.report.verdict_sentences import (
     CASE_WORDS,
     counted,
 )

@@ -15,7 +15,6 @@ from uictest.report.page.sweep.histogram import histogram_plot
 from uictest.report.page.sweep.scatter import ScatterView, is_sampled, scatter, scatter_view
 from uictest.report.page.sweep.sobol_bars import sobol_plots
 from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
-from uictest.report.sweep.document import frontier_table, notable_table, sensitivity_table
 from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.map_cells import (
     MOST_PARAMETERS,
@@ -26,6 +25,13 @@ from uictest.report.sweep.map_cells import (
 )
 from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.summary_rows import ReportedColumns, SummaryRows, reported_columns
+from uictest.report.sweep.summary_tables import frontier_table, notable_table, sensitivity_table
+from uictest.report.sweep.sweep_sentences import (
+    command_alone,
+    share_words,
+    sweep_tally,
+    swept_words,
+)
 from uictest.report.sweep.tables import (
     TREND_COLUMNS,
     distribution_rows,
@@ -34,12 +40,6 @@ from uictest.report.sweep.tables import (
     trend_rows,
 )
 from uictest.report.sweep.tail_tables import tables_left_out, tail_tables
-from uictest.report.sweep.wording import (
-    command_alone,
-    share_words,
-    sweep_tally,
-    swept_words,
-)
 from uictest.report.text_tables import csv_text
 
 

@@ -12,7 +12,7 @@ from uictest.core.series_measures import SERIES_MEASURES, Estimate, Method
 from uictest.judging.series import SeriesResult, SeriesVerdict
 from uictest.report.escaping import printable
 from uictest.report.github import annotation
-from uictest.report.wording import (
+from uictest.report.verdict_sentences import (
     CASE_WORDS,
     UNSETTLED,
     counted,

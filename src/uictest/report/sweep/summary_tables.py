@@ -17,9 +17,7 @@ from uictest.report.sweep.result import (
     SweepMap,
     SweepResult,
 )
-from uictest.report.sweep.tail_tables import tables_left_out, tail_tables
-from uictest.report.sweep.values import SweptValue
-from uictest.report.sweep.wording import (
+from uictest.report.sweep.sweep_sentences import (
     NotableCase,
     bar,
     circumstances_words,
@@ -29,8 +27,10 @@ from uictest.report.sweep.wording import (
     sweep_tally,
     swept_words,
 )
+from uictest.report.sweep.tail_tables import tables_left_out, tail_tables
+from uictest.report.sweep.values import SweptValue
 from uictest.report.text_tables import number_cell
-from uictest.report.wording import tone
+from uictest.report.verdict_sentences import tone
 
 _MOST_ROWS: Final = 30
 """Values of a parameter, or lines of the frontier, that a reader is shown."""

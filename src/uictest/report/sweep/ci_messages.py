@@ -10,7 +10,7 @@ from uictest.judging import evaluation
 from uictest.report.github import annotation
 from uictest.report.junit import suite_properties, test_properties
 from uictest.report.sweep.result import OutcomeCount, SweepResult
-from uictest.report.sweep.wording import notable_cases, sweep_tally
+from uictest.report.sweep.sweep_sentences import notable_cases, sweep_tally
 
 
 def sweep_suite(result: SweepResult, file: str, *, with_properties: bool = False) -> Suite:

@@ -13,7 +13,7 @@ from uictest.report.escaping import argument, printable
 from uictest.report.sheet import sheet_column
 from uictest.report.sweep.result import Circumstances, Flip, MissedCase, SweepResult
 from uictest.report.sweep.values import DrawnInterval, SweptValue, range_label
-from uictest.report.wording import counted, counts_text, explanation, outcome_word, result_word
+from uictest.report.verdict_sentences import counted, counts_text, explanation, outcome_word, result_word
 
 _MOST_LISTED = 3  # values that are listed rather than counted
 
