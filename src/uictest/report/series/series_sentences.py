@@ -16,6 +16,7 @@ from uictest.report.verdict_sentences import (
     CASE_WORDS,
     UNSETTLED,
     counted,
+    counts_text,
     limits,
     line_word,
     number,
@@ -51,10 +52,8 @@ def series_word(result: SeriesResult) -> str:
 def series_tally(results: Sequence[SeriesResult]) -> str:
     """Return the counts of the series of a run, e.g. `2 series: 1 pass, 1 fail; 1 not as expected`."""
     counts = Counter(map(series_word, results))
-    shown = ", ".join(f"{counts[word]} {word}" for word in CASE_WORDS if counts[word])
-    missed = sum(not each.met for each in results)
-    text = f"{len(results)} series: {shown}"
-    return f"{text}; {missed} not as expected" if missed else text
+    in_order = {word: counts[word] for word in CASE_WORDS}
+    return f"{len(results)} series: {counts_text(in_order, sum(not each.met for each in results))}"
 
 
 def percent(share: float) -> str:
