@@ -37,7 +37,7 @@ from uictest.analysis import comparison, validation
 from uictest.cli.entry import execute
 from uictest.cli.exit_codes import ExitCode
 from uictest.controllers import Config, ControllerError
-from uictest.controllers.adapters.fmu import instance as fmu_instance, loading, slave as fmu_slave
+from uictest.controllers.adapters.fmu import instance as fmu_instance, slave as fmu_slave
 from uictest.core.recording import Recording
 from uictest.core.recording.formats import (
     FORMATS,
@@ -277,9 +277,8 @@ def described_fmu(description: Path) -> None:
     command("check", "-v", "uses-fmu.yaml")(description)
     fmu = Path("any.fmu")
     with contextlib.suppress(ControllerError):
-        folder, read = loading.unpack(fmu, hashlib.sha256(fmu.read_bytes()).hexdigest())
-        kind = fmu_slave.Fmi2Slave if read.fmiVersion == "2.0" else fmu_slave.Fmi3Slave
-        slave = kind(MagicMock(), read, folder)
+        folder, read = fmu_slave.unpack(fmu, hashlib.sha256(fmu.read_bytes()).hexdigest())
+        slave = fmu_slave.Slave(MagicMock(), read, folder)
         try:
             fmu_instance.FmuInstance(slave, [], Config(4, 0.01, 20.0, (0.46,) * 4, {"late": 1}), {})
         finally:

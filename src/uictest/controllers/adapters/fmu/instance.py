@@ -1,19 +1,54 @@
-"""An FMU as a controller for one stop.
+"""An FMU as a controller for one stop, by our names of variables or by those that the scenario gives.
 
 An FMU is instantiated once per thread and reset between stops: some tools' FMUs fail after a thousand
 instances. Each thread unpacks a copy of its library, so that static variables are not shared.
 """
 
+import math
 from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from threading import local
+from typing import Any, Final
 
-from uictest.controllers.adapters.fmu.loading import load_slave
-from uictest.controllers.adapters.fmu.slave import Slave
-from uictest.controllers.adapters.fmu.variables import ControllerVariables
+from uictest.controllers.adapters.fmu.names import (
+    BoundVariable,
+    Declared,
+    Values,
+    VariableGroup,
+    bind,
+    bound_parameters,
+    grouped,
+)
+from uictest.controllers.adapters.fmu.slave import Slave, load_slave
 from uictest.controllers.adapters.instance import CalledInstance, ControllerError
 from uictest.controllers.declared import ControllerProgram
+from uictest.controllers.exchange import WHEELSETS
 from uictest.controllers.interface import Config, Inputs, Outputs
+
+INPUTS: Final = (
+    Declared("wheel_speed", "input", WHEELSETS, is_needed=True),
+    Declared("speed_valid", "input", WHEELSETS, is_whole=True),
+    Declared("cylinder_pressure", "input", WHEELSETS),
+    Declared("brake_demand", "input"),
+    Declared("time", "input"),
+    Declared("cycle", "input", is_whole=True),
+)
+"""Set in every cycle."""
+CONSTANTS: Final = (
+    Declared("initial_speed", "parameter"),
+    Declared("cycle_time", "parameter"),
+    Declared("wheel_radius", "parameter", WHEELSETS),
+)
+"""Set before a stop."""
+OUTPUTS: Final = (
+    Declared("hold", "output", WHEELSETS, is_whole=True, is_needed=True),
+    Declared("vent", "output", WHEELSETS, is_whole=True, is_needed=True),
+    Declared("reference_speed", "output"),
+    Declared("diagnosis", "output", is_whole=True),
+)
+"""Read in every cycle."""
+_BITS: Final = 0xFFFF_FFFF
 
 
 class _Idle(local):
@@ -40,30 +75,60 @@ def open_fmu(program: ControllerProgram, config: Config) -> "FmuInstance":
 class FmuInstance(CalledInstance):
     """An FMU, for one stop."""
 
-    def __init__(self, slave: Slave, idle: list[Slave], config: Config, names: dict[str, str]) -> None:
+    def __init__(self, slave: Slave, idle: list[Slave], config: Config, names: Mapping[str, str]) -> None:
         super().__init__()
         slave.check_step_size(config.cycle_time)
+        known = [declared.name for declared in (*INPUTS, *CONSTANTS, *OUTPUTS)]
+        for name in names:
+            if name not in known:
+                raise ControllerError(f"has no use for variables.{name}; the keys are {', '.join(known)}")
         self.version = slave.description.version or ""
         self._slave = slave
         self._idle = idle
-        self._cycle_time = config.cycle_time
-        self._variables = ControllerVariables(slave, config, names)
+        self._config = config
+        inputs, constants, outputs = (
+            bind(slave.description, declared, names) for declared in (INPUTS, CONSTANTS, OUTPUTS)
+        )
+        parameters, self._parameter_values = bound_parameters(slave, config.parameters)
+        self._inputs = grouped(slave, inputs)
+        self._parameters = grouped(slave, [*constants, *parameters])
+        self._outputs = grouped(slave, outputs)
+        self._magnets = {name: _labels(outputs, name) for name in ("hold", "vent")}
 
     def reset(self) -> None:
-        """Set all variables to their start values, parameters to those of the scenario, and initialise."""
+        """Set all variables to their start values, parameters to those of the scenario, and initialise.
+
+        The inputs are at first those of a train that rolls with its brakes released.
+        """
+        config = self._config
+        constants = {
+            "initial_speed": (config.initial_speed,),
+            "cycle_time": (config.cycle_time,),
+            "wheel_radius": config.wheel_radius,
+        }
+        speeds, pressures = (config.initial_speed,) * WHEELSETS, (0.0,) * WHEELSETS
         with self._slave.checked():
             self._slave.reset()
-            self._variables.set_parameters()
+            _set(self._parameters, constants | self._parameter_values)
             self._slave.enter_initialisation()
-            self._variables.set_initial_inputs()
+            self._set_inputs(Inputs(0, 0.0, speeds, (True,) * WHEELSETS, pressures, 0.0))
             self._slave.exit_initialisation()
 
     def step(self, inputs: Inputs) -> Outputs:
         """Set the inputs, make a step of one cycle, read the outputs."""
+        read: dict[str, list[Any]] = {
+            "hold": [0] * WHEELSETS,
+            "vent": [0] * WHEELSETS,
+            "reference_speed": [math.nan],
+            "diagnosis": [0],
+        }
         with self._slave.checked():
-            self._variables.set_inputs(inputs)
-            self._slave.step(inputs.time, self._cycle_time)
-            return self._variables.outputs()
+            self._set_inputs(inputs)
+            self._slave.step(inputs.time, self._config.cycle_time)
+            for group in self._outputs:
+                group.get(read)
+        hold, vent = (_magnets(read[name], self._magnets[name]) for name in ("hold", "vent"))
+        return Outputs(hold, vent, read["reference_speed"][0], _bits(read["diagnosis"][0]))
 
     def close(self) -> None:
         """Keep the FMU for the next stop of this thread; one that has failed is released."""
@@ -71,3 +136,44 @@ class FmuInstance(CalledInstance):
             self._idle.append(self._slave)
         else:
             self._slave.release()
+
+    def _set_inputs(self, inputs: Inputs) -> None:
+        values = {
+            "wheel_speed": inputs.wheel_speed,
+            "speed_valid": inputs.speed_valid,
+            "cylinder_pressure": inputs.cylinder_pressure,
+            "brake_demand": (inputs.brake_demand,),
+            "time": (inputs.time,),
+            "cycle": (inputs.cycle,),
+        }
+        _set(self._inputs, values)
+
+
+def _set(groups: Sequence[VariableGroup], values: Values) -> None:
+    for group in groups:
+        group.set(values)
+
+
+def _labels(outputs: Sequence[BoundVariable], name: str) -> list[str]:
+    """Return what the FMU calls the four magnets of a name."""
+    of_place = {
+        place: each.label(index)
+        for each in outputs
+        for index, (own, place) in enumerate(each.slots)
+        if own == name
+    }
+    return [of_place[place] for place in range(WHEELSETS)]
+
+
+def _magnets(values: Sequence[Any], labels: Sequence[str]) -> list[int]:
+    for value, label in zip(values, labels, strict=True):
+        if value not in (0, 1):
+            raise ControllerError(f"{label} is {value!r}, expected 0 or 1")
+    return [int(value) for value in values]
+
+
+def _bits(value: Any) -> int:
+    """Return 32 bits; an Integer of FMI 2.0 has a sign."""
+    if not math.isfinite(value) or value != int(value):
+        raise ControllerError(f"diagnosis is {value!r}, expected a whole number of 32 bits")
+    return int(value) & _BITS

@@ -1,8 +1,7 @@
-"""Find the variables of an FMU by name, and set or read them by one call."""
+"""Find the variables of an FMU by name, and set or read those of one type by one call."""
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from ctypes import c_uint
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
 from typing import Any, Final
@@ -29,43 +28,32 @@ class BoundVariable:
         return f"{self.variable.name}[{element + 1}]" if len(self.slots) > 1 else str(self.variable.name)
 
 
-@dataclass(frozen=True, slots=True)
 class VariableGroup:
-    """Variables of one type with the memory that the FMU reads or writes."""
+    """Variables of one type, named as in functions."""
 
-    slots: tuple[Slot, ...]
-    memory: Any
-    call: Callable[[], object]
+    def __init__(self, slave: Slave, kind: str, members: Sequence[BoundVariable]) -> None:
+        self._slave = slave
+        self._kind = kind
+        self._references = [each.variable.valueReference for each in members]
+        self._slots = [slot for each in members for slot in each.slots]
 
     def set(self, values: Values) -> None:
         """Set the variables."""
-        memory = self.memory
-        for index, (name, place) in enumerate(self.slots):
-            memory[index] = values[name][place]
-        self.call()
+        self._slave.set(self._kind, self._references, [values[name][place] for name, place in self._slots])
 
     def get(self, values: Mapping[str, list[Any]]) -> None:
         """Read the variables."""
-        self.call()
-        memory = self.memory
-        for index, (name, place) in enumerate(self.slots):
-            values[name][place] = memory[index]
+        read = self._slave.get(self._kind, self._references, len(self._slots))
+        for (name, place), value in zip(self._slots, read, strict=True):
+            values[name][place] = value
 
 
-def grouped(slave: Slave, verb: str, variables: Iterable[BoundVariable]) -> list[VariableGroup]:
-    """Return variables by their types; ``verb`` is Set or Get."""
-    by_type: defaultdict[tuple[str, Any], list[BoundVariable]] = defaultdict(list)
+def grouped(slave: Slave, variables: Iterable[BoundVariable]) -> list[VariableGroup]:
+    """Return variables by their types."""
+    by_type: defaultdict[str, list[BoundVariable]] = defaultdict(list)
     for each in variables:
         by_type[slave.types[each.variable.type]].append(each)
-    return [_group(slave, verb, kind, members) for kind, members in by_type.items()]
-
-
-def _group(slave: Slave, verb: str, kind: tuple[str, Any], members: Sequence[BoundVariable]) -> VariableGroup:
-    name, c_type = kind
-    references = (c_uint * len(members))(*(each.variable.valueReference for each in members))
-    slots = tuple(slot for each in members for slot in each.slots)
-    memory = (c_type * len(slots))()
-    return VariableGroup(slots, memory, slave.access(verb, name, references, memory))
+    return [VariableGroup(slave, kind, members) for kind, members in by_type.items()]
 
 
 FLOATS: Final = ("Real", "Float64", "Float32")
@@ -209,18 +197,12 @@ def _value(slave: Slave, variable: Any, value: Any) -> Any:
     if variable.type not in slave.types:
         raise ControllerError(f"has parameter {variable.name} of type {variable.type}, which cannot be set")
     if variable.type == "String" and isinstance(value, str):
-        return value.encode()
+        return value
     if variable.type == "Boolean" and value in (False, True):
         return int(value)
     if isinstance(value, int | float) and not isinstance(value, bool):
         if variable.type in FLOATS:
             return float(value)
-        _, c_type = slave.types[variable.type]
-        if variable.type not in ("String", "Boolean") and _is_held(value, c_type):
+        if variable.type not in ("String", "Boolean") and slave.holds(slave.types[variable.type], value):
             return int(value)
     raise ControllerError(f"has parameter {variable.name} of type {variable.type}, found {value!r}")
-
-
-def _is_held(value: float, c_type: Any) -> bool:
-    """Return whether a C type of whole numbers has a value."""
-    return float(value).is_integer() and bool(c_type(int(value)).value == value)
