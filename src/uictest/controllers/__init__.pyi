@@ -1,12 +1,12 @@
+from .adapters import open_controller as open_controller
 from .adapters.instance import (
     CalledInstance as CalledInstance,
     ControllerError as ControllerError,
     ControllerInstance as ControllerInstance,
+    ResponseTimes as ResponseTimes,
     read_inputs as read_inputs,
     write_outputs as write_outputs,
 )
-from .adapters.real_time import ResponseTimes as ResponseTimes
-from .adapters.registry import open_controller as open_controller
 from .adapters.turns import interrupt_turns as interrupt_turns
 from .contract import (
     CONTROLLERS as CONTROLLERS,
@@ -25,11 +25,14 @@ from .declared import (
     ControllerProgram as ControllerProgram,
     Kind as Kind,
     Problem as Problem,
+    installed_module as installed_module,
+    installed_names as installed_names,
+    installed_version as installed_version,
     nothing_declared as nothing_declared,
     parameter_problems as parameter_problems,
     shown_version as shown_version,
 )
-from .exchange import (
+from .interface import (
     CLOSING as CLOSING,
     EXCHANGE as EXCHANGE,
     FORBIDDEN_COMMAND as FORBIDDEN_COMMAND,
@@ -44,13 +47,6 @@ from .exchange import (
     STEP_FAILED as STEP_FAILED,
     STEPPING as STEPPING,
     WROTE_BEYOND as WROTE_BEYOND,
-)
-from .installed import (
-    installed_module as installed_module,
-    installed_names as installed_names,
-    installed_version as installed_version,
-)
-from .interface import (
     Config as Config,
     Inputs as Inputs,
     Outputs as Outputs,

@@ -122,11 +122,6 @@ class Controller:
     decide: Callable[[Any, Any, Any], None]
     conflicts: Callable[[Any], Iterator[Conflict]] = no_conflicts
 
-    @property
-    def symbol(self) -> str:
-        """The name as compiled code may have it."""
-        return self.name.replace("-", "_")
-
     def declared_parameters(self) -> dict[str, DeclaredParameter]:
         """Return the declarations of the parameters by name, those that every controller has first."""
         return {name: getattr(self.parameters, name) for name in fields_of(self.parameters)}

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from uictest.controllers.adapters.real_time import RealTime, ResponseTimes
+from uictest.controllers import ResponseTimes
+from uictest.controllers.adapters.socket import RealTime
 
 
 class Clock:

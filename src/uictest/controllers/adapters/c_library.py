@@ -6,11 +6,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
-from uictest.controllers.adapters.built_in_form import reject_undeclared
-from uictest.controllers.adapters.instance import ControllerError, ControllerInstance
+from uictest.controllers.adapters.instance import ControllerError, ControllerInstance, reject_undeclared
 from uictest.controllers.declared import ControllerProgram
-from uictest.controllers.exchange import ABI_VERSION, WHEELSETS
-from uictest.controllers.interface import Config
+from uictest.controllers.interface import ABI_VERSION, WHEELSETS, Config
 
 _Radii = ctypes.c_double * WHEELSETS
 
@@ -50,7 +48,9 @@ class LibraryInstance:
     def __init__(self, library: Any, config: Config, parameters: str) -> None:
         self._library = library
         self.version = _stated_text(library, "version") or ""
-        self._handle = library.uictest_create(ctypes.byref(_c_config(config, parameters)))
+        speeds = config.cycle_time, config.initial_speed, _Radii(*config.wheel_radius)
+        given = _Config(config.wheelsets, 0, *speeds, parameters.encode())
+        self._handle = library.uictest_create(ctypes.byref(given))
         if not self._handle:
             raise ControllerError(f"uictest_create failed: {_last_error(library, None) or 'no reason given'}")
 
@@ -97,7 +97,8 @@ def _loaded(location: str, sha256: str) -> Any:
     try:
         library = ctypes.CDLL(location)
     except OSError as error:
-        raise ControllerError(f"{path.name} cannot be loaded: {_without(location, error)}") from error
+        reason = str(error).replace(location, path.name)  # without the folders of this machine
+        raise ControllerError(f"{path.name} cannot be loaded: {reason}") from error
     _LOADED[location] = sha256
     _require_unchanged(path, sha256)  # nothing else was loaded meanwhile
     missing = [f"uictest_{name}" for name in _FUNCTIONS if not hasattr(library, f"uictest_{name}")]
@@ -115,22 +116,6 @@ def _loaded(location: str, sha256: str) -> Any:
 def _require_unchanged(path: Path, sha256: str) -> None:
     if hashlib.sha256(path.read_bytes()).hexdigest() != sha256:
         raise ControllerError(f"{path.name} has changed since the scenario was read")
-
-
-def _without(location: str, error: OSError) -> str:
-    """Return the loader's message without the folders of this machine."""
-    return str(error).replace(location, Path(location).name)
-
-
-def _c_config(config: Config, parameters: str) -> _Config:
-    return _Config(
-        config.wheelsets,
-        0,
-        config.cycle_time,
-        config.initial_speed,
-        _Radii(*config.wheel_radius),
-        parameters.encode(),
-    )
 
 
 def _stated_text(library: Any, name: str) -> str | None:

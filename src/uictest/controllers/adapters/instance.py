@@ -1,17 +1,19 @@
 """What every adapter returns: a controller that compiled code calls by address."""
 
 import ctypes
+import json
 import math
 import traceback
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, Protocol
+from typing import Any, Final, NamedTuple, Protocol
 
 import numpy as np
 
-from uictest.controllers.adapters.real_time import ResponseTimes
-from uictest.controllers.exchange import INPUTS, OUTPUTS, WHEELSETS
-from uictest.controllers.interface import Inputs, Outputs
+from uictest.controllers.declared import ControllerProgram, nothing_declared, parameter_problems
+from uictest.controllers.interface import INPUTS, OUTPUTS, WHEELSETS, Inputs, Outputs
 
 STEP: Final = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 """`uictest_step`."""
@@ -27,6 +29,31 @@ class ControllerError(Exception):
     def __init__(self, message: str) -> None:
         more = " ..." if len(message) > LONGEST_MESSAGE else ""
         super().__init__(message[:LONGEST_MESSAGE] + more)
+
+
+@dataclass(frozen=True, slots=True)
+class ResponseTimes:
+    """How a controller answered in a stop that was paced by the clock.
+
+    Cycle ``k`` is due ``k`` cycle times after the first one began. Its inputs are sent then, or once the
+    answer before has come. Its deadline is the instant at which cycle ``k + 1`` is due.
+
+    Attributes:
+        answers: number of answers.
+        cycle_time_s: time from one cycle to the next.
+        missed_deadlines: answers that came after their deadline.
+        longest_answer_s: longest time from sending the inputs of a cycle to its answer.
+        longest_answer_cycle: the cycle that took it.
+        start_jitter_s: longest time from the instant at which a cycle is due to the instant at which its
+            inputs are sent, without the cycles after a missed deadline: how well this machine keeps time.
+    """
+
+    answers: int
+    cycle_time_s: float
+    missed_deadlines: int
+    longest_answer_s: float
+    longest_answer_cycle: int
+    start_jitter_s: float
 
 
 class ControllerInstance(Protocol):
@@ -196,3 +223,37 @@ def _bits(value: Any) -> int:
     if isinstance(value, float) or not 0 <= int(value) <= _LARGEST_DIAGNOSIS:
         raise ControllerError(f"diagnosis is {value!r}, expected a whole number of 32 bits")
     return int(value)
+
+
+class StatedDeclaration(NamedTuple):
+    """A declaration that a program has stated itself."""
+
+    default: Any = None
+    unit: str = ""
+    range: Sequence[float] | None = None
+    description: str = ""
+
+
+def reject_undeclared(program: ControllerProgram, stated: str | None) -> None:
+    """Raise ControllerError where a program that runs is given what it does not declare.
+
+    `stated` is the JSON in which it states its parameters, None where it states none.
+    """
+    mode, given = program.options.get("parameters"), json.loads(program.parameters)
+    if stated is None:
+        problems = [nothing_declared(given)] if mode == "asked" and given else []
+    else:
+        problems = [*parameter_problems(_stated(stated), given, free=mode == "free")]
+    if problems:
+        raise ControllerError("; ".join(f"controller.parameters.{each.name}: {each}" for each in problems))
+
+
+def _stated(text: str) -> dict[str, StatedDeclaration]:
+    try:
+        stated = {str(name): StatedDeclaration(**each) for name, each in json.loads(text).items()}
+        for low, high in (each.range for each in stated.values() if each.range is not None):
+            float(low), float(high)  # raise what is no number
+        return stated
+    except (ValueError, TypeError, AttributeError) as error:
+        form = '{"NAME": {"default": 1.0, "unit": "s", "range": [0, 2]}}'
+        raise ControllerError(f"its parameters are not of the form {form}: {error}") from None

@@ -75,11 +75,7 @@ def open_controller(program: ControllerProgram, config: Config) -> PythonInstanc
     """Load the file, once per process, and create an object of the class. Raises ControllerError."""
     with _loading:
         module = _loaded(program.location, program.sha256)
-    return created(module, program.options["class"], config)
-
-
-def created(module: ModuleType, name: str, config: Config) -> PythonInstance:
-    """Return an object of a class of a module. Raises ControllerError."""
+    name = program.options["class"]
     kind = getattr(module, name, None)
     if not isinstance(kind, type):
         defined = [each for each, value in vars(module).items() if isinstance(value, type)]

@@ -18,16 +18,15 @@ Header, order of the frames and the first field of HELO stay as they are in ever
 import ctypes
 import socket
 import struct
+from collections.abc import Callable
 from contextlib import suppress
-from time import monotonic
+from time import monotonic, sleep
 from typing import Final
 
-from uictest.controllers.adapters.instance import CallbackInstance, ControllerError
-from uictest.controllers.adapters.real_time import RealTime, ResponseTimes
+from uictest.controllers.adapters.instance import CallbackInstance, ControllerError, ResponseTimes
 from uictest.controllers.adapters.turns import Turn
 from uictest.controllers.declared import ControllerProgram
-from uictest.controllers.exchange import INPUTS, OUTPUTS, WHEELSETS
-from uictest.controllers.interface import Config
+from uictest.controllers.interface import INPUTS, OUTPUTS, WHEELSETS, Config
 
 PROTOCOL_VERSION: Final = 1
 
@@ -59,14 +58,6 @@ def greeting(config: Config, parameters: str) -> bytes:
     sizes = INPUTS.itemsize, OUTPUTS.itemsize, config.wheelsets
     speeds = config.cycle_time, config.initial_speed, *config.wheel_radius
     return GREETING.pack(PROTOCOL_VERSION, *sizes, *speeds, bytes.fromhex(config.case_sha256)) + text
-
-
-def program_name(body: bytes) -> str:
-    """Return name and version of the program from its answer. Raises ControllerError for another protocol."""
-    version, name = PROGRAM.unpack(body)
-    if version != PROTOCOL_VERSION:
-        raise ControllerError(f"the program has protocol version {version}, expected {PROTOCOL_VERSION}")
-    return text_of(name)
 
 
 def text_of(content: bytes) -> str:
@@ -160,6 +151,67 @@ class Connection:
         return size
 
 
+class RealTime:
+    """Paces the cycles of one stop.
+
+    Args:
+        cycle_time: from one cycle to the next, s.
+        clock: the time, s.
+        wait: waits for so many s.
+    """
+
+    def __init__(
+        self,
+        cycle_time: float,
+        clock: Callable[[], float] = monotonic,
+        wait: Callable[[float], None] = sleep,
+    ) -> None:
+        self._cycle_time = cycle_time
+        self._clock = clock
+        self._wait = wait
+        self._first = 0.0
+        self._sent = 0.0
+        self._cycle = 0
+        self._late = False
+        self._missed = 0
+        self._longest = 0.0
+        self._longest_cycle = 0
+        self._jitter = 0.0
+
+    def begin_cycle(self) -> None:
+        """Wait until the next cycle is due."""
+        now = self._clock()
+        if self._cycle == 0:
+            self._first = now
+        due = self._due(self._cycle)
+        if now < due:
+            self._wait(due - now)
+            now = self._clock()
+        self._sent = now
+        if not self._late:
+            self._jitter = max(self._jitter, now - due)
+
+    def end_cycle(self) -> None:
+        """Note that the answer has come."""
+        now = self._clock()
+        if now - self._sent > self._longest:
+            self._longest, self._longest_cycle = now - self._sent, self._cycle
+        self._cycle += 1
+        self._late = now > self._due(self._cycle)
+        self._missed += self._late
+
+    @property
+    def response_times(self) -> ResponseTimes:
+        """How the controller answered so far."""
+        return ResponseTimes(
+            *(self._cycle, self._cycle_time, self._missed),
+            *(self._longest, self._longest_cycle, self._jitter),
+        )
+
+    def _due(self, cycle: int) -> float:
+        return self._first + cycle * self._cycle_time
+
+
 class SocketInstance(CallbackInstance):
     """The program for one stop: connected and greeted."""
 
@@ -171,7 +223,10 @@ class SocketInstance(CallbackInstance):
         self._connection = connection
         self._clock = RealTime(config.cycle_time) if program.real_time else None
         answer = connection.request(HELLO, greeting(config, program.parameters), PROGRAM.size)
-        self.version = program_name(answer)
+        protocol, name = PROGRAM.unpack(answer)
+        if protocol != PROTOCOL_VERSION:
+            raise ControllerError(f"the program has protocol version {protocol}, expected {PROTOCOL_VERSION}")
+        self.version = text_of(name)
 
     @property
     def response_times(self) -> ResponseTimes | None:

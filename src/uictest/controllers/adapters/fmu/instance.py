@@ -23,8 +23,7 @@ from uictest.controllers.adapters.fmu.names import (
 from uictest.controllers.adapters.fmu.slave import Slave, load_slave
 from uictest.controllers.adapters.instance import CalledInstance, ControllerError
 from uictest.controllers.declared import ControllerProgram
-from uictest.controllers.exchange import WHEELSETS
-from uictest.controllers.interface import Config, Inputs, Outputs
+from uictest.controllers.interface import WHEELSETS, Config, Inputs, Outputs
 
 INPUTS: Final = (
     Declared("wheel_speed", "input", WHEELSETS, is_needed=True),

@@ -9,7 +9,7 @@ from typing import Any, Final
 from uictest.controllers.adapters.fmu.slave import Slave
 from uictest.controllers.adapters.instance import ControllerError
 from uictest.controllers.declared import unknown_parameter
-from uictest.controllers.exchange import WHEELSETS
+from uictest.controllers.interface import WHEELSETS
 
 Slot = tuple[str, int]
 """Where a value stands: our name of the quantity, number of the wheelset from 0."""
