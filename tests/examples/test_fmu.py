@@ -13,7 +13,8 @@ from fmpy.validation import validate_fmu
 
 from uictest import rig
 from uictest.plans.scenario import Case, load
-from uictest.rig.external.workers import Workers, run_in_process
+from uictest.rig.external.in_process import run_in_process
+from uictest.rig.external.workers import Workers
 
 from .conftest import EXAMPLES, WithController, bits
 

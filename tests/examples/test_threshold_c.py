@@ -27,7 +27,7 @@ from uictest.controllers.adapters.instance import STEP
 from uictest.controllers.built_in import threshold
 from uictest.core.physics import FILL, VENT
 from uictest.plans.scenario import Case, load
-from uictest.rig.external.workers import run_in_process
+from uictest.rig.external.in_process import run_in_process
 
 from .conftest import EXAMPLES, Serve, WithController, bits, listening
 

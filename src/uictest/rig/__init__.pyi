@@ -30,19 +30,19 @@ from .external.block import (
     load_block as load_block,
     run_block as run_block,
 )
-from .external.drive import (
+from .external.in_process import (
     Beginning as Beginning,
     Driven as Driven,
     DriveRequest as DriveRequest,
     Drives as Drives,
     drive as drive,
+    empty_exchange as empty_exchange,
+    run_in_process as run_in_process,
 )
-from .external.opened import empty_exchange as empty_exchange
 from .external.workers import (
     RunInputs as RunInputs,
     Workers as Workers,
     in_real_time as in_real_time,
-    run_in_process as run_in_process,
 )
 from .highest_creep import highest_creep_forces as highest_creep_forces
 from .model.trace import CAR_CHANNELS as CAR_CHANNELS, WHEELSET_CHANNELS as WHEELSET_CHANNELS

@@ -19,7 +19,8 @@ from uictest.plans.scenario import load, load_part
 from uictest.rig.assembly import assemble
 from uictest.rig.backends import lanes
 from uictest.rig.external.block import BlockInputs, run_block
-from uictest.rig.external.workers import Workers, run_in_process
+from uictest.rig.external.in_process import run_in_process
+from uictest.rig.external.workers import Workers
 from uictest.rig.noise_key import StopInputs
 
 Compile = Callable[..., Path]

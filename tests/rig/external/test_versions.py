@@ -10,7 +10,8 @@ import pytest
 from uictest.controllers import ControllerError
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.external.workers import Workers, run_in_process
+from uictest.rig.external.in_process import run_in_process
+from uictest.rig.external.workers import Workers
 from uictest.rig.noise_key import StopInputs
 
 VersionOf = Callable[[str], StopInputs]

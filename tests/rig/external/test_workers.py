@@ -17,8 +17,9 @@ import pytest
 from uictest.controllers import ControllerError
 from uictest.rig.external import worker
 from uictest.rig.external.block import BlockInputs
+from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.worker import Worker
-from uictest.rig.external.workers import Workers, run_in_process
+from uictest.rig.external.workers import Workers
 from uictest.rig.noise_key import StopInputs
 
 StopOf = Callable[..., StopInputs]

@@ -21,7 +21,7 @@ from uictest.controllers import (
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.external.opened import opened
+from uictest.rig.external.in_process import opened
 from uictest.rig.noise_key import StopInputs
 
 
@@ -95,7 +95,11 @@ def run_block(inputs: BlockInputs, exchanges: NDArray[Any] | None = None) -> Blo
     with ExitStack() as controllers:
         ready = [place for place in range(count) if _is_ready(block, place, controllers)]
         if ready:
-            _run_in_lanes(block, ready)
+            from uictest.rig.backends.lanes import run_in_lanes  # single stops do without them
+
+            own = inputs.at(ready)
+            batch = run_in_lanes(own.parameters, own.wheelset_parameters, own.rail)
+            run.measures[ready], run.wheelset_measures[ready] = batch
     return run
 
 
@@ -106,23 +110,14 @@ def empty_run(count: int) -> BlockRun:
 
 def load_block(programs: Sequence[ControllerProgram | None]) -> None:
     """Load what :func:`run_block` calls, compiled first where the cache does not hold it; no foreign code."""
-    if any(map(_may_run_in_lanes, programs)):
-        from uictest.rig.backends.lanes import load_lanes  # single stops do without them
+    # What a package has registered runs in either way; which one is known once the package is imported.
+    kinds = {None if program is None else program.kind for program in programs}
+    if kinds & {None, "library", "registered"}:
+        from uictest.rig.backends.lanes import load_lanes
 
         load_lanes()
-    if any(map(_may_run_alone, programs)):
+    if kinds - {None, "library"}:
         compiled_stop()
-
-
-# What a package has registered runs in either way; which one is known once the package is imported.
-
-
-def _may_run_in_lanes(program: ControllerProgram | None) -> bool:
-    return program is None or program.kind in ("library", "registered")
-
-
-def _may_run_alone(program: ControllerProgram | None) -> bool:
-    return program is not None and program.kind != "library"
 
 
 def _is_ready(block: _Block, place: int, controllers: ExitStack) -> bool:
@@ -140,25 +135,14 @@ def _is_ready(block: _Block, place: int, controllers: ExitStack) -> bool:
     return False
 
 
-def _run_in_lanes(block: _Block, places: Sequence[int]) -> None:
-    """Run cases side by side, each with a controller of its own that is open."""
-    from uictest.rig.backends.lanes import run_in_lanes
-
-    ready = block.inputs.at(places)
-    batch = run_in_lanes(ready.parameters, ready.wheelset_parameters, ready.rail)
-    block.run.measures[places], block.run.wheelset_measures[places] = batch
-
-
 def _run_alone(block: _Block, place: int) -> None:
     """Run one case whose controller is open and cannot run beside others."""
     own = block.inputs
     records = own.parameters[place], own.wheelset_parameters[place], own.rail[place]
     stop = StopInputs(*records, own.programs[place], own.configs[place])
     finished = run_to_end(compiled_stop(), stop)
-    block.run.measures[place], block.run.wheelset_measures[place] = (
-        finished.measures,
-        finished.wheelset_measures,
-    )
+    block.run.measures[place] = finished.measures
+    block.run.wheelset_measures[place] = finished.wheelset_measures
 
 
 @contextmanager

@@ -7,13 +7,13 @@ standard error.
 
 import mmap
 import os
-from typing import Any, BinaryIO, Final
+from typing import Any, BinaryIO
 
 import numpy as np
 
 from uictest.controllers import EXCHANGE, ControllerError
 from uictest.rig.external.block import run_block
-from uictest.rig.external.drive import drive_controller
+from uictest.rig.external.in_process import drive_controller, run_in_process
 from uictest.rig.external.messages import (
     Message,
     StreamEndedError,
@@ -26,7 +26,6 @@ from uictest.rig.external.messages import (
     stop_of,
     write_message,
 )
-from uictest.rig.external.workers import run_in_process
 
 
 def serve(exchange_file: int) -> None:
@@ -49,31 +48,21 @@ def serve(exchange_file: int) -> None:
         except StreamEndedError:
             return
         memory[:] = bytes(len(memory))
-        answer = _answer(request, exchanges)
-        write_message(answers, answer.head, answer.blocks)
+        write_message(answers, _answer(request, exchanges))
 
 
 def _answer(request: Message, exchanges: Any) -> Message:
     try:
-        return _ANSWERS[request.head["request"]](request, exchanges)
+        match request.head["request"]:
+            case "stop":
+                return finished_message(run_in_process(*stop_of(request), exchanges[0]))
+            case "block":
+                inputs = block_of(request)
+                return run_message(run_block(inputs, exchanges[: len(inputs.programs)]))
+            case _:
+                return drives_message(drive_controller(drive_request_of(request), exchanges[0]))
     except ControllerError as error:
         return Message({"error": str(error)})
-
-
-def _stop(request: Message, exchanges: Any) -> Message:
-    return finished_message(run_in_process(*stop_of(request), exchanges[0]))
-
-
-def _block(request: Message, exchanges: Any) -> Message:
-    inputs = block_of(request)
-    return run_message(run_block(inputs, exchanges[: len(inputs.programs)]))
-
-
-def _drive(request: Message, exchanges: Any) -> Message:
-    return drives_message(drive_controller(drive_request_of(request), exchanges[0]))
-
-
-_ANSWERS: Final = {"stop": _stop, "block": _block, "drive": _drive}
 
 
 def _private_streams() -> tuple[BinaryIO, BinaryIO]:

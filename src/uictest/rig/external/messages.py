@@ -12,7 +12,7 @@ from uictest.controllers import INPUTS, OUTPUTS, Config, ControllerProgram
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.external.block import BlockInputs, BlockRun
-from uictest.rig.external.drive import Driven, DriveRequest, Drives
+from uictest.rig.external.in_process import Driven, DriveRequest, Drives
 from uictest.rig.model.friction_law import ROWS
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.state import CAR, WHEELSET
@@ -41,9 +41,9 @@ class StreamEndedError(Exception):
     """The other side has ended."""
 
 
-def write_message(stream: BinaryIO, head: dict[str, Any], blocks: Sequence[bytes] = ()) -> None:
+def write_message(stream: BinaryIO, message: Message) -> None:
     """Write a message at once."""
-    parts = [json.dumps(head).encode(), *blocks]
+    parts = [json.dumps(message.head).encode(), *message.blocks]
     stream.write(_COUNT.pack(len(parts)) + b"".join(_LENGTH.pack(len(part)) for part in parts))
     for part in parts:
         stream.write(part)

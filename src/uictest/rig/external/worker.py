@@ -27,7 +27,7 @@ from uictest.controllers import (
 )
 from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.external.block import BlockInputs, BlockRun
-from uictest.rig.external.drive import DriveRequest, Drives
+from uictest.rig.external.in_process import DriveRequest, Drives
 from uictest.rig.external.messages import (
     BrokenMessageError,
     Message,
@@ -123,7 +123,10 @@ class Worker:
         try:
             answer = self._asked(request, [program.time_limit for program in programs])
             error = answer.head.get("error", "")
-            result = None if error else self._read(answer, read)
+            try:
+                result = None if error else read(answer)
+            except Exception:  # its true answer would be taken for that of the next stop
+                raise self._lost("its process sent something else than an answer") from None
         except BaseException:
             self.close()
             raise
@@ -132,12 +135,6 @@ class Worker:
         if result is None:
             raise ControllerError(str(error))
         return result
-
-    def _read(self, answer: Message, read: Callable[[Message], Read]) -> Read:
-        try:
-            return read(answer)
-        except Exception:  # its true answer would be taken for that of the next stop
-            raise self._lost("its process sent something else than an answer") from None
 
     def _asked(self, request: Message, time_limits: Sequence[float]) -> Message:
         try:
@@ -153,7 +150,7 @@ class Worker:
     def _request(self, request: Message) -> None:
         with self._channel.makefile("wb") as requests:
             try:
-                write_message(requests, request.head, request.blocks)
+                write_message(requests, request)
             except TimeoutError:
                 raise self._lost(f"its process took no request within {ANSWER_LIMIT:g} s") from None
 

@@ -5,40 +5,24 @@ from contextlib import contextmanager
 from dataclasses import replace
 from threading import Lock
 from types import TracebackType
-from typing import Any, Final, Self, TypeGuard
+from typing import Final, Self, TypeGuard
 
-from uictest.controllers import ControllerProgram, shown_version
-from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
+from uictest.controllers import ControllerProgram
+from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.external.block import BlockInputs, BlockRun, empty_run, load_block, run_block
-from uictest.rig.external.drive import DriveRequest, Drives, drive_controller
-from uictest.rig.external.opened import empty_exchange, opened
+from uictest.rig.external.in_process import (
+    DriveRequest,
+    Drives,
+    drive_controller,
+    empty_exchange,
+    run_in_process,
+)
 from uictest.rig.external.worker import LARGEST_BLOCK, LostChildError, ProgramKey, Worker
 from uictest.rig.noise_key import StopInputs
 
 RunInputs = Callable[[StopInputs, int], FinishedStop]
 """Runs a stop, with so many base steps between two samples of its trace: here or in a child process."""
-
-
-def run_in_process(inputs: StopInputs, steps_per_sample: int = 0, exchange: Any = None) -> FinishedStop:
-    """Run a stop with its controller, built in or from outside, in this process.
-
-    Args:
-        inputs: parameters, rail and controller.
-        steps_per_sample: base steps from one sample of the trace to the next; 0: no trace.
-        exchange: zeroed record of :data:`~uictest.controllers.EXCHANGE` [default: memory of its own].
-
-    Raises:
-        ControllerError: when a controller from outside cannot be opened, or failed.
-    """
-    run_stop = compiled_stop()
-    if inputs.program is None or inputs.config is None:
-        return run_to_end(run_stop, inputs, steps_per_sample)
-    exchange = empty_exchange() if exchange is None else exchange
-    with opened(inputs.program, inputs.config, inputs.parameters, exchange) as controller:
-        finished = run_to_end(run_stop, inputs, steps_per_sample)
-    version = shown_version(controller.version)
-    return replace(finished, controller_version=version, response_times=controller.response_times)
 
 
 def in_real_time(run: RunInputs) -> RunInputs:
@@ -139,7 +123,13 @@ class Workers:
         try:
             yield worker
         finally:
-            self._give_back(worker)
+            if not worker.usable:
+                worker.close()
+            with self._lock:
+                if worker.usable:
+                    self._idle.append(worker)
+                elif worker in self._all:
+                    self._all.remove(worker)
 
     def _taken(self, key: ProgramKey) -> Worker:
         with self._lock:
@@ -155,15 +145,6 @@ class Workers:
             worker = Worker(key)
             self._all.append(worker)
             return worker
-
-    def _give_back(self, worker: Worker) -> None:
-        if not worker.usable:
-            worker.close()
-        with self._lock:
-            if worker.usable:
-                self._idle.append(worker)
-            elif worker in self._all:
-                self._all.remove(worker)
 
 
 def _is_isolated(program: ControllerProgram | None) -> TypeGuard[ControllerProgram]:

@@ -1,7 +1,9 @@
-"""A controller driven through given cycles, without the rig: what it answers, and how long it takes."""
+"""A controller from outside in this process: opened, run in a stop, or driven through given cycles."""
 
 import ctypes
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
 from time import perf_counter
 from typing import Any, Final, Literal, NamedTuple
 
@@ -11,7 +13,10 @@ from numpy.typing import NDArray
 from uictest.controllers import (
     CLOSING,
     EXCHANGE,
+    FORBIDDEN_COMMAND,
     GUARD,
+    NO_FAILURE,
+    NO_MAGNET_STATE,
     NOT_CALLED,
     OPENING,
     OUTPUTS,
@@ -20,12 +25,93 @@ from uictest.controllers import (
     STEPPING,
     WROTE_BEYOND,
     Config,
+    ControllerError,
     ControllerInstance,
     ControllerProgram,
     open_controller,
+    shown_version,
 )
-from uictest.rig.external.opened import raise_failure
+from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
+from uictest.rig.backends.native import compiled_stop
 from uictest.rig.model.external_controller import call_step
+from uictest.rig.noise_key import StopInputs
+
+_FAILURES: Final = {
+    STEP_FAILED: "step failed: {error}",
+    FORBIDDEN_COMMAND: "forbidden command for wheelset {wheelset}: vent without hold",
+    NO_MAGNET_STATE: "a magnet of wheelset {wheelset} is neither 0 nor 1: hold {hold}, vent {vent}",
+    WROTE_BEYOND: "the controller wrote beyond its outputs",
+}
+
+
+def empty_exchange() -> Any:
+    """Return a record of :data:`~uictest.controllers.EXCHANGE` in memory of its own."""
+    return np.zeros(1, EXCHANGE)[0]
+
+
+@contextmanager
+def opened(
+    program: ControllerProgram, config: Config, parameters: Any, exchange: Any
+) -> Iterator[ControllerInstance]:
+    """Open a controller, reset it, and tell the stop with these parameters where it is.
+
+    Raises:
+        ControllerError: when it cannot be loaded, created or reset, and after a stop in which it failed.
+    """
+    exchange["calling"] = OPENING
+    try:
+        instance = open_controller(program, config)
+        try:
+            instance.reset()
+            exchange["calling"] = NOT_CALLED
+            parameters["controller_step"] = instance.step_address
+            parameters["controller_handle"] = instance.handle
+            parameters["controller_exchange"] = exchange.__array_interface__["data"][0]
+            yield instance
+            raise_failure(exchange, instance)
+        finally:
+            exchange["calling"] = CLOSING
+            instance.close()
+    finally:
+        # Also where it could not be opened: whoever watches a block asks which controller does not return.
+        exchange["calling"] = NOT_CALLED
+
+
+def raise_failure(exchange: Any, instance: ControllerInstance) -> None:
+    """Raise ControllerError if the controller failed, with the reason and the cycle."""
+    failure = int(exchange["failure"])
+    if failure == NO_FAILURE:
+        return
+    place = int(exchange["failed_wheelset"])
+    reason = _FAILURES[failure].format(
+        error=instance.last_error() or "no reason given",
+        wheelset=place + 1,
+        hold=exchange["hold"][place],
+        vent=exchange["vent"][place],
+    )
+    raise ControllerError(f"{reason} (cycle {exchange['cycle']})")
+
+
+def run_in_process(inputs: StopInputs, steps_per_sample: int = 0, exchange: Any = None) -> FinishedStop:
+    """Run a stop with its controller, built in or from outside, in this process.
+
+    Args:
+        inputs: parameters, rail and controller.
+        steps_per_sample: base steps from one sample of the trace to the next; 0: no trace.
+        exchange: zeroed record of :data:`~uictest.controllers.EXCHANGE` [default: memory of its own].
+
+    Raises:
+        ControllerError: when a controller from outside cannot be opened, or failed.
+    """
+    run_stop = compiled_stop()
+    if inputs.program is None or inputs.config is None:
+        return run_to_end(run_stop, inputs, steps_per_sample)
+    exchange = empty_exchange() if exchange is None else exchange
+    with opened(inputs.program, inputs.config, inputs.parameters, exchange) as controller:
+        finished = run_to_end(run_stop, inputs, steps_per_sample)
+    version = shown_version(controller.version)
+    return replace(finished, controller_version=version, response_times=controller.response_times)
+
 
 FILLING_TIME: Final = 2.0
 """Time from empty to full service pressure, s; chosen, of the size that a wheelset's brake has."""
@@ -104,14 +190,19 @@ def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float,
     for cycle, current in enumerate(inputs):
         memory[:OUTPUTS_AT] = current.tobytes()
         pressure[:] = newest
-        _clear_outputs(exchange)
+        exchange["reference_speed"] = np.nan
+        exchange["hold"] = exchange["vent"] = exchange["diagnosis"] = 0
+        exchange["guard"] = GUARD
         exchange["cycles"] += 1
         exchange["calling"] = STEPPING
         started = perf_counter()
         status = call_step(instance.step_address, instance.handle, address)
         seconds[cycle] = perf_counter() - started
         exchange["calling"] = NOT_CALLED
-        _note_failure(exchange, status)
+        if exchange["guard"] != GUARD:
+            exchange["failure"] = WROTE_BEYOND
+        elif status != 0:
+            exchange["failure"] = STEP_FAILED
         raise_failure(exchange, instance)
         outputs[cycle] = np.frombuffer(memory, OUTPUTS, 1, OUTPUTS_AT)[0]
         newest = _pressure_after(newest, current["cylinder_pressure"], outputs[cycle], cycle_time)
@@ -123,19 +214,6 @@ def _close(instance: ControllerInstance | None, exchange: Any) -> None:
         exchange["calling"] = CLOSING
         instance.close()
         exchange["calling"] = NOT_CALLED
-
-
-def _clear_outputs(exchange: Any) -> None:
-    exchange["reference_speed"] = np.nan
-    exchange["hold"] = exchange["vent"] = exchange["diagnosis"] = 0
-    exchange["guard"] = GUARD
-
-
-def _note_failure(exchange: Any, status: int) -> None:
-    if exchange["guard"] != GUARD:
-        exchange["failure"] = WROTE_BEYOND
-    elif status != 0:
-        exchange["failure"] = STEP_FAILED
 
 
 def _pressure_after(pressure: Any, demanded: Any, outputs: Any, cycle_time: float) -> Any:
