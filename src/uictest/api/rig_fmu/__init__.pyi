@@ -3,4 +3,4 @@ from .building import (
     build_fmu as build_fmu,
     usable_compiler as usable_compiler,
 )
-from .model_description import FmiVersion as FmiVersion
+from .description import FmiVersion as FmiVersion

@@ -15,8 +15,14 @@ from pathlib import Path
 from typing import Final
 
 from uictest import rig
-from uictest.api.rig_fmu.documentation import case_header, documentation, provenance
-from uictest.api.rig_fmu.model_description import FmiVersion, Model, model_description
+from uictest.api.rig_fmu.description import (
+    FmiVersion,
+    Model,
+    documentation,
+    model_description,
+    provenance,
+)
+from uictest.api.rig_fmu.variables import case_header
 from uictest.core import files
 from uictest.judging import evaluation
 from uictest.plans import scenario
@@ -37,7 +43,9 @@ class CannotBuildError(Exception):
 
 def usable_compiler() -> str:
     """Return the path of a C compiler that can link a shared library. Raises CannotBuildError."""
-    _require_platform()
+    found = platform.system(), platform.machine()
+    if found != ("Linux", "x86_64"):
+        raise CannotBuildError(f"an FMU is built on Linux x86_64, this machine is {' '.join(found)}")
     names = [os.environ["CC"]] if os.environ.get("CC") else ["cc", "gcc", "clang"]
     compiler = next((path for name in names if (path := shutil.which(name))), None)
     if compiler is None:
@@ -49,28 +57,6 @@ def usable_compiler() -> str:
     except RuntimeError as error:
         raise CannotBuildError(f"{compiler} cannot link a shared library: {error}") from error
     return compiler
-
-
-def _require_platform() -> None:
-    found = platform.system(), platform.machine()
-    if found != ("Linux", "x86_64"):
-        raise CannotBuildError(f"an FMU is built on Linux x86_64, this machine is {' '.join(found)}")
-
-
-def library(compiler: str, fmi_source: str, case_header: str, code: bytes) -> bytes:
-    """Return the shared library of an FMU.
-
-    Args:
-        compiler: its path.
-        fmi_source: `fmi2.c` or `fmi3.c`.
-        case_header: content of `case.h`.
-        code: the rig as an object file.
-
-    Raises RuntimeError with what the compiler says.
-    """
-    sources = {name: (_SOURCES / name).read_bytes() for name in ("rig.h", "rig.c", fmi_source)}
-    sources |= {"case.h": case_header.encode(), "code.o": code}
-    return link(compiler, sources, [fmi_source, "rig.c", "code.o", "-lm"])
 
 
 def link(compiler: str, sources: Mapping[str, bytes], inputs: Sequence[str]) -> bytes:
@@ -107,10 +93,12 @@ def build_fmu(case: scenario.Case, version: FmiVersion, compiler: str) -> bytes:
     case = bench.identified(case)
     inputs, identifier = rig.assemble(case), re.sub(r"\W", "_", f"rig_{case.scenario.name}")
     header, code = case_header(inputs), rig.stepping_code(_TARGET)
+    digits = hashlib.sha256(f"{version} {header}".encode() + code).hexdigest()
     model = Model(
         name=f"rig {case.id}",
         identifier=identifier,
-        token=_token(f"{version} {header}".encode() + code),
+        # A GUID that only this content has.
+        token="{" + "-".join((digits[:8], digits[8:12], digits[12:16], digits[16:20], digits[20:32])) + "}",
         description=case.scenario.title or f"Brake rig, case {case.id}",
         cycle_time=float(inputs.parameters["cycle_time"]),
         longest=float(inputs.parameters["cycle_time"]) * int(inputs.parameters["cycles"]),
@@ -118,7 +106,10 @@ def build_fmu(case: scenario.Case, version: FmiVersion, compiler: str) -> bytes:
     )
     described = model_description(model, version)
     parts = _parts_inside(case)
-    shared = library(compiler, f"fmi{version}.c", f'#define TOKEN "{model.token}"\n{header}', code)
+    sources = {name: (_SOURCES / name).read_bytes() for name in ("rig.h", "rig.c", f"fmi{version}.c")}
+    sources["case.h"] = f'#define TOKEN "{model.token}"\n{header}'.encode()
+    sources["code.o"] = code
+    shared = link(compiler, sources, [f"fmi{version}.c", "rig.c", "code.o", "-lm"])
     return _archive(
         {
             "modelDescription.xml": described,
@@ -134,12 +125,6 @@ def _parts_inside(case: scenario.Case) -> dict[str, evaluation.EffectivePart]:
     parts = evaluation.EffectiveParts().of(case.scenario)
     outside = ("controller", "criteria", "measures")
     return {role: part for role, part in parts.items() if role.partition(".")[0] not in outside}
-
-
-def _token(content: bytes) -> str:
-    """Return a token in the form of a GUID that only this content has."""
-    digits = hashlib.sha256(content).hexdigest()
-    return "{" + "-".join((digits[:8], digits[8:12], digits[12:16], digits[16:20], digits[20:32])) + "}"
 
 
 def _archive(files: Mapping[str, bytes]) -> bytes:

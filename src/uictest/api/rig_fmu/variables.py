@@ -1,18 +1,14 @@
-"""The variables of the FMU, each declared once, and where each lies in the memory of an instance."""
+"""The variables of the FMU, each declared once, and `case.h`: the case and their places as C has them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, replace
 from typing import Any, Final, Literal
 
 import numpy as np
 
-from uictest.rig import STOP_MEMORY
-
-Kind = Literal["real", "boolean", "integer"]
-Causality = Literal["independent", "input", "output", "parameter"]
+from uictest.rig import STEP, STOP_MEMORY, StopInputs
 
 INSTANCE_MEMORY: Final[Any] = np.dtype(
     [("stop", STOP_MEMORY), ("time", "f8"), ("ended", "i8"), ("hold", "i4", 4), ("vent", "i4", 4)]
@@ -26,125 +22,154 @@ class Variable:
 
     Attributes:
         name: in the model description.
+        path: dotted, of its field in :data:`INSTANCE_MEMORY`.
         description: one line.
+        unit: empty for a pure number.
         kind: of value.
         causality: as FMI has it.
-        unit: empty for a pure number.
-        offset: of its place in :data:`INSTANCE_MEMORY`, bytes.
-        storage: type of the number there: `f8`, `i4` or `i8`.
+        wheelset: which of several values in the field it is, from 0.
     """
 
     name: str
-    description: str
-    kind: Kind
-    causality: Causality
-    unit: str
-    offset: int
-    storage: str
-
-
-@dataclass(frozen=True, slots=True)
-class _Declared:
-    name: str
-    place: str
+    path: str
     description: str
     unit: str = ""
-    kind: Kind = "real"
-    causality: Causality = "output"
+    kind: Literal["real", "boolean", "integer"] = "real"
+    causality: Literal["independent", "input", "output", "parameter"] = "output"
+    wheelset: int = 0
 
 
-_READINGS: Final = (
-    _Declared("wheel_speed", "stop.exchange.wheel_speed", "Circumferential, as its sensor shows it", "m/s"),
-    _Declared(
-        "speed_valid",
-        "stop.exchange.speed_valid",
-        "False where the speed sensor reports a fault",
+def _of_wheelsets(*variables: Variable) -> Iterator[Variable]:
+    for each in variables:
+        for number in range(1, 5):
+            name, description = f"{each.name}_{number}", f"{each.description}, wheelset {number}"
+            yield replace(each, name=name, description=description, wheelset=number - 1)
+
+
+VARIABLES: Final = (
+    Variable("time", "time", "Time of the simulation", "s", causality="independent"),
+    *_of_wheelsets(
+        Variable("hold", "hold", "Holding magnet energised", "", "boolean", "input"),
+        Variable(
+            "vent",
+            "vent",
+            "Venting magnet energised; forbidden without the holding magnet",
+            "",
+            "boolean",
+            "input",
+        ),
+        Variable(
+            "wheel_speed", "stop.exchange.wheel_speed", "Circumferential, as its sensor shows it", "m/s"
+        ),
+        Variable(
+            "speed_valid",
+            "stop.exchange.speed_valid",
+            "False where the speed sensor reports a fault",
+            kind="boolean",
+        ),
+        Variable(
+            "cylinder_pressure",
+            "stop.exchange.cylinder_pressure",
+            "Brake cylinder pressure above atmospheric, as its sensor shows it",
+            "Pa",
+        ),
+    ),
+    Variable(
+        "brake_demand", "stop.exchange.brake_demand", "Share of full service; a brake is demanded above 0"
+    ),
+    Variable("train_speed", "stop.train.speed", "True speed of the train", "m/s"),
+    Variable("distance", "stop.train.distance", "Distance since the brake command", "m"),
+    Variable("brake_line_pressure", "stop.train.brake_line_pressure", "Above atmospheric", "Pa"),
+    Variable("reservoir_pressure", "stop.train.reservoir_pressure", "Above atmospheric", "Pa"),
+    Variable("stopped", "stop.car.stopped", "The train stands", kind="boolean"),
+    Variable(
+        "ended",
+        "ended",
+        "The train stands or the longest duration has passed; outputs stay",
         kind="boolean",
     ),
-    _Declared(
-        "cylinder_pressure",
-        "stop.exchange.cylinder_pressure",
-        "Brake cylinder pressure above atmospheric, as its sensor shows it",
-        "Pa",
+    Variable("braking_distance", "stop.car.stop_position", "0 until the train stands", "m"),
+    Variable("braking_time", "stop.car.stop_time", "0 until the train stands", "s"),
+    *_of_wheelsets(
+        Variable("true_wheel_speed", "stop.modules.wheel_speed", "True circumferential speed", "m/s"),
+        Variable("slide", "stop.modules.slide", "1 - true wheel speed / train speed; 0 below 1 m/s"),
+        Variable("friction", "stop.modules.friction", "Friction coefficient of the rail under the wheelset"),
+        Variable("adhesion", "stop.modules.adhesion", "Adhesion in use"),
+        Variable("wheel_load", "stop.modules.wheel_load", "Load of one wheel", "N"),
+        Variable("tank_pressure", "stop.modules.tank_pressure", "True pressure above atmospheric", "Pa"),
+        Variable("clamping_force", "stop.modules.clamping_force", "Clamping force of one caliper", "N"),
+        Variable("brake_torque", "stop.modules.brake_torque", "Brake torque of the wheelset", "N.m"),
     ),
+    Variable("seed", "stop.parameters.seed", "Seed of the sensor noise", "", "integer", "parameter"),
 )
-_COMMANDS: Final = (
-    _Declared("hold", "hold", "Holding magnet energised", kind="boolean", causality="input"),
-    _Declared(
-        "vent",
-        "vent",
-        "Venting magnet energised; forbidden without the holding magnet",
-        kind="boolean",
-        causality="input",
-    ),
-)
-_STATES: Final = (
-    _Declared("true_wheel_speed", "stop.modules.wheel_speed", "True circumferential speed", "m/s"),
-    _Declared("slide", "stop.modules.slide", "1 - true wheel speed / train speed; 0 below 1 m/s"),
-    _Declared("friction", "stop.modules.friction", "Friction coefficient of the rail under the wheelset"),
-    _Declared("adhesion", "stop.modules.adhesion", "Adhesion in use"),
-    _Declared("wheel_load", "stop.modules.wheel_load", "Load of one wheel", "N"),
-    _Declared("tank_pressure", "stop.modules.tank_pressure", "True pressure above atmospheric", "Pa"),
-    _Declared("clamping_force", "stop.modules.clamping_force", "Clamping force of one caliper", "N"),
-    _Declared("brake_torque", "stop.modules.brake_torque", "Brake torque of the wheelset", "N.m"),
-)
-_TRAIN: Final = (
-    _Declared("train_speed", "stop.train.speed", "True speed of the train", "m/s"),
-    _Declared("distance", "stop.train.distance", "Distance since the brake command", "m"),
-    _Declared("brake_line_pressure", "stop.train.brake_line_pressure", "Above atmospheric", "Pa"),
-    _Declared("reservoir_pressure", "stop.train.reservoir_pressure", "Above atmospheric", "Pa"),
-    _Declared("stopped", "stop.car.stopped", "The train stands", kind="boolean"),
-    _Declared(
-        "ended", "ended", "The train stands or the longest duration has passed; outputs stay", kind="boolean"
-    ),
-    _Declared("braking_distance", "stop.car.stop_position", "0 until the train stands", "m"),
-    _Declared("braking_time", "stop.car.stop_time", "0 until the train stands", "s"),
-)
+"""In the order of their value references, from 0."""
 
 
-@cache
-def variables() -> tuple[Variable, ...]:
-    """Return the variables in the order of their value references, from 0."""
-    return tuple(_located())
+_PLACES: Final = {
+    "PARAMETERS_AT": "stop.parameters",
+    "STOPPED_AT": "stop.car.stopped",
+    "CYCLE_AT": "stop.car.cycle",
+    "LONGEST_STOP_AT": "stop.parameters.cycles",
+    "COMMANDED_HOLD_AT": "stop.exchange.hold",
+    "COMMANDED_VENT_AT": "stop.exchange.vent",
+    "TIME_AT": "time",
+    "ENDED_AT": "ended",
+    "HOLD_AT": "hold",
+    "VENT_AT": "vent",
+}
+"""Name in C -> field of the memory of an instance."""
+_STORAGES: Final = {"f8": "FLOAT64", "i4": "INT32", "i8": "INT64"}
 
 
-def _located() -> Iterator[Variable]:
-    yield _variable(_Declared("time", "time", "Time of the simulation", "s", causality="independent"))
-    yield from (each for declared in _COMMANDS for each in _of_wheelsets(declared))
-    yield from (each for declared in _READINGS for each in _of_wheelsets(declared))
-    demand = "Share of full service; a brake is demanded above 0"
-    yield _variable(_Declared("brake_demand", "stop.exchange.brake_demand", demand))
-    yield from map(_variable, _TRAIN)
-    yield from (each for declared in _STATES for each in _of_wheelsets(declared))
-    seed = "Seed of the sensor noise"
-    yield _variable(_Declared("seed", "stop.parameters.seed", seed, kind="integer", causality="parameter"))
+def case_header(inputs: StopInputs) -> str:
+    """Return `case.h` without the token that ties it to a model description."""
+    lines = [
+        f"#define MEMORY_SIZE {INSTANCE_MEMORY.itemsize}",
+        f"#define STOP_SIZE {STOP_MEMORY.itemsize}",
+        *(f"#define {name} {_place(path)[0]}" for name, path in _PLACES.items()),
+        f"#define CYCLE_TIME {float(inputs.parameters['cycle_time']).hex()}",
+        *_words("PARAMETERS", inputs.parameters),
+        *_words("WHEELSET_PARAMETERS", inputs.wheelset_parameters),
+        *_words("RAIL", inputs.rail),
+        *_call(inputs.rail.shape[1]),
+        *_variables(),
+    ]
+    return "".join(f"{line}\n" for line in lines)
 
 
-def _of_wheelsets(declared: _Declared) -> Iterator[Variable]:
-    for number in range(1, 5):
-        description = f"{declared.description}, wheelset {number}"
-        yield _variable(declared, f"{declared.name}_{number}", description, number - 1)
+def _words(name: str, values: Any) -> Iterator[str]:
+    """Yield numbers bit by bit: decimal digits could round."""
+    words = np.frombuffer(values.tobytes(), "<u8")
+    yield f"static const uint64_t {name}[] = {{"
+    yield from (f"    {word:#x}," for word in words)
+    yield "};"
 
 
-def _variable(declared: _Declared, name: str = "", description: str = "", place: int = 0) -> Variable:
-    offset, storage = _place(declared.place, place)
-    return Variable(
-        name or declared.name,
-        description or declared.description,
-        declared.kind,
-        declared.causality,
-        declared.unit,
-        offset,
-        storage,
-    )
+def _call(points: int) -> Iterator[str]:
+    """Yield the call of the machine code, whose arguments are those of :data:`uictest.rig.STEP_ARGUMENTS`."""
+    count = len(STOP_MEMORY.names)
+    parts = ", ".join(f"(memory) + {STOP_MEMORY.fields[name][1]}" for name in STOP_MEMORY.names)
+    pointers = ", ".join(["void *"] * count)
+    kinds = f"{pointers}, const void *, const void *, int64_t, void *, void *, int64_t, int64_t, int64_t"
+    yield f"int64_t {STEP}({kinds});"
+    yield f"#define CARRY_OUT(memory) {STEP}({parts}, \\"
+    yield f"    WHEELSET_PARAMETERS, RAIL, {points}, NULL, NULL, 0, 0, 0)"
 
 
-def place_of(path: str) -> int:
-    """Return the offset of a field of :data:`INSTANCE_MEMORY` that a dotted path names."""
-    return _place(path, 0)[0]
+def _variables() -> Iterator[str]:
+    yield "typedef enum { REAL, BOOLEAN, INTEGER } Kind;"
+    yield "typedef enum { INDEPENDENT, INPUT, OUTPUT, PARAMETER } Causality;"
+    yield "typedef enum { FLOAT64, INT32, INT64 } Storage;"
+    yield "typedef struct { Kind kind; Causality causality; Storage storage; size_t offset; } Variable;"
+    yield "static const Variable VARIABLES[] = {"
+    for each in VARIABLES:
+        offset, storage = _place(each.path, each.wheelset)
+        names = f"{each.kind.upper()}, {each.causality.upper()}, {_STORAGES[storage]}"
+        yield f"    {{{names}, {offset}}}, /* {each.name} */"
+    yield "};"
 
 
-def _place(path: str, place: int) -> tuple[int, str]:
+def _place(path: str, place: int = 0) -> tuple[int, str]:
     """Return offset and storage of a field; of several, in an array of numbers or of records, one."""
     layout, offset = INSTANCE_MEMORY, 0
     for name in path.split("."):
