@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uictest.core.physics.wsp_valve import FILL, HOLD, VENT
-from uictest.rig.bench.rig import (
+from uictest.rig.bench.inputs import (
     Clock,
     bypassed_input,
     joined_inputs,

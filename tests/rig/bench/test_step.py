@@ -8,12 +8,17 @@ import numpy as np
 import pytest
 
 from uictest.core.physics.wsp_valve import FILL, HOLD, VENT
-from uictest.rig.bench.applied import bench_input
+from uictest.rig.bench.inputs import (
+    BenchInput,
+    bench_input,
+    clock_of,
+    joined_inputs,
+    stepwise_input,
+    triangular_input,
+)
 from uictest.rig.bench.recipe import load_bench, recipe_path
-from uictest.rig.bench.rig import BenchInput, clock_of, joined_inputs, stepwise_input, triangular_input
 from uictest.rig.bench.run import run_bench
-from uictest.rig.bench.step import run_bench_test
-from uictest.rig.bench.trace import BENCH_CHANNELS
+from uictest.rig.bench.step import BENCH_CHANNELS, run_bench_test
 from uictest.rig.simulation import simulate
 
 

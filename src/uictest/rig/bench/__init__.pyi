@@ -1,7 +1,15 @@
-from .applied import bench_input as bench_input
 from .identified_air import identify_air as identify_air
 from .identified_case import identified as identified
 from .identified_rig import IDENTIFIED_KEYS as IDENTIFIED_KEYS
+from .inputs import (
+    BenchInput as BenchInput,
+    Clock as Clock,
+    bench_input as bench_input,
+    bypassed_input as bypassed_input,
+    clock_of as clock_of,
+    joined_inputs as joined_inputs,
+    recorded_input as recorded_input,
+)
 from .recipe import (
     BenchRecipe as BenchRecipe,
     BenchTest as BenchTest,
@@ -9,13 +17,5 @@ from .recipe import (
     recipe_names as recipe_names,
     recipe_path as recipe_path,
     trace_recipe as trace_recipe,
-)
-from .rig import (
-    BenchInput as BenchInput,
-    Clock as Clock,
-    bypassed_input as bypassed_input,
-    clock_of as clock_of,
-    joined_inputs as joined_inputs,
-    recorded_input as recorded_input,
 )
 from .run import run_bench as run_bench, run_test as run_test

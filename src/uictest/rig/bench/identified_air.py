@@ -9,7 +9,7 @@ from uictest.core.physics import REFERENCE_DENSITY, REFERENCE_TEMPERATURE, VENT
 from uictest.core.units import BAR, in_unit
 from uictest.plans.scenario import Case, ModuleAir
 from uictest.rig import identification
-from uictest.rig.bench.modelled_pressure import ModelledPressure
+from uictest.rig.bench.run import ModelledPressure
 
 Samples = NDArray[np.float64]
 _SPACING = 0.01
@@ -86,7 +86,10 @@ def identify_air(
     unknowns = _least_squares(lambda x: (model(x) - cylinder)[fitted] / scale, starts)
     after = (model(unknowns) - cylinder)[held_out] / scale
     before = (channels["tank"] - cylinder)[held_out] / scale
-    _require_gain(before, after)
+    if not np.mean(after**2) < np.mean(before**2):
+        raise identification.UnsuitableRecordError(
+            "the modelled air is no nearer to the cylinder pressure than the tank pressure is"
+        )
     tank, caliper, swept, opening, gap = map(float, unknowns)
     return identification.AirResult(
         tank,
@@ -142,13 +145,6 @@ def _require_volume(channels: Mapping[str, Samples], case: Case, step: float) ->
             f"the tank empties through its vent as one of {in_unit(lowest, 'L'):.3g} to"
             f" {in_unit(highest, 'L'):.3g} L would, the assumed rig has {system.tank.volume.text}:"
             " set brake.system.tank.volume, or brake.system.wsp_valve.vent_conductance, of the record's rig"
-        )
-
-
-def _require_gain(before: Samples, after: Samples) -> None:
-    if not np.mean(after**2) < np.mean(before**2):
-        raise identification.UnsuitableRecordError(
-            "the modelled air is no nearer to the cylinder pressure than the tank pressure is"
         )
 
 

@@ -5,11 +5,15 @@ line, which follows a demanded pressure. Further records compute what module 2 w
 setting of the compensation.
 """
 
-from typing import Any
+from collections.abc import MutableSequence, Sequence
+from typing import Any, NamedTuple
 
-from uictest.core.physics import sqrt
-from uictest.rig.bench.rig import LOADCELLS, MODULES, SETTINGS, THERMAL, BenchRig
-from uictest.rig.bench.trace import sample
+import numpy as np
+
+from uictest.core.physics import analogue_reading, sqrt
+from uictest.core.record import Record, channel, layout_of, units_of
+from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
+from uictest.rig.assembly import assemble
 from uictest.rig.model.clamping import step_clamping
 from uictest.rig.model.cycle import (
     command_valve,
@@ -18,9 +22,55 @@ from uictest.rig.model.cycle import (
     sensor_noise,
 )
 from uictest.rig.model.module_air import follow_tank, read_line_pressure
+from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.pneumatics import follow_demanded_pressure, step_tank
 from uictest.rig.model.start import start_module, start_supply
-from uictest.rig.model.wheelset_parameters import copy_wheelset_parameters
+from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
+from uictest.rig.model.wheelset_parameters import WheelsetParameters, copy_wheelset_parameters
+
+SETTINGS = tuple(COMPENSATION_SETTINGS)
+"""Settings of the compensation, in the order of the records that compute them."""
+NONE, HYSTERESIS, CYLINDER, FULL, THERMAL = range(len(SETTINGS))
+MODULES = 2
+LOADCELLS = 3
+
+
+class BenchRig(NamedTuple):
+    """Records of the rig on the bench.
+
+    Attributes:
+        car: record whose air supply feeds the modules.
+        modules: with caliper, and without.
+        computed: a module for each setting, which computes the force of the second module under it.
+        settings: as many parameter records that differ in the setting of the compensation alone.
+        wheelset_parameters: those of wheelset 1, whose module is on the bench.
+        loadcell_errors: momentary errors of the three loadcells, N.
+    """
+
+    car: Car
+    modules: Sequence[Wheelset]
+    computed: Sequence[Wheelset]
+    settings: Sequence[Parameters]
+    wheelset_parameters: WheelsetParameters
+    loadcell_errors: MutableSequence[float]
+
+
+def bench_rig(case: Case) -> BenchRig:
+    """Return the rig of a case: its state zeroed, its parameters for each setting of the compensation."""
+    inputs = assemble(case)
+    settings: Any = np.zeros(len(SETTINGS), PARAMETERS)
+    settings[:] = inputs.parameters
+    settings["wsp_active"] = 1  # the valves obey the commands
+    uses = COMPENSATION_SETTINGS.values()
+    settings["uses_hysteresis"] = [setting.hysteresis for setting in uses]
+    settings["uses_cylinder_dynamics"] = [setting.pressure == "filter" for setting in uses]
+    settings["uses_module_air"] = [setting.pressure == "air" for setting in uses]
+    car: Any = np.zeros(1, CAR)[0]
+    modules: Any = np.zeros(MODULES, WHEELSET)
+    computed: Any = np.zeros(len(SETTINGS), WHEELSET)
+    loadcell_errors: Any = np.zeros(LOADCELLS)
+    return BenchRig(car, modules, computed, settings, inputs.wheelset_parameters[0], loadcell_errors)
+
 
 _LOADCELL = 8
 """Noise channel of the first loadcell, behind those that a stop uses."""
@@ -33,7 +83,7 @@ def run_bench_test(rig: BenchRig, demanded_pressures: Any, valve_commands: Any, 
         rig: records of the rig.
         demanded_pressures: gauge pressure demanded of the brake line in each step, Pa.
         valve_commands: command of the valves of both modules in each controller cycle.
-        trace: records of :data:`~uictest.rig.bench.trace.BENCH_SAMPLE` for the start and after each step.
+        trace: records of :data:`~uictest.rig.bench.step.BENCH_SAMPLE` for the start and after each step.
     """
     p = rig.settings[0]
     start_bench(rig)
@@ -99,3 +149,96 @@ def step_bench(rig: BenchRig) -> None:
     rig.car.steps += 1.0
     rig.car.substep += 1.0
     rig.car.time = rig.car.steps * p.step
+
+
+class BenchSample(Record):
+    """Channels of a bench test; pressures are gauge, the number at the end is that of the module."""
+
+    time: float = channel("s")
+    demanded_pressure: float = channel("Pa")
+    brake_line_pressure: float = channel("Pa")
+    valve_command_1: float = channel("1")  # 0 fill, 1 hold, 2 vent; the same for both modules
+    wsp_acting: float = channel("1")
+    tank_pressure_1: float = channel("Pa")
+    tank_pressure_2: float = channel("Pa")
+    measured_pressure_1: float = channel("Pa")  # as the sensor reads it
+    measured_pressure_2: float = channel("Pa")
+    cylinder_pressure_1: float = channel("Pa")  # measured
+    cylinder_pressure_2: float = channel("Pa")  # computed by the cylinder dynamics
+    cylinder_pressure_thermal_2: float = channel("Pa")  # computed by the modelled air
+    stroke_1: float = channel("m")
+    caliper_force_1: float = channel("N")
+    loadcell_1: float = channel("N")
+    loadcell_2: float = channel("N")
+    loadcell_3: float = channel("N")
+    clamping_force_1: float = channel("N")  # sum of the loadcells
+    computed_force_1: float = channel("N")  # by the four-phase hysteresis from the pressure of module 1
+    computed_force_none_2: float = channel("N")
+    computed_force_hysteresis_2: float = channel("N")
+    computed_force_cylinder_2: float = channel("N")
+    computed_force_full_2: float = channel("N")
+    computed_force_thermal_2: float = channel("N")
+
+
+BENCH_CHANNELS = units_of(BenchSample)
+"""Channels of a bench test and their units."""
+BENCH_SAMPLE = layout_of(BenchSample)
+"""Layout of :class:`BenchSample`."""
+LOADCELL_SHARES = (0.36, 0.31, 0.33)
+"""Shares of the clamping force that the three loadcells between pad and disc carry (chosen)."""
+
+
+def sample(row: BenchSample, rig: BenchRig) -> None:
+    """Write the present state into one record of a trace."""
+    p = rig.settings[0]
+    caliper, tank = rig.modules[0], rig.modules[1]
+    row.time = rig.car.time
+    row.demanded_pressure = rig.car.demanded_pressure
+    row.brake_line_pressure = rig.car.line_pressure - p.atmospheric_pressure
+    row.valve_command_1 = caliper.valve_command
+    row.wsp_acting = caliper.wsp_acting
+    row.tank_pressure_1 = caliper.pressure - p.atmospheric_pressure
+    row.tank_pressure_2 = tank.pressure - p.atmospheric_pressure
+    row.measured_pressure_1 = _measured_pressure(caliper, p)
+    row.measured_pressure_2 = _measured_pressure(tank, p)
+    row.cylinder_pressure_1 = row.measured_pressure_1
+    row.cylinder_pressure_2 = rig.computed[FULL].compensated_pressure
+    row.cylinder_pressure_thermal_2 = rig.computed[THERMAL].compensated_pressure
+    row.stroke_1 = caliper.stroke
+    row.caliper_force_1 = caliper.caliper_force
+    row.loadcell_1 = _loadcell(caliper, 0, rig, p)
+    row.loadcell_2 = _loadcell(caliper, 1, rig, p)
+    row.loadcell_3 = _loadcell(caliper, 2, rig, p)
+    row.clamping_force_1 = row.loadcell_1 + row.loadcell_2 + row.loadcell_3
+    row.computed_force_1 = caliper.computed_force
+    row.computed_force_none_2 = rig.computed[NONE].computed_force
+    row.computed_force_hysteresis_2 = rig.computed[HYSTERESIS].computed_force
+    row.computed_force_cylinder_2 = rig.computed[CYLINDER].computed_force
+    row.computed_force_full_2 = rig.computed[FULL].computed_force
+    row.computed_force_thermal_2 = rig.computed[THERMAL].computed_force
+
+
+def _measured_pressure(module: Wheelset, p: Parameters) -> float:
+    gauge = module.pressure - p.atmospheric_pressure
+    return analogue_reading(
+        gauge,
+        module.pressure_gain_error,
+        module.pressure_offset,
+        module.pressure_error,
+        p.pressure_range,
+        p.pressure_resolution,
+        p.pressure_steps,
+    )
+
+
+def _loadcell(caliper: Wheelset, place: int, rig: BenchRig, p: Parameters) -> float:
+    """Return the reading of one of three loadcells; they share offset and noise of the force channel."""
+    return analogue_reading(
+        caliper.caliper_force * LOADCELL_SHARES[place],
+        caliper.loadcell_gain_error,
+        caliper.loadcell_offset / LOADCELLS,
+        rig.loadcell_errors[place],
+        p.loadcell_range,
+        p.loadcell_resolution,
+        p.loadcell_steps,
+    )

@@ -1,18 +1,28 @@
-"""The rig on the bench, and what is applied to it over time."""
+"""What a bench test applies over time: demanded pressures and valve commands, as its recipe has them."""
 
-from collections.abc import Iterable, MutableSequence, Sequence
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest.core.physics import FILL, HOLD, VENT
-from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
-from uictest.rig.assembly import assemble
-from uictest.rig.model.parameters import PARAMETERS, Parameters
-from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
-from uictest.rig.model.wheelset_parameters import WheelsetParameters
+from uictest.core.units import BAR
+from uictest.plans.scenario import Case
+from uictest.rig import identification
+from uictest.rig.bench.recipe import (
+    BenchTest,
+    FileReplay,
+    Input,
+    Random,
+    Rest,
+    Stepwise,
+    StopReplay,
+    Triangular,
+    WspCycling,
+)
+from uictest.rig.simulation import simulate
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,57 +135,57 @@ def recorded_input(
     return BenchInput(demanded_pressures, commands[np.minimum(at, len(commands) - 1)].astype(np.int64))
 
 
-SETTINGS = tuple(COMPENSATION_SETTINGS)
-"""Settings of the compensation, in the order of the records that compute them."""
-NONE, HYSTERESIS, CYLINDER, FULL, THERMAL = range(len(SETTINGS))
-MODULES = 2
-LOADCELLS = 3
-
-
-class BenchRig(NamedTuple):
-    """Records of the rig on the bench.
-
-    Attributes:
-        car: record whose air supply feeds the modules.
-        modules: with caliper, and without.
-        computed: a module for each setting, which computes the force of the second module under it.
-        settings: as many parameter records that differ in the setting of the compensation alone.
-        wheelset_parameters: those of wheelset 1, whose module is on the bench.
-        loadcell_errors: momentary errors of the three loadcells, N.
-    """
-
-    car: Car
-    modules: Sequence[Wheelset]
-    computed: Sequence[Wheelset]
-    settings: Sequence[Parameters]
-    wheelset_parameters: WheelsetParameters
-    loadcell_errors: MutableSequence[float]
-
-
 def clock_of(case: Case) -> Clock:
     """Return the base step and the controller cycle of a case."""
     step = float(case.scenario.simulation.time_step)
     return Clock(step, round(float(case.scenario.controller.cycle_time) / step))
 
 
-def bench_rig(case: Case) -> BenchRig:
-    """Return the rig of a case, its state zeroed."""
-    inputs = assemble(case)
-    car: Any = np.zeros(1, CAR)[0]
-    modules: Any = np.zeros(MODULES, WHEELSET)
-    computed: Any = np.zeros(len(SETTINGS), WHEELSET)
-    loadcell_errors: Any = np.zeros(LOADCELLS)
-    own = inputs.wheelset_parameters[0]
-    return BenchRig(car, modules, computed, _settings(inputs.parameters), own, loadcell_errors)
+def bench_input(test: BenchTest) -> BenchInput:
+    """Return demanded pressures and valve commands of a recipe; stops that it replays are simulated.
+
+    Raises UnsuitableRecordError or OSError for a recording that cannot be used.
+    """
+    clock = clock_of(test.case)
+    return joined_inputs(_segment(segment, test, clock) for segment in test.recipe.inputs)
 
 
-def _settings(parameters: Any) -> Any:
-    """Return the parameters once for each setting of the compensation; the valves obey the commands."""
-    settings: Any = np.zeros(len(SETTINGS), PARAMETERS)
-    settings[:] = parameters
-    settings["wsp_active"] = 1
-    uses = COMPENSATION_SETTINGS.values()
-    settings["uses_hysteresis"] = [setting.hysteresis for setting in uses]
-    settings["uses_cylinder_dynamics"] = [setting.pressure == "filter" for setting in uses]
-    settings["uses_module_air"] = [setting.pressure == "air" for setting in uses]
-    return settings
+def _segment(segment: Input, test: BenchTest, clock: Clock) -> BenchInput:
+    match segment:
+        case StopReplay():
+            return _simulated_stop(segment, test.case, clock)
+        case FileReplay():
+            return _recorded_file(segment, test.folder, clock)
+        case WspCycling():
+            spans = segment.vent, segment.hold, segment.fill
+            return wsp_cycling_input(
+                segment.pressure, segment.lead, segment.cycles, *spans, segment.seed, clock
+            )
+        case Rest(duration=duration):
+            return stepwise_input([0.0], duration, clock)
+        case Stepwise(levels=levels, hold=hold):
+            return stepwise_input(levels, hold, clock)
+        case Triangular(peaks=peaks, floor=floor, ramp=ramp):
+            return triangular_input(peaks, floor, BAR / ramp, clock)
+        case Random(lowest=lowest, highest=highest):
+            return random_input(lowest, highest, segment.interval, segment.duration, segment.seed, clock)
+
+
+def _simulated_stop(segment: StopReplay, case: Case, clock: Clock) -> BenchInput:
+    rail = case.scenario.rail.model_copy(update={"friction": segment.friction})
+    brake = case.scenario.brake
+    if segment.position is not None:
+        brake = brake.model_copy(update={"position": segment.position})
+    scenario = case.scenario.model_copy(update={"rail": rail, "brake": brake, "seed": segment.seed})
+    recording = simulate(replace(case, scenario=scenario), clock.cycle_time).recording
+    assert recording is not None
+    commands = recording[f"valve_command_{segment.wheelset}"]
+    return recorded_input(recording["time"], recording["demanded_pressure"], commands, clock)
+
+
+def _recorded_file(segment: FileReplay, folder: Path, clock: Clock) -> BenchInput:
+    names = {"pressure": segment.pressure}
+    if segment.command is not None:
+        names["command"] = segment.command
+    channels = identification.read_record(folder / segment.file, names).channels
+    return recorded_input(channels["time"], channels["pressure"], channels.get("command"), clock)
