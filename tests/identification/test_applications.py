@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.rig.identification.suitability import applications
+from uictest.rig.identification.record import applications
 
 STEP = 0.01
 

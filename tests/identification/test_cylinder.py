@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uictest.rig.identification import UnsuitableRecordError, fitted_freely, identify_cylinder
-from uictest.rig.identification.transfer_function import assembled
+from uictest.rig.identification.cylinder import assembled
 
 STEP = 0.0005
 FREQUENCIES = np.geomspace(0.05, 20.0, 60)

@@ -12,7 +12,7 @@ from uictest.cli.entry import execute
 from uictest.plans.scenario.parts.compensation import Compensation
 from uictest.rig.bench.recipe import recipe_path
 from uictest.rig.identification.compensation_file import load_compensation
-from uictest.rig.identification.transfer_function import TransferFunction
+from uictest.rig.identification.cylinder import TransferFunction
 
 PHASES = ("bc_squeezing", "bc_releasing", "wsp_squeezing", "wsp_releasing")
 FREQUENCIES = np.geomspace(0.01, 20.0, 30)

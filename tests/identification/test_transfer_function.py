@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.signal import cont2discrete
 
-from uictest.rig.identification.transfer_function import assembled, basis, sections
+from uictest.rig.identification.cylinder import assembled
+from uictest.rig.identification.output_error import basis, sections
 
 constants = st.floats(0.002, 5.0)
 

@@ -6,32 +6,32 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import yaml
 
 from uictest.core.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, in_unit
 from uictest.plans.scenario import RIG_SOURCE, Compensation, Files, Parts, Roots
 from uictest.plans.scenario.yaml import Document, Quantity, Scalar, display_name, parse, whole_file
-from uictest.rig.identification.cylinder import CylinderResult
+from uictest.rig.identification.cylinder import AirResult, CylinderResult
 from uictest.rig.identification.hysteresis import HysteresisResult, all_four
 from uictest.rig.identification.lines import FittedLine
-from uictest.rig.identification.result_text import (
-    RIG_DESCRIBED,
-    TOLERANCES_OF,
-    AirResult,
-    Numbers,
-    is_of_one_rig,
-    listed_rig,
-    with_source,
-    with_sources,
-)
 
-_FACTS = (
-    *("record", "record sha256", "samples sha256", "record origin", "rig sha256"),
-    *("command", "version", "fit", "date"),
-)
-"""Facts of one identification, in the order of `_provenance`."""
+
+class _Number(NamedTuple):
+    """A value as written, and the key of its source."""
+
+    text: str
+    source: str
+
+
+Numbers = dict[str, Any]
+"""Nested mapping like the file, of numbers."""
+
+_TOLERANCES_OF = "six-inch"
+"""The compensation of the library whose tolerances others take."""
+_RIG_DESCRIBED = {"mark": "identified", "text": "The rig of the records, as built"}
+_SUBJECTS = ("hysteresis", "cylinder", "air")
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,8 +101,8 @@ def with_hysteresis(
     numbers["linear"] = _line(result.linear, source)
     numbers["hysteresis"] = {
         **{phase: _line(line, source) for phase, line in all_four(result.level_lines).items()},
-        "transition_time": (f"{transition * 1e3:.6g} ms", option),
-        "wsp_acting_time": (f"{acting_time:.6g} s", option),
+        "transition_time": _Number(f"{transition * 1e3:.6g} ms", option),
+        "wsp_acting_time": _Number(f"{acting_time:.6g} s", option),
     }
     fit = (
         f"force error on held-out parts: largest {100.0 * result.largest_error:.2f} %,"
@@ -127,10 +127,10 @@ def with_cylinder(base: Compensation, name: str, result: CylinderResult, provena
     model = result.transfer_function
     numbers = _numbers(base)
     if abs(base.sampling_time - model.sampling_time) > 1e-12:
-        numbers["sampling_time"] = (f"{model.sampling_time * 1e3:.9g} ms", source)
+        numbers["sampling_time"] = _Number(f"{model.sampling_time * 1e3:.9g} ms", source)
     numbers["cylinder"] = {
-        "numerator": [(repr(b), source) for b in model.numerator],
-        "denominator": [(repr(a), source) for a in model.denominator],
+        "numerator": [_Number(repr(b), source) for b in model.numerator],
+        "denominator": [_Number(repr(a), source) for a in model.denominator],
     }
     fit = (
         f"pressure error on held-out parts: largest {100.0 * result.largest_after:.2f} %"
@@ -146,11 +146,11 @@ def with_air(base: Compensation, name: str, result: AirResult, provenance: Prove
     source = "identified-air"
     numbers = _numbers(base)
     numbers["air"] = {
-        "tank_heat_conductance": (f"{result.tank_heat_conductance:.6g} W/K", source),
-        "caliper_heat_conductance": (f"{result.caliper_heat_conductance:.6g} W/K", source),
-        "swept_volume": (f"{in_unit(result.swept_volume, 'L'):.6g} L", source),
-        "closing_pressure": (f"{result.closing_pressure / BAR:.6g} bar", source),
-        "opening_pressure": (f"{result.opening_pressure / BAR:.6g} bar", source),
+        "tank_heat_conductance": _Number(f"{result.tank_heat_conductance:.6g} W/K", source),
+        "caliper_heat_conductance": _Number(f"{result.caliper_heat_conductance:.6g} W/K", source),
+        "swept_volume": _Number(f"{in_unit(result.swept_volume, 'L'):.6g} L", source),
+        "closing_pressure": _Number(f"{result.closing_pressure / BAR:.6g} bar", source),
+        "opening_pressure": _Number(f"{result.opening_pressure / BAR:.6g} bar", source),
     }
     fit = (
         f"pressure error on held-out parts: largest {100.0 * result.largest_after:.2f} %"
@@ -163,22 +163,50 @@ def with_air(base: Compensation, name: str, result: AirResult, provenance: Prove
 
 def _line(line: FittedLine, source: str) -> Numbers:
     return {
-        "slope": (f"{line.slope / KILONEWTON_PER_BAR:.6g} kN/bar", source),
-        "intercept": (f"{line.intercept:.6g} N", source),
+        "slope": _Number(f"{line.slope / KILONEWTON_PER_BAR:.6g} kN/bar", source),
+        "intercept": _Number(f"{line.intercept:.6g} N", source),
     }
 
 
 def _numbers(base: Compensation) -> Numbers:
     return {
-        "sampling_time": with_source(base.sampling_time),
-        "linear": with_sources(base.linear),
-        "hysteresis": {
-            name: with_source(value) if isinstance(value, Quantity) else with_sources(value)
-            for name, value in base.hysteresis
-        },
-        "cylinder": {name: [with_source(value) for value in values] for name, values in base.cylinder},
-        "air": with_sources(base.air),
+        "sampling_time": _with_source(base.sampling_time),
+        "linear": _with_sources(base.linear),
+        "hysteresis": _with_sources(base.hysteresis),
+        "cylinder": {name: [_with_source(value) for value in values] for name, values in base.cylinder},
+        "air": _with_sources(base.air),
     }
+
+
+def is_of_one_rig(facts: Mapping[str, str]) -> bool:
+    """Return whether all numbers of a compensation with this provenance were identified on one known rig."""
+    digests = {facts.get(f"{subject} rig sha256", "") for subject in _SUBJECTS}
+    return len(digests) == 1 and "" not in digests
+
+
+def _listed_rig(rig: Mapping[str, str], tolerances_of: Compensation) -> Numbers:
+    """Return the section that lists a rig, given by the keys of a scenario; the last two elements tell."""
+    assert tolerances_of.identified_for is not None
+    numbers: Numbers = {"caliper": {}, "wsp_valve": {}}
+    for key, text in rig.items():
+        section, name = key.split(".")[-2:]
+        if section == "tank":
+            numbers["tank_volume"] = _Number(text, RIG_SOURCE)
+        else:
+            numbers[section][name] = _Number(text, RIG_SOURCE)
+    return {**numbers, "tolerances": _with_sources(tolerances_of.identified_for.tolerances)}
+
+
+def _with_sources(section: Any) -> Numbers:
+    """Return the quantities of a section and of those in it, each with its source."""
+    return {
+        name: _with_source(value) if isinstance(value, Quantity) else _with_sources(value)
+        for name, value in section
+    }
+
+
+def _with_source(quantity: Quantity) -> _Number:
+    return _Number(quantity.text, quantity.source)
 
 
 def _identified(subject: str, provenance: Provenance, fit: str) -> dict[str, str]:
@@ -192,20 +220,19 @@ def _identified(subject: str, provenance: Provenance, fit: str) -> dict[str, str
 
 def _provenance(subject: str, base: Compensation, provenance: Provenance, fit: str) -> dict[str, str]:
     """Return the provenance of ``base`` with the facts of the identification of one subject replaced."""
-    keys = [f"{subject} {fact}" for fact in _FACTS]
-    facts = (
-        provenance.record,
-        provenance.digest,
-        provenance.samples_digest,
-        provenance.origin,
-        provenance.rig_digest,
-        provenance.command,
-        provenance.version,
-        fit,
-        provenance.date,
-    )
-    unchanged = {key: fact for key, fact in base.provenance.items() if key not in keys}
-    return unchanged | {key: fact for key, fact in zip(keys, facts, strict=True) if fact}
+    facts = {
+        f"{subject} record": provenance.record,
+        f"{subject} record sha256": provenance.digest,
+        f"{subject} samples sha256": provenance.samples_digest,
+        f"{subject} record origin": provenance.origin,
+        f"{subject} rig sha256": provenance.rig_digest,
+        f"{subject} command": provenance.command,
+        f"{subject} version": provenance.version,
+        f"{subject} fit": fit,
+        f"{subject} date": provenance.date,
+    }
+    unchanged = {key: fact for key, fact in base.provenance.items() if key not in facts}
+    return unchanged | {key: fact for key, fact in facts.items() if fact}
 
 
 def _text(
@@ -219,17 +246,17 @@ def _text(
     """The file as YAML."""
     described = {**{key: source.model_dump() for key, source in base.sources.items()}, **sources}
     if is_of_one_rig(facts) and provenance.rig:
-        tolerances = load_compensation(TOLERANCES_OF)
+        tolerances = load_compensation(_TOLERANCES_OF)
         others = {key: source.model_dump() for key, source in tolerances.sources.items()}
-        described = {**others, **described, RIG_SOURCE: RIG_DESCRIBED}
-        numbers["identified_for"] = listed_rig(provenance.rig, tolerances)
+        described = {**others, **described, RIG_SOURCE: _RIG_DESCRIBED}
+        numbers["identified_for"] = _listed_rig(provenance.rig, tolerances)
     used = set(_sources_of(numbers))
     document = {
         "schema": "uictest/compensation/1",
         "name": name,
         "title": base.title if name == base.name else f"Compensation {name}",
         "sources": {key: source for key, source in described.items() if key in used},
-        **_marked(numbers),
+        **numbers,
         "provenance": dict(facts),
     }
     heading = (
@@ -240,34 +267,22 @@ def _text(
     )
 
 
-def _marked(numbers: Any) -> Any:
-    if isinstance(numbers, tuple):
-        return _Number(value=numbers[0], source=numbers[1])
-    if isinstance(numbers, list):
-        return [_marked(inner) for inner in numbers]
-    return {key: _marked(inner) for key, inner in numbers.items()}
-
-
 def _sources_of(numbers: Any) -> Iterator[str]:
-    if isinstance(numbers, tuple):
-        yield numbers[1]
+    if isinstance(numbers, _Number):
+        yield numbers.source
         return
     for inner in numbers if isinstance(numbers, list) else numbers.values():
         yield from _sources_of(inner)
-
-
-class _Number(dict[str, str]):
-    """A value with its source, written on one line."""
 
 
 class _Dumper(yaml.SafeDumper):
     """Writes numbers with their source on one line and values of numbers without quotes."""
 
 
-def _represent_number(dumper: Any, number: Mapping[str, str]) -> Any:
+def _represent_number(dumper: Any, number: _Number) -> Any:
     nodes = [
-        (dumper.represent_str("value"), _represent_value(dumper, number["value"])),
-        (dumper.represent_str("source"), dumper.represent_str(number["source"])),
+        (dumper.represent_str("value"), _represent_value(dumper, number.text)),
+        (dumper.represent_str("source"), dumper.represent_str(number.source)),
     ]
     return yaml.MappingNode("tag:yaml.org,2002:map", nodes, flow_style=True)
 

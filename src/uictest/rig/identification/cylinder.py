@@ -1,20 +1,22 @@
-"""Cylinder dynamics from a record: Lee and Kang (2015), equation (8)."""
+"""Cylinder dynamics from a record: Lee and Kang (2015), equation (8). What is identified of the air."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
+from uictest.core.units import BAR, PERCENT, in_unit
 from uictest.rig.identification.lines import Mask, Samples
-from uictest.rig.identification.output_error import FitSegment, free_weights, refined
-from uictest.rig.identification.suitability import (
+from uictest.rig.identification.output_error import FitSegment, Poles, free_weights, refined, sections
+from uictest.rig.identification.record import (
     UnsuitableRecordError,
     applications,
     held_out,
     required_sampling_time,
 )
-from uictest.rig.identification.transfer_function import TransferFunction, assembled
 
 _SHORTEST = 5.0
 """s: shortest record; chosen."""
@@ -22,6 +24,51 @@ _LONGEST_STEP = 0.01
 """s: longest sampling time; chosen."""
 _POOREST_FIT = 50.0
 """%: below it the fit is closer to a constant than to the pressure; chosen."""
+_GRID = 2.0**-50
+"""Coefficients are multiples of this."""
+
+
+@dataclass(frozen=True)
+class TransferFunction:
+    """(b0 + b1/z + b2/z2 + b3/z3) / (1 + a1/z + a2/z2 + a3/z3) at a sampling time in s."""
+
+    numerator: tuple[float, float, float, float]
+    denominator: tuple[float, float, float]
+    sampling_time: float
+
+    def output(self, samples: Samples) -> Samples:
+        """The response to ``samples``, at rest at the first of them."""
+        from scipy.signal import lfilter
+
+        filtered = lfilter(self.numerator, [1.0, *self.denominator], samples - samples[0])
+        return np.asarray(filtered + samples[0])
+
+    @cached_property
+    def system(self) -> object:
+        """The same as a system of python-control."""
+        import control
+
+        return control.TransferFunction(list(self.numerator), [1.0, *self.denominator], self.sampling_time)
+
+    @property
+    def poles(self) -> NDArray[np.complex128]:
+        """Poles in the z plane, by python-control."""
+        import control
+
+        return np.asarray(control.poles(self.system))
+
+    def response(self, frequencies: Samples) -> NDArray[np.complex128]:
+        """Complex gain at frequencies in Hz, by python-control."""
+        import control
+
+        return np.asarray(control.frequency_response(self.system, 2.0 * np.pi * frequencies).complex)
+
+    @property
+    def band(self) -> float:
+        """Frequency in Hz up to which the gain stays within 3 dB of one; at most half the sampling rate."""
+        frequencies = np.geomspace(1e-3, 0.499 / self.sampling_time, 400)
+        outside = np.abs(20.0 * np.log10(np.abs(self.response(frequencies)))) > 3.0
+        return float(frequencies[np.argmax(outside)]) if np.any(outside) else 0.5 / self.sampling_time
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +88,48 @@ class CylinderResult:
     largest_before: float
     largest_after: float
     largest_pressure: float
+
+
+@dataclass(frozen=True, slots=True)
+class AirResult:
+    """Numbers of :mod:`uictest.core.physics.module_air` and their errors where the record was held out.
+
+    Attributes:
+        tank_heat_conductance: from the wall of a tank to its air, W/K.
+        caliper_heat_conductance: from wall and balls of the caliper's module to its air, W/K.
+        swept_volume: that the piston sweeps until the pads touch the disc, m3.
+        closing_pressure: at which the piston moves to the disc, gauge, Pa.
+        opening_pressure: at which it moves back, gauge, Pa.
+        largest_before: largest difference of the two pressures as they are, share of the largest.
+        largest_after: largest error of the computed pressure, as ``largest_before``.
+        rms_after: its root mean square, as ``largest_before``.
+        largest_pressure: largest cylinder pressure of the record, Pa.
+    """
+
+    tank_heat_conductance: float
+    caliper_heat_conductance: float
+    swept_volume: float
+    closing_pressure: float
+    opening_pressure: float
+    largest_before: float
+    largest_after: float
+    rms_after: float
+    largest_pressure: float
+
+
+def assembled(poles: Poles, weights: Samples, step: float) -> TransferFunction:
+    """The transfer function of these poles and weights, its gain at rest one to the last digit."""
+    (b_lag, a_lag), (b_low, a_low), (b_band, _) = sections(poles, step)
+    denominator = np.convolve(a_lag, a_low)
+    c1, c2, c3 = weights
+    numerator = (1.0 - c1 - c2) * denominator
+    numerator = numerator + c1 * np.convolve(b_lag, a_low) + np.convolve(a_lag, c2 * b_low + c3 * b_band)
+    # The gain at rest is the ratio of two small differences of numbers near three. On this grid their sums
+    # are exact, in whatever order they are taken; it moves a pole of 20 s by millionths.
+    b0, b1, b2 = (round(float(b) / _GRID) * _GRID for b in numerator[:3])
+    a1, a2, a3 = (round(float(a) / _GRID) * _GRID for a in denominator[1:])
+    b3 = (1.0 + a1 + a2 + a3) - (b0 + b1 + b2)
+    return TransferFunction((b0, b1, b2, b3), (a1, a2, a3), step)
 
 
 def identify_cylinder(
@@ -106,6 +195,42 @@ def require_fit(result: CylinderResult) -> None:
             f"the cylinder pressure does not follow from the tank pressure: the fit of the held-out part is"
             f" {result.fit:.3g} %, at least {_POOREST_FIT:g} % are needed"
         )
+
+
+def cylinder_text(result: CylinderResult) -> str:
+    """Return the transfer function, its band and the errors on held-out samples."""
+    model = result.transfer_function
+    before, after = result.largest_before / PERCENT, result.largest_after / PERCENT
+    pressure = result.largest_pressure / BAR
+    poles = ", ".join(f"{pole.real:.6f}{pole.imag:+.6f}j" for pole in model.poles)
+    return "\n".join(
+        [
+            f"sampling time {in_unit(model.sampling_time, 'ms'):g} ms",
+            f"numerator {', '.join(map(repr, model.numerator))}",
+            f"denominator 1.0, {', '.join(map(repr, model.denominator))}",
+            f"poles {poles}",
+            f"gain within 3 dB up to {model.band:.4g} Hz",
+            f"fit, held out: {result.fit:.2f} %",
+            f"largest error, held out: {before:.2f} % -> {after:.2f} % of {pressure:.3f} bar",
+        ]
+    )
+
+
+def air_text(result: AirResult) -> str:
+    """Return the numbers of the modelled air and the errors on held-out samples."""
+    before, after = result.largest_before / PERCENT, result.largest_after / PERCENT
+    rms, pressure = result.rms_after / PERCENT, result.largest_pressure / BAR
+    return "\n".join(
+        [
+            f"heat conductance of a tank {result.tank_heat_conductance:.4g} W/K",
+            f"heat conductance of the caliper's module {result.caliper_heat_conductance:.4g} W/K",
+            f"swept volume {in_unit(result.swept_volume, 'L'):.4g} L",
+            f"piston moves out at {result.closing_pressure / BAR:.4f} bar",
+            f"piston moves back at {result.opening_pressure / BAR:.4f} bar",
+            f"largest error, held out: {before:.2f} % -> {after:.2f} % of {pressure:.3f} bar",
+            f"rms error, held out: {rms:.2f} %",
+        ]
+    )
 
 
 def _segment(tank: Samples, cylinder: Samples, fitted: Mask) -> FitSegment:

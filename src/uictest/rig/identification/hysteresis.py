@@ -11,8 +11,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.core.units import BAR, KILONEWTON, KILONEWTON_PER_BAR, PERCENT
 from uictest.rig.identification.lines import FittedLine, Mask, Samples, computed_force, on_lines, robust_line
-from uictest.rig.identification.suitability import (
+from uictest.rig.identification.record import (
     UnsuitableRecordError,
     held_out,
     require_duration,
@@ -108,10 +109,13 @@ def identify_hysteresis(
     level_lines = _level(lines, points, computed_by(lines) - force)
     computed = computed_by(level_lines)
     error = ((computed - force) / largest)[is_held_out]
+    squeezing, releasing = lines["bc_squeezing"], lines["bc_releasing"]
     return HysteresisResult(
         lines,
         level_lines,
-        _midway(lines["bc_squeezing"], lines["bc_releasing"]),
+        FittedLine(
+            0.5 * (squeezing.slope + releasing.slope), 0.5 * (squeezing.intercept + releasing.intercept)
+        ),
         _widths(lines, HIGH_FORCE * largest),
         HIGH_FORCE * largest,
         float(np.abs(error).max()),
@@ -128,6 +132,25 @@ def require_force_fit(result: HysteresisResult) -> None:
             f" {100.0 * result.rms_error:.3g} % of the largest force, at most {100.0 * _POOREST_ERROR:g} %"
             " are accepted"
         )
+
+
+def hysteresis_text(result: HysteresisResult) -> str:
+    """Return the lines of the four phases, the widths of the loops and the errors on held-out samples."""
+    lines = [
+        f"{phase:<16}{line.slope / KILONEWTON_PER_BAR:9.4f} kN/bar"
+        f" +-{line.slope_confidence / KILONEWTON_PER_BAR:8.4f}"
+        f"{line.intercept:10.1f} N +-{line.intercept_confidence:7.1f}  {line.points} points"
+        f", shifted by {result.level_lines[phase].intercept - line.intercept:+.1f} N"
+        for phase, line in result.lines.items()
+    ]
+    lines += [
+        f"{kind} loop width {width / BAR:.4f} bar at {result.high_force / KILONEWTON:.2f} kN"
+        for kind, width in result.loop_widths.items()
+    ]
+    largest, rms = result.largest_error / PERCENT, result.rms_error / PERCENT
+    force = result.largest_force / KILONEWTON
+    lines.append(f"force error, held out: largest {largest:.2f} %, rms {rms:.2f} % of {force:.2f} kN")
+    return "\n".join(lines)
 
 
 def _require_force(force: Samples) -> None:
@@ -192,12 +215,6 @@ def all_four(lines: Mapping[str, FittedLine]) -> dict[str, FittedLine]:
         "wsp_squeezing": lines.get("wsp_squeezing", squeezing),
         "wsp_releasing": lines.get("wsp_releasing", releasing),
     }
-
-
-def _midway(squeezing: FittedLine, releasing: FittedLine) -> FittedLine:
-    return FittedLine(
-        0.5 * (squeezing.slope + releasing.slope), 0.5 * (squeezing.intercept + releasing.intercept)
-    )
 
 
 def _widths(lines: dict[str, FittedLine], force: float) -> dict[str, float]:

@@ -1,4 +1,12 @@
-"""Poles and weights that fit a record: a linear start, then refinement of the output error."""
+"""Poles and weights that fit a record: a linear start, then refinement of the output error.
+
+They are those of a third-order transfer function, stable and of unity gain at rest by its parametrisation,
+
+    H(s) = 1 + c1 (1/(1 + T s) - 1) + (c2 + c3 alpha s)/(1 + alpha s + beta s^2) - c2,   T, alpha, beta > 0
+
+held at the sampling time (zero-order hold). The section of second order has real or complex poles. For
+given poles the output is linear in c1, c2 and c3.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.rig.identification.lines import Mask, Samples
-from uictest.rig.identification.transfer_function import Poles, basis
 
+Poles = NDArray[np.float64]
+"""Logarithms of T in s, alpha in s and beta in s^2."""
 Weigh = Callable[[Samples, Samples, Callable[[], Samples]], tuple[float, Samples]]
 ErrorFunction = Callable[[Poles], tuple[float, Samples]]
 _SLOWEST, _FASTEST = 20.0, 2.0
@@ -39,6 +48,47 @@ _COARSE_STEP = 0.005
 """Sampling time in s of the first search; the dynamics of tanks take tenths of seconds; chosen."""
 _LINEAR_STEP = 0.02
 """Sampling time in s of the linear start; chosen."""
+
+
+def sections(poles: Poles, step: float) -> list[tuple[Samples, Samples]]:
+    """Numerator and denominator of the three held sections: lag, low pass and band pass."""
+    time_constant, alpha, beta = np.exp(poles)
+    decay = np.exp(-step / time_constant)
+    scale = np.sqrt(beta)
+    # State: the low pass and scale x its rate; the input, held, is the third.
+    rates = np.array(
+        [[0.0, 1.0 / scale, 0.0], [-1.0 / scale, -alpha / beta, 1.0 / scale], [0.0, 0.0, 0.0]], dtype=float
+    )
+    held = _exponential(rates * step)
+    transition, driven = held[:2, :2], held[:2, 2]
+    trace = transition[0, 0] + transition[1, 1]
+    denominator = np.array([1.0, -trace, np.exp(-step * alpha / beta)])
+    later = transition @ driven - trace * driven
+    low = np.array([0.0, driven[0], later[0]])
+    band = np.array([0.0, driven[1], later[1]]) * (alpha / scale)
+    lag = np.array([0.0, 1.0 - decay]), np.array([1.0, -decay])
+    return [lag, (low, denominator), (band, denominator)]
+
+
+def _exponential(matrix: Samples) -> Samples:
+    """Matrix exponential of a small matrix: Taylor's series, scaled and squared; scipy's costs far more."""
+    squarings = max(int(np.ceil(np.log2(max(np.abs(matrix).sum(axis=1).max(), 1e-300)))) + 2, 0)
+    scaled = matrix / 2.0**squarings
+    term = total = np.eye(len(matrix))
+    for n in range(1, 14):
+        term = term @ scaled / n
+        total = total + term
+    for _ in range(squarings):
+        total = total @ total
+    return np.asarray(total)
+
+
+def basis(samples: Samples, poles: Poles, step: float, at: NDArray[np.intp]) -> Samples:
+    """Three columns at some of the samples; the output is the input plus their sum weighted by c1, c2, c3."""
+    from scipy.signal import lfilter
+
+    lag, low, band = (lfilter(b, a, samples)[at] for b, a in sections(poles, step))
+    return np.stack([lag - samples[at], low - samples[at], band], axis=1)
 
 
 def free_weights(columns: Samples, target: Samples, response: Callable[[], Samples]) -> tuple[float, Samples]:
