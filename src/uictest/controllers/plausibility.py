@@ -105,7 +105,8 @@ def watch(
             changing += 1
     for i in range(4):
         stuck = changing >= _FEWEST_CHANGING and _stands_still(wheelsets[i], parameters)
-        if stuck or _is_lost(wheelsets[i], parameters):
+        doubtful_time = wheelsets[i].doubtful_cycles * parameters.cycle_time
+        if stuck or wheelsets[i].speed_valid == 0 or doubtful_time > parameters.distrust_time:
             wheelsets[i].distrusted = 1
             wheelsets[i].sound_cycles = 0
             wheelsets[i].doubtful_cycles = 0
@@ -115,11 +116,6 @@ def watch(
 
 def _stands_still(wheelset: WatchedWheelset, parameters: PlausibilityParameters) -> bool:
     return bool(wheelset.unchanged_cycles * parameters.cycle_time > parameters.stuck_time)
-
-
-def _is_lost(wheelset: WatchedWheelset, parameters: PlausibilityParameters) -> bool:
-    doubtful_time = wheelset.doubtful_cycles * parameters.cycle_time
-    return bool(wheelset.speed_valid == 0 or doubtful_time > parameters.distrust_time)
 
 
 def shows_speed_of_train(wheelset: WatchedWheelset) -> bool:

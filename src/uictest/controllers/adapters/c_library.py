@@ -39,45 +39,36 @@ _LOADED: Final[dict[str, str]] = {}
 """Libraries that this process has loaded: path -> SHA-256."""
 
 
-class LibraryInstance:
+class LibraryInstance(ControllerInstance):
     """A controller that a library has created."""
 
     runs_beside_others = True
-    response_times = None
 
     def __init__(self, library: Any, config: Config, parameters: str) -> None:
         self._library = library
         self.version = _stated_text(library, "version") or ""
         speeds = config.cycle_time, config.initial_speed, _Radii(*config.wheel_radius)
         given = _Config(config.wheelsets, 0, *speeds, parameters.encode())
-        self._handle = library.uictest_create(ctypes.byref(given))
-        if not self._handle:
+        handle = library.uictest_create(ctypes.byref(given))
+        if not handle:
             raise ControllerError(f"uictest_create failed: {_last_error(library, None) or 'no reason given'}")
-
-    @property
-    def step_address(self) -> int:
-        """Address of `uictest_step`."""
-        return ctypes.cast(self._library.uictest_step, ctypes.c_void_p).value or 0
-
-    @property
-    def handle(self) -> int:
-        """What `uictest_create` has returned."""
-        return int(self._handle)
+        self.handle = int(handle)
+        self.step_address = ctypes.cast(library.uictest_step, ctypes.c_void_p).value or 0
 
     def reset(self) -> None:
         """Call `uictest_reset`."""
-        status = self._library.uictest_reset(self._handle)
+        status = self._library.uictest_reset(self.handle)
         if status != 0:
             reason = self.last_error() or "no reason given"
             raise ControllerError(f"uictest_reset returned {status}: {reason}")
 
     def last_error(self) -> str:
         """Call `uictest_last_error`."""
-        return _last_error(self._library, self._handle)
+        return _last_error(self._library, self.handle)
 
     def close(self) -> None:
         """Call `uictest_destroy`."""
-        self._library.uictest_destroy(self._handle)
+        self._library.uictest_destroy(self.handle)
 
 
 def open_controller(program: ControllerProgram, config: Config) -> ControllerInstance:

@@ -8,7 +8,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, NamedTuple, Protocol
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -56,77 +56,53 @@ class ResponseTimes:
     start_jitter_s: float
 
 
-class ControllerInstance(Protocol):
-    """A controller for one stop, created and not yet reset."""
+class ControllerInstance(ABC):
+    """A controller for one stop, created and not yet reset.
 
-    version: str
-    """What it says of itself, empty if nothing."""
+    Attributes:
+        version: what it says of itself, empty if nothing.
+        runs_beside_others: whether its step is machine code, and others of its kind may be open meanwhile.
+        step_address: address of a function like `uictest_step`.
+        handle: first argument of that function.
+    """
 
-    @property
-    def runs_beside_others(self) -> bool:
-        """Whether its step is machine code, and others of its kind may be open at the same time."""
-
-    @property
-    def step_address(self) -> int:
-        """Address of a function like `uictest_step`."""
-
-    @property
-    def handle(self) -> int:
-        """First argument of that function."""
-
-    def reset(self) -> None:
-        """Return to the state after creation. Raises ControllerError."""
+    version: str = ""
+    runs_beside_others: bool = False
+    step_address: int
+    handle: int = 0
 
     @property
     def response_times(self) -> ResponseTimes | None:
         """How it answered in a stop that was paced by the clock, else None."""
+        return None
+
+    @abstractmethod
+    def reset(self) -> None:
+        """Return to the state after creation. Raises ControllerError."""
 
     def last_error(self) -> str:
         """Return why the last step failed, empty if the controller did not say."""
+        return ""
 
-    def close(self) -> None:
+    def close(self) -> None:  # noqa: B027 - most have nothing to release
         """Release the controller; it is not called afterwards."""
 
 
-class CallbackInstance(ABC):
+class CallbackInstance(ControllerInstance):
     """A controller that compiled code calls through a callback; any exception in it ends the stop."""
-
-    version = ""
-    runs_beside_others = False
 
     def __init__(self) -> None:
         self._callback = STEP(self._step)
+        self.step_address = ctypes.cast(self._callback, ctypes.c_void_p).value or 0
         self._error = ""
-
-    @property
-    def step_address(self) -> int:
-        """Address of the callback."""
-        return ctypes.cast(self._callback, ctypes.c_void_p).value or 0
-
-    @property
-    def handle(self) -> int:
-        """The callback knows its object."""
-        return 0
-
-    @property
-    def response_times(self) -> ResponseTimes | None:
-        """Most kinds are not paced by the clock."""
-        return None
 
     def last_error(self) -> str:
         """Return what the last step raised."""
         return self._error
 
     @abstractmethod
-    def reset(self) -> None:
-        """Return to the state after creation. Raises ControllerError."""
-
-    @abstractmethod
     def answer(self, inputs: int, outputs: int) -> None:
         """Decide on the coming cycle: read the inputs at one address, write the outputs to the other."""
-
-    def close(self) -> None:  # noqa: B027 - most have nothing to release
-        """Release what the controller holds."""
 
     def _step(self, handle: int | None, inputs: int, outputs: int) -> int:
         # An exception must not leave a callback: ctypes would print it and answer 0.
@@ -196,7 +172,9 @@ def write_outputs(record: Any, outputs: Outputs) -> None:
         raise ControllerError(f"step returned {type(outputs).__name__}, expected Outputs") from None
     record["hold"], record["vent"] = _magnets("hold", hold), _magnets("vent", vent)
     record["reference_speed"] = _number("reference_speed", math.nan if reference is None else reference)
-    record["diagnosis"] = _bits(diagnosis)
+    if isinstance(diagnosis, float) or not 0 <= int(diagnosis) <= _LARGEST_DIAGNOSIS:
+        raise ControllerError(f"diagnosis is {diagnosis!r}, expected a whole number of 32 bits")
+    record["diagnosis"] = int(diagnosis)
 
 
 def _magnets(name: str, values: Any) -> list[int]:
@@ -217,12 +195,6 @@ def _number(name: str, value: Any) -> float:
         return float(value)
     except (TypeError, ValueError):
         raise ControllerError(f"{name} is {value!r}, expected a number") from None
-
-
-def _bits(value: Any) -> int:
-    if isinstance(value, float) or not 0 <= int(value) <= _LARGEST_DIAGNOSIS:
-        raise ControllerError(f"diagnosis is {value!r}, expected a whole number of 32 bits")
-    return int(value)
 
 
 class StatedDeclaration(NamedTuple):

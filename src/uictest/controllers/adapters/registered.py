@@ -119,11 +119,10 @@ _OPTIONS: Final[dict[str, Any]] = {"error_model": "numpy", "nogil": True}
 _compile_inner: Final[Any] = partial(lanes.compile_inner, **_OPTIONS)
 
 
-class CompiledInstance:
+class CompiledInstance(ControllerInstance):
     """The memory of a controller, and the compiled functions that work on it."""
 
     runs_beside_others = True
-    response_times = None
 
     def __init__(
         self, controller: Controller, parameters: Mapping[str, Any], config: Config, version: str
@@ -138,29 +137,14 @@ class CompiledInstance:
             self._functions = _compiled(controller)
         except Exception as error:
             raise ControllerError(f"{controller.name} cannot be compiled: {reason_of(error)}") from error
-
-    @property
-    def step_address(self) -> int:
-        """Address of the compiled step."""
-        return int(self._functions.step.address)
-
-    @property
-    def handle(self) -> int:
-        """Address of the memory."""
-        return int(self._memory.__array_interface__["data"][0])
+        self.step_address = int(self._functions.step.address)
+        self.handle = int(self._memory.__array_interface__["data"][0])
 
     def reset(self) -> None:
         """Begin a stop."""
         for name in ("train", "wheelsets"):
             self._memory[name] = np.zeros(1, self._memory.dtype)[name]
         self._functions.begin.ctypes(self.handle)
-
-    def last_error(self) -> str:
-        """Return nothing: compiled code raises nothing."""
-        return ""
-
-    def close(self) -> None:
-        """Release nothing: the functions stay for the next stop."""
 
 
 class _Functions(NamedTuple):

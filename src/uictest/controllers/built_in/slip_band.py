@@ -44,14 +44,10 @@ def decide(train: TrainMemory, wheelsets: Sequence[ControlledWheelset], paramete
     train.reference_speed = reference
     for i in range(4):
         slide = (reference - wheelsets[i].measured_speed) / maximum(reference, parameters.minimum_speed)
-        wheelsets[i].valve_command = _command(slide, reference, parameters)
-
-
-def _command(slide: float, reference: float, parameters: Parameters) -> int:
-    """Return the valve command for a relative slide; there is no protection below the lowest speed."""
-    if reference < parameters.minimum_speed or slide < parameters.lower_slide:
-        return FILL
-    return VENT if slide > parameters.upper_slide else HOLD
+        if reference < parameters.minimum_speed or slide < parameters.lower_slide:
+            wheelsets[i].valve_command = FILL
+        else:
+            wheelsets[i].valve_command = VENT if slide > parameters.upper_slide else HOLD
 
 
 CONTROLLER = Controller(

@@ -124,7 +124,9 @@ def decide(train: Train, wheelsets: Sequence[Wheelset], parameters: Parameters) 
         _enter(wheelsets[i], _next_mode(wheelsets[i], train.reference_speed, parameters))
     _probe(train, wheelsets, parameters)
     for i in range(4):
-        wheelsets[i].valve_command = _command_of(wheelsets, i, parameters)
+        # A wheelset without a speed gets the command of the other one of its bogie.
+        source = i if wheelsets[i].distrusted == 0 else i + 1 - 2 * (i % 2)
+        wheelsets[i].valve_command = _command(wheelsets[source], parameters)
 
 
 def _read_speed(wheelset: Wheelset, parameters: Parameters) -> None:
@@ -268,12 +270,6 @@ def _after_holding(
     if time_in_mode > parameters.hold_limit:
         return VENTING if wheelset.measured_acceleration < parameters.reacceleration_threshold else HOLDING
     return HOLDING
-
-
-def _command_of(wheelsets: Sequence[Wheelset], number: int, parameters: Parameters) -> int:
-    """Return the valve command of a wheelset: its own, or without a speed that of the other of its bogie."""
-    other = number + 1 - 2 * (number % 2)
-    return _command(wheelsets[number if wheelsets[number].distrusted == 0 else other], parameters)
 
 
 def _command(wheelset: Wheelset, parameters: Parameters) -> int:

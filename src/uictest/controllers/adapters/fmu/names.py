@@ -115,7 +115,9 @@ def _bind(variables: Mapping[str, Any], quantity: Declared, name: str | None) ->
     if unfit is not None and name is None and not quantity.is_needed:
         return []
     if unfit is not None:
-        raise ControllerError(_unfit(quantity, unfit))
+        types = "a number or truth value" if quantity.is_whole else "Real or Float64"
+        found_type = f"has {unfit.name} as {unfit.causality} of type {unfit.type}"
+        raise ControllerError(f"{found_type}, expected {quantity.causality} of type {types}")
     return _with_slots(quantity, chosen)
 
 
@@ -157,12 +159,6 @@ def _missing(variables: Mapping[str, Any], quantity: Declared, name: str | None,
     number = "_%d" if quantity.count > 1 else ""
     hint = "" if name else f"; name it: variables: {{{quantity.name}: its_name{number}}}"
     return f"has no {quantity.causality} {absent}; its {quantity.causality}s: {shown}{more}{hint}"
-
-
-def _unfit(quantity: Declared, variable: Any) -> str:
-    types = "a number or truth value" if quantity.is_whole else "Real or Float64"
-    found = f"{variable.causality} of type {variable.type}"
-    return f"has {variable.name} as {found}, expected {quantity.causality} of type {types}"
 
 
 def bound_parameters(
