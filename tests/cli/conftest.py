@@ -4,11 +4,10 @@ import shutil
 import signal
 import subprocess
 import sysconfig
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -19,7 +18,7 @@ from uictest.cli.entry import execute
 from uictest.core.measures import STOP_COLUMNS
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, error_result
-from uictest.running.campaign import CaseRun, RecordingRequest, batch
+from uictest.running.campaign import CaseRun, batch
 
 STATED = ("--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop")
 """What `evaluate` asks of a recorded stop."""
@@ -52,10 +51,9 @@ class Answer:
 Call = Callable[..., Answer]
 Start = Callable[..., "subprocess.Popen[str]"]
 Write = Callable[..., Path]
-MadeOnce = Callable[[Callable[[], object]], None]
 
 
-def rolling_train(end: float = 10.5, **changes: Any) -> Recording:
+def rolling_train(end=10.5, **changes):
     """A train of rolling wheels that stops from 10 m/s within ten seconds."""
     time = np.arange(0.0, end, 0.01)
     speed = np.maximum(10.0 - time, 0.0)
@@ -65,7 +63,7 @@ def rolling_train(end: float = 10.5, **changes: Any) -> Recording:
 
 
 @pytest.fixture(autouse=True)
-def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def workplace(tmp_path, monkeypatch):
     """A working folder of its own, and no setting of the terminal that runs the tests."""
     monkeypatch.chdir(tmp_path)
     for variable in ("CI", "NO_COLOR", "COLUMNS", "TERM", "GITHUB_STEP_SUMMARY"):
@@ -74,16 +72,16 @@ def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture(scope="module")
-def kept_places(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def kept_places(tmp_path_factory):
     """Where working folders are kept that several tests of a file begin with."""
     return tmp_path_factory.mktemp("kept")
 
 
 @pytest.fixture
-def made_once(workplace: Path, kept_places: Path) -> MadeOnce:
+def made_once(workplace, kept_places):
     """Fill the working folder as a function does: it is called for the first test of a file alone."""
 
-    def fill(make: Callable[[], object]) -> None:
+    def fill(make):
         kept = kept_places / make.__qualname__.partition(".")[0]
         if not kept.exists():
             make()
@@ -95,10 +93,10 @@ def made_once(workplace: Path, kept_places: Path) -> MadeOnce:
 
 
 @pytest.fixture
-def scenario(workplace: Path) -> Write:
+def scenario(workplace):
     """Write a scenario below scenarios/; the text is appended to what every scenario needs."""
 
-    def write(name: str = "stop", text: str = "", file: str | None = None) -> Path:
+    def write(name="stop", text="", file=None):
         path = Path("scenarios", file or f"{name}.yaml")
         path.parent.mkdir(exist_ok=True)
         path.write_text(f"schema: uictest/scenario/1\nname: {name}\ninitial_speed: 30 km/h\n{text}", "utf-8")
@@ -108,29 +106,31 @@ def scenario(workplace: Path) -> Write:
 
 
 @pytest.fixture
-def call(capsys: pytest.CaptureFixture[str]) -> Call:
-    """Call the program in this process."""
+def call(capsys):
+    """Call the program in this process; a test may state its exit code and what stderr says."""
 
-    def run(*arguments: str | Path) -> Answer:
-        code = execute([str(argument) for argument in arguments])
+    def run(*arguments, code=None, says=""):
+        exit_code = execute([str(argument) for argument in arguments])
         captured = capsys.readouterr()
-        return Answer(int(code), captured.out, captured.err)
+        assert code is None or exit_code == code, captured.err
+        assert says in captured.err
+        return Answer(int(exit_code), captured.out, captured.err)
 
     return run
 
 
 @pytest.fixture
-def program() -> Path:
+def program():
     """The installed program."""
     return PROGRAM
 
 
 @pytest.fixture
-def start() -> Iterator[Start]:
+def start():
     """Start the installed program in a process that answers Ctrl-C; it is killed at the end of the test."""
     started: list[subprocess.Popen[str]] = []
 
-    def run(*arguments: str | Path, **options: Any) -> subprocess.Popen[str]:
+    def run(*arguments, **options):
         # A shell that starts the tests in the background lets every process below it ignore SIGINT.
         answers = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
         command = [PROGRAM, *map(str, arguments)]
@@ -144,10 +144,10 @@ def start() -> Iterator[Start]:
 
 
 @pytest.fixture
-def process() -> Call:
+def process():
     """Call the installed program in a process of its own."""
 
-    def run(*arguments: str | Path, **options: Any) -> Answer:
+    def run(*arguments, **options):
         options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "timeout": HANGING, **options}
         done = subprocess.run([PROGRAM, *map(str, arguments)], text=True, check=False, **options)
         return Answer(done.returncode, done.stdout or "", done.stderr or "")
@@ -156,23 +156,23 @@ def process() -> Call:
 
 
 @pytest.fixture
-def two_worst_cases(monkeypatch: pytest.MonkeyPatch) -> None:
+def two_worst_cases(monkeypatch):
     """Let a sweep draw two of its worst cases, not twelve: what a page draws has tests of its own."""
     monkeypatch.setattr(worst, "MOST", 2)
 
 
 @pytest.fixture
-def made_up(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def made_up(monkeypatch):
     """Let stops come out as their tags say (`fail`, `invalid`, `error`, else `pass`); the ids as examined."""
     examined: list[str] = []
 
-    def examine(case: Any, wish: RecordingRequest, run: object) -> CaseRun:
+    def examine(case, wish, run):
         examined.append(case.id)
         if "error" in case.scenario.tags:
             return CaseRun(error_result(case, "ZeroDivisionError: no wheel load"))
         outcome = next((tag for tag in ("fail", "invalid") if tag in case.scenario.tags), "pass")
         given = (case.id, case.path.as_posix(), dict(case.parameters), case.scenario.expect)
-        result = CaseResult(*given, outcome, measures=FIGURES, reason="made up")  # type: ignore[arg-type]
+        result = CaseResult(*given, outcome, measures=FIGURES, reason="made up")
         return CaseRun(result)
 
     monkeypatch.setattr(batch, "run_case", examine)

@@ -4,30 +4,27 @@ import pytest
 
 import uictest
 
-from .conftest import Call
 
-
-def test_the_version(call: Call) -> None:
+def test_the_version(call):
     assert call("--version").out == f"uictest {uictest.__version__}\n"
 
 
 @pytest.mark.parametrize("option", ["-h", "--help"])
-def test_help_names_commands_and_exit_codes(call: Call, option: str) -> None:
-    answer = call(option)
-    assert answer.code == 0
+def test_help_names_commands_and_exit_codes(call, option):
+    answer = call(option, code=0)
     for word in ("run", "check", "list", "schema", "init", "library", "5 nothing selected"):
         assert word in " ".join(answer.out.split())
 
 
 @pytest.mark.parametrize("group", [[], ["library"], ["identify"]])
-def test_without_a_command_the_help_is_shown_and_nothing_was_tested(call: Call, group: list[str]) -> None:
+def test_without_a_command_the_help_is_shown_and_nothing_was_tested(call, group):
     answer = call(*group)
     assert (answer.code, answer.err) == (4, "")
     assert answer.out == call(*group, "--help").out
 
 
 @pytest.mark.parametrize("arguments", [["fly"], ["run\x1b[2J"], ["--nonsense"], ["library", "fly"]])
-def test_a_usage_error_exits_4_and_shows_the_way_to_help(call: Call, arguments: list[str]) -> None:
+def test_a_usage_error_exits_4_and_shows_the_way_to_help(call, arguments):
     answer = call(*arguments)
     assert (answer.code, answer.out) == (4, "")
     assert "--help" in answer.err
@@ -36,9 +33,7 @@ def test_a_usage_error_exits_4_and_shows_the_way_to_help(call: Call, arguments: 
 
 @pytest.mark.parametrize("columns", ["40", "60", "80", "120"])
 @pytest.mark.parametrize("group", [[], ["identify"], ["library"]])
-def test_the_list_of_commands_holds_whole_sentences(
-    call: Call, monkeypatch: pytest.MonkeyPatch, columns: str, group: list[str]
-) -> None:
+def test_the_list_of_commands_holds_whole_sentences(call, monkeypatch, columns, group):
     monkeypatch.setenv("COLUMNS", columns)
     paragraphs = call(*group, "--help").out.split("\n\n")
     sections = [each for each in paragraphs if re.match(r"[A-Z][\w ]+:\n  [a-z]", each)]

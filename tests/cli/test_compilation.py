@@ -11,21 +11,19 @@ from uictest.rig.backends import machine_code
 
 
 @pytest.fixture
-def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+def clock(monkeypatch):
     """Seconds that the clock shows, one after the other."""
     seconds: list[float] = []
     monkeypatch.setattr(progress, "monotonic", lambda: seconds.pop(0))
     return seconds
 
 
-def compile_(*shares: float) -> None:
+def compile_(*shares):
     for done in shares:
         machine_code._watcher("the rig", done)
 
 
-def test_a_compilation_has_lines_where_there_is_no_terminal(
-    clock: list[float], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_compilation_has_lines_where_there_is_no_terminal(clock, capsys):
     clock[:] = [100.0, 101.0, 106.0, 108.0, 112.0]
     with compilation_shown():
         compile_(0.0, 0.1, 0.4, 0.5, 1.0)
@@ -38,21 +36,18 @@ def test_a_compilation_has_lines_where_there_is_no_terminal(
     ]
 
 
-def test_what_the_cache_holds_is_not_worth_a_word(capsys: pytest.CaptureFixture[str]) -> None:
+def test_quiet_is_silent_and_what_the_cache_holds_is_not_worth_a_word(capsys):
     with compilation_shown():
         pass
     assert capsys.readouterr().err == ""
-
-
-def test_quiet_is_silent(capsys: pytest.CaptureFixture[str]) -> None:
     with compilation_shown(quiet=True):
         compile_(0.0, 0.5, 1.0)
     assert capsys.readouterr().err == ""
 
 
-def test_a_terminal_has_a_bar_for_each_compilation(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_terminal_has_a_bar_for_each_compilation(monkeypatch):
     class Terminal(io.StringIO):
-        def isatty(self) -> bool:
+        def isatty(self):
             return True
 
     terminal = Terminal()
@@ -67,7 +62,7 @@ def test_a_terminal_has_a_bar_for_each_compilation(monkeypatch: pytest.MonkeyPat
     assert "100%" in shown
 
 
-def test_outside_of_commands_a_line_of_the_log_says_it(caplog: pytest.LogCaptureFixture) -> None:
+def test_outside_of_commands_a_line_of_the_log_says_it(caplog):
     compile_(0.0, 0.5, 1.0)
     assert [record.getMessage() for record in caplog.records] == [
         "uictest: compiling the rig, once per installation"

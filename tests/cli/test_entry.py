@@ -13,7 +13,7 @@ import pytest
 from uictest import rig
 from uictest.plans.scenario import load
 
-from .conftest import HANGING, Call, Write
+from .conftest import HANGING
 
 _LARGE = ("numba", "rich", "pandas", "scipy", "control", "pyarrow", "matplotlib", "plotly")
 _RUNS = (
@@ -40,7 +40,7 @@ _FORBIDDEN = {
 @pytest.mark.parametrize(
     "arguments", _FORBIDDEN, ids=lambda words: " ".join(Path(word).name for word in words)
 )
-def test_a_command_imports_only_what_it_needs(scenario: Write, arguments: tuple[str, ...]) -> None:
+def test_a_command_imports_only_what_it_needs(scenario, arguments):
     [case] = load([scenario("stop")])
     rig.simulate(case)  # only the first start of all needs the compiler
     program = """if True:
@@ -56,7 +56,7 @@ def test_a_command_imports_only_what_it_needs(scenario: Write, arguments: tuple[
     assert done.stderr.splitlines()[-1] == "[]"
 
 
-def test_the_child_of_a_controller_imports_nothing_of_scenarios() -> None:
+def test_the_child_of_a_controller_imports_nothing_of_scenarios():
     program = "import sys, uictest.rig.external.child as _; print([*filter(sys.modules.get, sys.argv[1:])])"
     forbidden = (*_LARGE, "pydantic", "yaml", "uictest.plans.scenario.model", "uictest.rig.assembly")
     command = [sys.executable, "-c", program, *forbidden]
@@ -64,7 +64,7 @@ def test_the_child_of_a_controller_imports_nothing_of_scenarios() -> None:
 
 
 @pytest.mark.parametrize(("given", "kept"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])
-def test_a_process_has_no_threads_for_matrices_unless_told_to(given: dict[str, str], kept: str) -> None:
+def test_a_process_has_no_threads_for_matrices_unless_told_to(given, kept):
     environment = {name: os.environ[name] for name in os.environ if name != "OPENBLAS_NUM_THREADS"} | given
     program = "import os; os._exit = print; from uictest.cli import main; main(); "
     program += "print(os.environ['OPENBLAS_NUM_THREADS'])"
@@ -73,16 +73,16 @@ def test_a_process_has_no_threads_for_matrices_unless_told_to(given: dict[str, s
     assert done.stdout.splitlines()[-1] == kept
 
 
-def test_the_program_can_be_run_as_a_module(process: Call) -> None:
+def test_the_program_can_be_run_as_a_module(process):
     command = [sys.executable, "-m", "uictest", "--version"]
     as_module = subprocess.run(command, capture_output=True, text=True, check=True)
     assert as_module.stdout == process("--version").out
 
 
-def test_a_full_disk_exits_3_and_leaves_nothing(process: Call, scenario: Write) -> None:
+def test_a_full_disk_exits_3_and_leaves_nothing(process, scenario):
     scenario("stop", "expect: invalid\n")
 
-    def small_files() -> None:
+    def small_files():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
 
@@ -93,7 +93,7 @@ def test_a_full_disk_exits_3_and_leaves_nothing(process: Call, scenario: Write) 
     assert not Path("reports").exists()
 
 
-def test_a_met_case_is_recorded_when_asked_and_a_missed_one_always(process: Call, scenario: Write) -> None:
+def test_a_met_case_is_recorded_when_asked_and_a_missed_one_always(process, call, scenario):
     scenario("stop", "matrix:\n  brake.command: [80 %, 90 %]\n")
     answer = process("run", "--record", "all", "--record-rate", "50", "--format", "json")
     assert answer.code == 0, answer.err
@@ -102,19 +102,15 @@ def test_a_met_case_is_recorded_when_asked_and_a_missed_one_always(process: Call
     assert "2 cases: 2 pass" in answer.err
     assert sorted(path.stem for path in Path("reports/latest/recordings").iterdir()) == ids
     scenario("stop")
-    answer = process("run")
-    assert answer.code == 0, answer.err
+    answer = call("run", code=0)
     assert answer.out.startswith("pass stop outcome=pass expect=pass braking_distance_m=")
     assert not Path("reports/latest/recordings").exists()
     scenario("stop", "expect: invalid\n")
-    answer = process("run")
-    assert answer.code == 1, answer.err
+    call("run", code=1)
     assert Path("reports/latest/recordings/stop.parquet").is_file()
 
 
-def test_results_are_the_same_bits_with_and_without_recording_and_on_any_number_of_threads(
-    call: Call, scenario: Write
-) -> None:
+def test_results_are_the_same_bits_with_and_without_recording_and_on_any_number_of_threads(call, scenario):
     scenario("stop", "matrix:\n  rail.friction: [0.05, 0.1]\n  rail.condition: [wet]\n")
     options = (["-n1"], ["-n2"], ["-n", "auto"], ["--record", "all", "--record-rate", "200"])
     results = []
@@ -124,12 +120,11 @@ def test_results_are_the_same_bits_with_and_without_recording_and_on_any_number_
     assert results == [results[0]] * len(options)
 
 
-def test_hostile_file_names_are_shown_as_text(call: Call, scenario: Write) -> None:
+def test_hostile_file_names_are_shown_as_text(call, scenario):
     scenario("stop", file="[red]\x1b[31m\n::error::=1+1.yaml")
     scenario("other", "nonsense: 1\n", file="[bold]\x1b[2J.yaml")
     for arguments in (["check"], ["check", "--format", "github"], ["run"]):
-        answer = call(*arguments)
-        assert answer.code == 4
+        answer = call(*arguments, code=4)
         assert "\x1b" not in answer.out + answer.err
         assert r"\x1b[2J" in answer.out + answer.err
     Path("scenarios", "[bold]\x1b[2J.yaml").unlink()

@@ -8,8 +8,8 @@ from uictest.report import RunContent
 from uictest.runs import Published
 
 
-def _run(*outcomes: str, interrupted: bool = False) -> Published:
-    results = [CaseResult(outcome, "a.yaml", {}, "pass", outcome) for outcome in outcomes]  # type: ignore[arg-type]
+def _run(*outcomes, interrupted=False):
+    results = [CaseResult(outcome, "a.yaml", {}, "pass", outcome) for outcome in outcomes]
     return Published(Path("run"), RunContent("run", results), "{}", interrupted)
 
 
@@ -25,11 +25,11 @@ def _run(*outcomes: str, interrupted: bool = False) -> Published:
         (_run(interrupted=True), ExitCode.INTERRUPTED),
     ],
 )
-def test_what_outweighs_what(run: Published, code: ExitCode) -> None:
+def test_what_outweighs_what(run, code):
     assert of_run(run) is code
 
 
-def test_the_codes_are_those_that_the_documentation_promises() -> None:
+def test_the_codes_are_those_that_the_documentation_promises():
     assert [(code.name, int(code)) for code in ExitCode] == [
         ("MET", 0),
         ("MISSED", 1),

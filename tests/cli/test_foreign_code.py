@@ -4,18 +4,15 @@ import os
 import shutil
 import subprocess
 import zipfile
-from pathlib import Path
 
 import pytest
-
-from .conftest import Call
 
 HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\n"
 SWEEP = "schema: uictest/sweep/1\nname: s\nscenario: stop.yaml\ngrid: {seed: [1, 2]}\n"
 DESCRIPTION = '<?xml version="1.0"?><fmiModelDescription fmiVersion="2.0" modelName="wsp" version="1"/>'
 
 
-def _library(path: Path, mark: Path) -> None:
+def _library(path, mark):
     """Compile a library that creates a file as soon as it is loaded."""
     compiler = shutil.which(os.environ.get("CC", "gcc"))
     if compiler is None:
@@ -29,7 +26,7 @@ def _library(path: Path, mark: Path) -> None:
     path.chmod(0o644)
 
 
-def _fmu(path: Path, mark: Path) -> None:
+def _fmu(path, mark):
     """Write an FMU whose binary creates a file as soon as it is loaded."""
     _library(path.parent / "inside.so", mark)
     with zipfile.ZipFile(path, "w") as archive:
@@ -49,7 +46,7 @@ READING = [
 
 
 @pytest.mark.parametrize("kind", ["python", "library", "fmu"])
-def test_what_reads_files_loads_no_controller_and_a_run_does(call: Call, workplace: Path, kind: str) -> None:
+def test_what_reads_files_loads_no_controller_and_a_run_does(call, workplace, kind):
     mark = workplace / "loaded"
     if kind == "python":
         (workplace / "wsp.py").write_text(

@@ -1,19 +1,15 @@
 import threading
 
-import pytest
-
 from uictest.cli import progress as progress_module
 from uictest.cli.progress import progress
 
 from .conftest import HANGING
 
 
-def test_where_nobody_watches_there_is_a_sign_of_life_now_and_then(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_where_nobody_watches_there_is_a_sign_of_life_now_and_then(monkeypatch):
     before, after = threading.Event(), threading.Event()
 
-    def record(text: str) -> None:
+    def record(text):
         # The thread may beat at any time before the first case is counted, so only the counts tell.
         (after if "1 of 7 cases after" in text else before).set()
 
@@ -26,7 +22,7 @@ def test_where_nobody_watches_there_is_a_sign_of_life_now_and_then(
     assert not [thread for thread in threading.enumerate() if thread.name == "heartbeat"]
 
 
-def test_quiet_is_silent(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_quiet_is_silent(monkeypatch):
     monkeypatch.setattr(progress_module, "HEARTBEAT", 0.0)
     with progress(7, quiet=True) as advance:
         advance()

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from .conftest import HANGING, Write
+from .conftest import HANGING
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals are POSIX")
 
@@ -29,13 +29,13 @@ main()
 """
 
 
-def heeding() -> None:
+def heeding():
     """Undo what the caller of the tests may ignore, such as SIGHUP under nohup."""
     for number in ASKING:
         signal.signal(number, signal.SIG_DFL)
 
 
-def ignoring() -> None:
+def ignoring():
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
 
 
@@ -47,7 +47,7 @@ def ignoring() -> None:
         *zip(["typer", "pydantic", "numpy"], ASKING, strict=True),
     ],
 )
-def test_asked_while_it_starts(scenario: Write, module: str, number: signal.Signals) -> None:
+def test_asked_while_it_starts(scenario, module, number):
     scenario("stop")
     command = [sys.executable, "-c", ASKED_WHILE_IMPORTING, module, str(int(number)), "run"]
     done = subprocess.run(
@@ -58,14 +58,12 @@ def test_asked_while_it_starts(scenario: Write, module: str, number: signal.Sign
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
-def test_ctrl_c_and_a_closed_terminal_leave_what_is_finished(
-    program: Path, scenario: Write, number: signal.Signals
-) -> None:
+def test_ctrl_c_and_a_closed_terminal_leave_what_is_finished(program, scenario, number):
     scenario("stop", "rail: {condition: wet}\n")
     # More lines than a pipe holds: the run cannot end before somebody reads on.
     command = [program, "run", "-n1", "--set", "rail.friction=range(0.1,0.3,0.0004)"]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    with subprocess.Popen(command, text=True, preexec_fn=heeding, **pipes) as running:  # type: ignore[call-overload]
+    with subprocess.Popen(command, text=True, preexec_fn=heeding, **pipes) as running:
         first = running.stdout.readline()
         running.send_signal(number)
         # communicate() would miss the lines that readline() has buffered.
@@ -82,7 +80,7 @@ def test_ctrl_c_and_a_closed_terminal_leave_what_is_finished(
     assert [path.name for path in Path("reports").iterdir() if path.name.startswith(".")] == []
 
 
-def test_what_the_caller_ignores_stays_ignored(scenario: Write) -> None:
+def test_what_the_caller_ignores_stays_ignored(scenario):
     """As nohup wants it."""
     scenario("stop")
     command = [sys.executable, "-c", ASKED_WHILE_IMPORTING, "numpy", str(int(signal.SIGHUP)), "run"]

@@ -4,14 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from .conftest import Call
-
 HEAD = "schema: uictest/scenario/1\nname: stop\n"
 SWEEP = "schema: uictest/sweep/1\nname: s\nscenario: stop.yaml\ngrid: {seed: [1, 2]}\n"
 
 
 @pytest.fixture
-def inside(workplace: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def inside(workplace, monkeypatch):
     """A working folder whose scenario extends one in a folder beside it."""
     for name in ("inside", "beside"):
         (workplace / name).mkdir()
@@ -35,12 +33,8 @@ def inside(workplace: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     ],
     ids=" ".join,
 )
-def test_a_reference_out_of_the_folders_given_needs_trust(
-    call: Call, inside: Path, command: list[str]
-) -> None:
-    refused = call(*command)
-    assert refused.code == 4
-    assert f"'../beside/base.yaml' leads out of {inside}" in refused.err
+def test_a_reference_out_of_the_folders_given_needs_trust(call, inside, command):
+    refused = call(*command, code=4, says=f"'../beside/base.yaml' leads out of {inside}")
     assert f"add --trust {inside.parent / 'beside'};" in refused.err
     assert call(*command, "--trust", "../beside").code == 0
 
@@ -61,13 +55,8 @@ def test_a_reference_out_of_the_folders_given_needs_trust(
     ],
     ids=" ".join,
 )
-def test_every_command_that_reads_scenarios_takes_folders_to_trust(
-    call: Call, inside: Path, command: list[str]
-) -> None:
-    answer = call(*command, "--trust", "missing")
-
-    assert answer.code == 4
-    assert "'--trust'" in answer.err
+def test_every_command_that_reads_scenarios_takes_folders_to_trust(call, inside, command):
+    answer = call(*command, "--trust", "missing", code=4, says="'--trust'")
     assert "missing" in answer.err
 
 
@@ -78,32 +67,23 @@ def test_every_command_that_reads_scenarios_takes_folders_to_trust(
         ("map.yaml", "schema: uictest/channel-map/1\nname: m\nchannels: {}\nextends: %s\n"),
     ],
 )
-def test_the_file_of_a_part_is_shown_with_what_lies_beside_it(
-    call: Call, inside: Path, name: str, text: str
-) -> None:
+def test_the_file_of_a_part_is_shown_with_what_lies_beside_it(call, inside, name, text):
     beside = inside.parent / "beside"
     (beside / "own.yaml").write_text(text % {"car.yaml": "crh380a", "map.yaml": "uictest"}[name])
     (beside / name).write_text(text % "own.yaml")
     (inside / name).write_text(text % "../beside/own.yaml")
-
     assert call("library", "show", beside / name).code == 0
     assert call("library", "show", name).code == 4
     assert call("library", "show", name, "--trust", beside).code == 0
 
 
-def test_a_sweep_below_a_folder_that_is_a_link_out_of_it_is_not_read(call: Call, inside: Path) -> None:
+def test_links_and_parts_that_lead_out_are_named_by_file_and_key(call, inside):
     secret = inside.parent / "beside" / "secret.txt"
     secret.write_text("top secret\n")
     Path("sub").mkdir()
     Path("sub/x.sweep.yaml").symlink_to(secret)
-
-    answer = call("check", "sub")
-
-    assert answer.code == 4
+    answer = call("check", "sub", code=4)
     assert "sub/x.sweep.yaml:1:1: a link that leads out of the folders given" in answer.err
     assert "top secret" not in answer.err
-
-
-def test_what_a_shown_part_extends_is_named_by_its_key(call: Call, inside: Path) -> None:
     (inside / "mine.yaml").write_text("schema: uictest/controller/1\nname: mine\nextends: ../beside/c.yaml\n")
     assert "mine.yaml:3:10: extends: '../beside/c.yaml' leads out" in call("library", "show", "mine.yaml").err

@@ -6,7 +6,7 @@ import pytest
 
 from uictest.core.recording import write_parquet
 
-from .conftest import Call, Write, rolling_train
+from .conftest import rolling_train
 
 LONG = "n" * 300
 COMMANDS = {
@@ -45,15 +45,15 @@ PATHS = {
 
 
 @pytest.fixture(autouse=True)
-def stop(workplace: Path) -> None:
+def stop(workplace):
     write_parquet(rolling_train(0.1), Path("stop.parquet"))
 
 
 @pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)
 @pytest.mark.parametrize("arguments", COMMANDS.values(), ids=COMMANDS)
 def test_a_path_that_cannot_be_is_a_usage_error_before_anything_is_simulated(
-    call: Call, scenario: Write, made_up: list[str], arguments: list[str], path: str
-) -> None:
+    call, scenario, made_up, arguments, path
+):
     scenario("stop")
     Path("file").touch()
     Path("circle").symlink_to("circle")
@@ -76,35 +76,26 @@ def test_a_path_that_cannot_be_is_a_usage_error_before_anything_is_simulated(
         ("sweep.json", ["report", "deep"]),
     ],
 )
-def test_json_nested_deeper_than_it_can_be_read_is_a_usage_error(
-    call: Call, scenario: Write, name: str, arguments: list[str]
-) -> None:
+def test_json_nested_deeper_than_it_can_be_read_is_a_usage_error(call, scenario, name, arguments):
     scenario("stop")
     Path("deep").mkdir()
     Path("deep", name).write_text("[" * 100_000)
-    answer = call(*arguments)
-    assert answer.code == 4, answer.err
+    answer = call(*arguments, code=4)
     assert "internal error" not in answer.err
 
 
 @pytest.mark.parametrize("taken", ["scenarios", "schema"])
-def test_init_onto_a_file_in_the_way_is_a_usage_error(call: Call, workplace: Path, taken: str) -> None:
+def test_init_onto_a_file_in_the_way_is_a_usage_error(call, workplace, taken):
     Path(taken).touch()
-    answer = call("init")
-    assert answer.code == 4
-    assert taken in answer.err
+    call("init", code=4, says=taken)
 
 
-def test_a_page_into_a_folder_that_is_not_there_is_a_usage_error(call: Call, workplace: Path) -> None:
-    answer = call("compare", "stop.parquet", "stop.parquet", "--html", "none/page.html")
-    assert answer.code == 4
-    assert "none" in answer.err
+def test_a_page_into_a_folder_that_is_not_there_is_a_usage_error(call, workplace):
+    call("compare", "stop.parquet", "stop.parquet", "--html", "none/page.html", code=4, says="none")
 
 
-def test_an_error_of_the_machine_stays_one(
-    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def full(*arguments: object, **options: object) -> None:
+def test_an_error_of_the_machine_stays_one(call, scenario, monkeypatch):
+    def full(*arguments, **options):
         raise OSError(28, "No space left on device", "reports/x")
 
     monkeypatch.setattr("uictest.runs.load_cases_and_series", full)

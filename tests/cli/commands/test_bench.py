@@ -21,8 +21,7 @@ def recipe(workplace):
 
 
 def test_a_recipe_leaves_a_recording_and_a_summary(call, recipe, workplace):
-    answer = call("bench", "short.yaml")
-    assert answer.code == 0, answer.err
+    answer = call("bench", "short.yaml", code=0)
     assert "largest error against module 1" in answer.out
     recording = read_parquet(workplace / "short.parquet")
     assert recording["clamping_force_1"].max() > 1000.0
@@ -51,8 +50,7 @@ def test_a_recorded_pressure_is_demanded(call, workplace, suffix):
     else:
         channels = {"time": time, "demand": demand}
         write_parquet(Recording(channels, {"time": "s", "demand": "bar"}), workplace / "demand.parquet")
-    answer = call("bench", "--trace", f"demand.{suffix}", "--pressure", "demand", "-o", "out.parquet")
-    assert answer.code == 0, answer.err
+    call("bench", "--trace", f"demand.{suffix}", "--pressure", "demand", "-o", "out.parquet", code=0)
     recording = read_parquet(workplace / "out.parquet")
     assert recording["demanded_pressure"][-1] == pytest.approx(2e5)
     assert recording["brake_line_pressure"][-1] == pytest.approx(2e5, rel=0.02)
@@ -72,13 +70,10 @@ def test_a_recorded_pressure_is_demanded(call, workplace, suffix):
     ],
 )
 def test_what_cannot_be_used_is_told_and_nothing_is_written(call, workplace, arguments, told):
-    answer = call("bench", *arguments)
-    assert answer.code == 4
-    assert told in answer.err
+    call("bench", *arguments, code=4, says=told)
     assert list(workplace.iterdir()) == []
 
 
 def test_the_recipes_of_the_library_are_listed(call):
-    answer = call("bench", "--list")
-    assert answer.code == 0
+    answer = call("bench", "--list", code=0)
     assert {"stepwise", "triangular", "random", "wsp-cycling"} <= set(answer.out.split())

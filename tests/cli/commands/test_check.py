@@ -1,17 +1,14 @@
 import json
 import tracemalloc
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from uictest.plans import series
 from uictest.plans.scenario import loading
 
-from ..conftest import Call, Write
 
-
-def test_valid_files_exit_0_and_say_how_many(call: Call, scenario: Write) -> None:
+def test_valid_files_exit_0_and_say_how_many(call, scenario):
     scenario("a")
     scenario("b", "matrix:\n  brake.command: [80 %, 90 %]\n")
     answer = call("check")
@@ -20,7 +17,7 @@ def test_valid_files_exit_0_and_say_how_many(call: Call, scenario: Write) -> Non
     assert call("check", "-q").err == ""
 
 
-def test_every_error_of_every_file_is_shown_with_its_place(call: Call, scenario: Write) -> None:
+def test_every_error_of_every_named_file_is_shown_with_its_place(call, scenario):
     scenario("a", "vehicel: x\n")
     scenario("b", "seed: -1\n")
     answer = call("check")
@@ -29,54 +26,45 @@ def test_every_error_of_every_file_is_shown_with_its_place(call: Call, scenario:
     assert "vehicle" in answer.err
     assert "scenarios/b.yaml:4:" in answer.err
     assert "uictest: 2 errors" in answer.err
-
-
-def test_only_the_named_files_are_checked(call: Call, scenario: Write) -> None:
     good = scenario("a")
     scenario("b", "vehicel: x\n")
     assert call("check", good).code == 0
 
 
-def test_json_for_editors(call: Call, scenario: Write) -> None:
+def test_json_and_github_annotations_point_to_the_line(call, scenario):
     path = scenario("a", "vehicel: x\n")
     (found,) = json.loads(call("check", "--format", "json").out)
     assert (found["file"], found["line"], found["column"]) == (path.as_posix(), 4, 1)
     assert found["message"]
     scenario("a")
     assert json.loads(call("check", "--format", "json").out) == []
-
-
-def test_github_annotations_point_to_the_line(call: Call, scenario: Write) -> None:
     scenario("a", "vehicel: x\n")
     answer = call("check", "--format", "github")
     assert answer.out.startswith("::error file=scenarios/a.yaml,line=4,col=1,title=")
 
 
-def test_a_missing_path_is_an_error(call: Call) -> None:
-    answer = call("check", "gone")
-    assert answer.code == 4
-    assert "gone" in answer.err
+def test_a_missing_path_and_a_word_for_a_fault_are_errors_at_their_place(call, scenario):
+    call("check", "gone", code=4, says="gone")
+    answer = call("check", scenario("a", "faults: [lost]\n"), code=4)
+    assert "scenarios/a.yaml:4:10: faults.0: expected a mapping, found a text" in answer.err
+    assert "a mapping of at, kind, part, until, value, wheelset" in answer.err
 
 
-def test_sensitivities_around_other_values_than_the_scenarios_are_warned_of(
-    call: Call, scenario: Write, workplace: Path
-) -> None:
+def test_sensitivities_around_other_values_than_the_scenarios_are_warned_of(call, scenario, workplace):
     scenario("a", "rail: {condition: wet, friction: 0.1}\n")
     sweep = workplace / "scenarios" / "b.sweep.yaml"
     sweep.write_text(
         "schema: uictest/sweep/1\nname: b\nscenario: a.yaml\nsample:\n  method: saltelli\n  size: 2\n"
         "  parameters:\n    rail.friction: {uniform: [0.11, 0.15]}\n"
     )
-    answer = call("check")
-    assert answer.code == 0
-    assert "warning: rail.friction: the scenario's own 0.1 lies OUTSIDE the range" in answer.err
+    call("check", code=0, says="warning: rail.friction: the scenario's own 0.1 lies OUTSIDE the range")
 
 
-def _broken_in(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+def _broken_in(monkeypatch, name):
     """Let the program fail with what one scenario says, whichever way it is read."""
     resolve = loading.resolve
 
-    def resolved(tree: Any, parts: Any) -> Any:
+    def resolved(tree, parts):
         if tree.get("name").value == name:
             raise ZeroDivisionError("no wheel load")
         return resolve(tree, parts)
@@ -87,15 +75,12 @@ def _broken_in(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
 @pytest.mark.parametrize(
     "arguments", [["check"], ["list"], ["run"], ["run", "scenarios/a.yaml", "scenarios/b.yaml"]]
 )
-def test_an_internal_error_names_its_file_and_hides_no_other(
-    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch, arguments: list[str]
-) -> None:
+def test_an_internal_error_names_its_file_and_hides_no_other(call, scenario, monkeypatch, arguments):
     scenario("a")
     scenario("b", "vehicel: x\n")
     Path("scenarios", "c.series.yaml").write_text("schema: uictest/series/1\nname: c\n")
     _broken_in(monkeypatch, "a")
-    answer = call(*arguments)
-    assert answer.code == 3
+    answer = call(*arguments, code=3)
     assert "scenarios/a.yaml:1:1: internal error: ZeroDivisionError: no wheel load" in answer.err
     assert "scenarios/b.yaml:4:1: vehicel: unknown key" in answer.err
     assert ("scenarios/c.series.yaml:" in answer.err) is (len(arguments) == 1)
@@ -103,36 +88,26 @@ def test_an_internal_error_names_its_file_and_hides_no_other(
     assert "Traceback" in call(*arguments, "-v").err
 
 
-def test_an_internal_error_in_a_series_hides_no_other_file(
-    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_internal_error_in_a_series_hides_no_other_file(call, scenario, monkeypatch):
     scenario("a")
     for name in "cd":
         text = f"schema: uictest/series/1\nname: {name}\ndry: a.yaml\nwet: a.yaml\nno: 1\n"
         Path("scenarios", f"{name}.series.yaml").write_text(text)
     load = series.load_series
 
-    def failing(path: Path, *arguments: Any, **options: Any) -> Any:
+    def failing(path, *arguments, **options):
         if path.name.startswith("c"):
             raise RecursionError("too deep")
         return load(path, *arguments, **options)
 
     monkeypatch.setattr(series, "load_series", failing)
     for command in ("check", "run", "list"):
-        answer = call(command)
-        assert answer.code == 3
+        answer = call(command, code=3)
         assert "scenarios/c.series.yaml:1:1: internal error: RecursionError: too deep" in answer.err
         assert "scenarios/d.series.yaml:5:1: no: unknown key" in answer.err
 
 
-def test_a_word_for_a_fault_is_an_error_at_its_place(call: Call, scenario: Write) -> None:
-    answer = call("check", scenario("a", "faults: [lost]\n"))
-    assert answer.code == 4
-    assert "scenarios/a.yaml:4:10: faults.0: expected a mapping, found a text" in answer.err
-    assert "a mapping of at, kind, part, until, value, wheelset" in answer.err
-
-
-def test_a_large_program_costs_hardly_more_than_its_text(call: Call, scenario: Write) -> None:
+def test_a_large_program_costs_hardly_more_than_its_text(call, scenario):
     """A syntax tree of 2 MB of Python takes a gigabyte."""
     scenario("a", "controller: {python: wsp.py, class: Wsp}\n")
     rows = "".join(f"    ({number}, 'text'),\n" for number in range(80_000))
@@ -151,8 +126,7 @@ def test_a_compensation_that_is_not_for_its_rig_is_reported_with_file_key_and_va
         "schema: uictest/scenario/1\nname: unfit\ninitial_speed: 120 km/h\n"
         "rig:\n  caliper: {extends: six-inch, lever_ratio: 3}\n"
     )
-    answer = call("check", "unfit.yaml")
-    assert answer.code == 4
+    answer = call("check", "unfit.yaml", code=4)
     told = "unfit.yaml:5:45: rig.caliper.lever_ratio: is 3, the compensation is for 2.45 within 0.5 %"
     assert told in answer.err
     (workplace / "unfit.yaml").write_text((workplace / "unfit.yaml").read_text() + "expect: invalid\n")

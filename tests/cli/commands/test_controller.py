@@ -3,13 +3,10 @@ import os
 import sys
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from uictest.selftest import conformance
-
-from ..conftest import Call
 
 FILLS = """\
 from uictest.controllers import Outputs
@@ -24,11 +21,11 @@ class Fills:
 
 
 @pytest.fixture(autouse=True)
-def longer_cycles(monkeypatch: pytest.MonkeyPatch) -> None:
+def longer_cycles(monkeypatch):
     """Ask a controller from outside every 50 ms, not every 10 ms: what it answers is the same each time."""
     subject_of = conformance.subject_of
 
-    def longer(name: str, part: Any) -> conformance.Subject:
+    def longer(name, part):
         subject = subject_of(name, part)
         if subject.program is None:
             return subject
@@ -37,14 +34,14 @@ def longer_cycles(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(conformance, "subject_of", longer)
 
 
-def program(fault: str = "pass") -> Path:
+def program(fault="pass"):
     """A controller that never protects a wheelset."""
     path = Path("fills.py")
     path.write_text(FILLS.format(fault=fault), "utf-8")
     return path
 
 
-def test_exit_codes_are_those_of_run_and_junit_has_the_failure(call: Call) -> None:
+def test_exit_codes_are_those_of_run_and_junit_has_the_failure(call):
     assert call("controller", "check", "threshold").code == 0
     assert call("controller", "check", program(), "--junitxml", "check.xml").code == 1
     assert '<failure message="from the beginning of the slide' in Path("check.xml").read_text("utf-8")
@@ -53,7 +50,7 @@ def test_exit_codes_are_those_of_run_and_junit_has_the_failure(call: Call) -> No
     assert call("controller", "check", "no-such.py").code == 4
 
 
-def test_nothing_but_the_table_is_on_stdout(call: Call, tmp_path: Path) -> None:
+def test_nothing_but_the_table_is_on_stdout(call, tmp_path):
     """What a controller prints cannot disturb it."""
     answer = call("controller", "check", program("print('noise')"), "--format", "json")
     assert json.loads(answer.out)["about"]["controller.kind"] == "python"
@@ -70,15 +67,14 @@ CONTROLLER = "controller: {python: fills.py, class: Fills}\n"
     ],
     ids=["part", "scenario"],
 )
-def test_a_part_and_a_scenario_name_their_controller(call: Call, text: str) -> None:
+def test_a_part_and_a_scenario_name_their_controller(call, text):
     program()
     Path("file.yaml").write_text(text, "utf-8")
-    answer = call("controller", "check", "file.yaml")
-    assert answer.code == 1
+    answer = call("controller", "check", "file.yaml", code=1)
     assert "fail vents-sliding" in answer.out
 
 
-def test_parameters_are_set_as_texts_of_yaml(call: Call) -> None:
+def test_parameters_are_set_as_texts_of_yaml(call):
     path = program("pass")
     path.write_text(
         path.read_text().replace("config): pass", "config): assert config.parameters == {'a': 2.5}")
@@ -90,19 +86,16 @@ def test_parameters_are_set_as_texts_of_yaml(call: Call) -> None:
     assert call("controller", "check", "threshold", "--set", "a=1").code == 4
 
 
-def test_a_class_is_named_where_there_are_several(call: Call) -> None:
+def test_a_class_is_named_where_there_are_several(call):
     path = program()
     path.write_text(path.read_text() + "\nclass Other:\n    def step(self, inputs): pass\n")
-    answer = call("controller", "check", path)
-    assert answer.code == 4
-    assert "Those with a method step: 'Fills', 'Other'" in answer.err
+    call("controller", "check", path, code=4, says="Those with a method step: 'Fills', 'Other'")
     assert call("controller", "check", path, "--class", "Fills").code == 1
 
 
-def test_a_hang_ends_and_leaves_no_process(call: Call) -> None:
+def test_a_hang_ends_and_leaves_no_process(call):
     path = program("open('pid', 'w').write(str(__import__('os').getpid())); __import__('time').sleep(600)")
-    answer = call("controller", "check", path, "--time-limit", "0.2")
-    assert answer.code == 3
+    answer = call("controller", "check", path, "--time-limit", "0.2", code=3)
     assert "step did not return within 0.2 s (cycle 0)" in answer.out
     with pytest.raises(ProcessLookupError):
         os.kill(int(Path("pid").read_text()), 0)

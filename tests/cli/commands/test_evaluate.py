@@ -7,19 +7,18 @@ import pytest
 from uictest.core.recording import Recording
 from uictest.core.recording.formats import ReadingInterruptedError, writer_of
 
-from ..conftest import STATED, Call, Write, rolling_train
+from ..conftest import STATED, rolling_train
 
 
 @pytest.fixture
-def stop(workplace: Path) -> Path:
+def stop(workplace):
     path = workplace / "Stop 1.csv"
     writer_of("csv")(rolling_train(), path)
     return path
 
 
-def test_a_stop_is_judged_and_reported_as_by_run(call: Call, stop: Path) -> None:
-    answer = call("evaluate", stop, *STATED)
-    assert answer.code == 0
+def test_a_stop_is_judged_and_reported_as_by_run(call, stop):
+    answer = call("evaluate", stop, *STATED, code=0)
     assert answer.out.startswith("pass stop-1 outcome=pass")
     assert "trigger: at 0 s, stated by the file; raster: 10 ms" in answer.err
     assert "distance: integrated from speed" in answer.err
@@ -29,7 +28,7 @@ def test_a_stop_is_judged_and_reported_as_by_run(call: Call, stop: Path) -> None
     assert {"Stop 1.csv", "library:channel_maps/uictest.yaml"} <= manifest["inputs"].keys()
 
 
-def test_json_is_the_document_with_the_preparation_in_it(call: Call, stop: Path) -> None:
+def test_json_is_the_document_with_the_preparation_in_it(call, stop):
     document = json.loads(call("evaluate", stop, *STATED, "--format", "json", "--low-pass", "5 Hz").out)
     [case] = document["cases"] if "cases" in document else document["results"]
     assert case["criteria"][0]["definition"]["filter"].startswith("low-pass 5 Hz")
@@ -37,9 +36,7 @@ def test_json_is_the_document_with_the_preparation_in_it(call: Call, stop: Path)
     assert case["wheelsets"][0]["valve_actuations"] is None
 
 
-def test_the_page_of_a_recorded_stop_draws_the_first_phase_and_says_that_it_is_recorded(
-    call: Call, workplace: Path
-) -> None:
+def test_the_page_of_a_recorded_stop_draws_the_first_phase_and_says_that_it_is_recorded(call, workplace):
     time = rolling_train()["time"]
     slid = np.where((time > 1.0) & (time < 6.0), 0.8, 1.0) * rolling_train()["speed"]
     writer_of("csv")(rolling_train(wheel_speed_2=slid), workplace / "slid.csv")
@@ -49,8 +46,7 @@ def test_the_page_of_a_recorded_stop_draws_the_first_phase_and_says_that_it_is_r
         "  - {id: adhesion, layer: validity, measure: initial_adhesion, upper: 0.2 g,"
         " definition: {first_phase_duration: {value: 2 s, range: [1 s, 3 s]}}}\n"
     )
-    answer = call("evaluate", "slid.csv", *stated, "--record", "all")
-    assert answer.code == 0
+    call("evaluate", "slid.csv", *stated, "--record", "all", code=0)
     call("report", "reports/latest", "--format", "html", "-o", "again")
     for page in (Path("reports/latest/index.html"), Path("again/index.html")):
         html = page.read_text()
@@ -60,33 +56,25 @@ def test_the_page_of_a_recorded_stop_draws_the_first_phase_and_says_that_it_is_r
         assert "one-caliper" not in html
 
 
-def test_a_scenario_states_everything_and_a_case_of_several_is_chosen(
-    call: Call, stop: Path, scenario: Write
-) -> None:
+def test_a_scenario_states_everything_and_a_case_of_several_is_chosen(call, stop, scenario):
     assert call("evaluate", stop, "--scenario", scenario("a", "rail: {condition: wet}\n")).code == 0
     path = scenario("a", "matrix: {brake.command: [80 %, 90 %]}\n")
-    answer = call("evaluate", stop, "--scenario", path)
-    assert answer.code == 4
-    assert "has 2 cases" in answer.err
+    call("evaluate", stop, "--scenario", path, code=4, says="has 2 cases")
     assert call("evaluate", stop, "--scenario", path, "-k", "command=80").code == 0
 
 
-def test_a_missed_criterion_exits_1_and_keeps_the_samples(call: Call, workplace: Path) -> None:
+def test_a_missed_criterion_exits_1_and_keeps_the_samples(call, workplace):
     locked = np.where(np.arange(1050) < 200, rolling_train()["speed"], 0.0)
     writer_of("parquet")(rolling_train(wheel_speed_3=locked), workplace / "locked.parquet")
-    answer = call("evaluate", "locked.parquet", *STATED)
-    assert answer.code == 1
+    answer = call("evaluate", "locked.parquet", *STATED, code=1)
     assert "locked-wheels" in answer.err + answer.out or "fail" in answer.out
     assert Path("reports/latest/recordings/locked.parquet").exists()
 
 
 @pytest.mark.parametrize("end", [8.0, 2.0, 0.02])
-def test_a_record_that_is_cut_off_is_inconclusive_and_exits_1(
-    call: Call, workplace: Path, end: float
-) -> None:
+def test_a_record_that_is_cut_off_is_inconclusive_and_exits_1(call, workplace, end):
     writer_of("csv")(rolling_train(end), workplace / "cut.csv")
-    answer = call("evaluate", "cut.csv", *STATED)
-    assert answer.code == 1
+    answer = call("evaluate", "cut.csv", *STATED, code=1)
     assert answer.out.startswith("inconclusive cut outcome=inconclusive expect=pass")
     assert "standstill (requirement) inconclusive: no standstill; the record ends after" in answer.out
     assert "locked-wheels (requirement) inconclusive" in answer.out
@@ -95,31 +83,28 @@ def test_a_record_that_is_cut_off_is_inconclusive_and_exits_1(
     )
 
 
-def test_a_record_without_wheel_speeds_is_inconclusive_and_exits_1(call: Call, workplace: Path) -> None:
+def test_a_record_without_wheel_speeds_is_inconclusive_and_an_unusable_one_an_error(call, workplace):
     whole = rolling_train()
     speed_only = {name: whole[name] for name in ("time", "speed")}
     recording = Recording(speed_only, {"time": "s", "speed": "m/s"}, whole.metadata)
     writer_of("csv")(recording, workplace / "speed.csv")
-    answer = call("evaluate", "speed.csv", *STATED)
-    assert answer.code == 1
+    answer = call("evaluate", "speed.csv", *STATED, code=1)
     assert "outcome=inconclusive" in answer.out
     assert "locked-wheels (requirement) inconclusive: not recorded: wheel_speed_1" in answer.out
-
-
-def test_an_unusable_record_is_an_error_that_names_the_defect(call: Call, workplace: Path) -> None:
     lines = ["time [s],speed [m/s]", "0,10", "1,9", "1,8", "0.5,7"]
     (workplace / "bad.csv").write_text("\n".join(lines) + "\n")
-    answer = call("evaluate", "bad.csv", *STATED)
-    assert answer.code == 3
+    answer = call("evaluate", "bad.csv", *STATED, code=3)
     assert "time-backwards" in answer.out
     assert "time-duplicate" in answer.err
 
 
-def test_unstated_circumstances_are_asked_for(call: Call, stop: Path) -> None:
-    answer = call("evaluate", stop, "--rail", "dry")
-    assert answer.code == 4
-    assert "--position, --wsp, --criteria" in answer.err
+def test_files_of_one_name_get_different_ids_and_unstated_circumstances_are_asked_for(call, stop, workplace):
+    call("evaluate", stop, "--rail", "dry", code=4, says="--position, --wsp, --criteria")
     assert not Path("reports").exists()
+    (workplace / "other").mkdir()
+    (workplace / "other" / "stop-1.csv").write_bytes(stop.read_bytes())
+    answer = call("evaluate", stop, "other/stop-1.csv", *STATED)
+    assert [line.split()[1] for line in answer.out.splitlines()] == ["stop-1", "stop-1-2"]
 
 
 @pytest.mark.parametrize(
@@ -139,7 +124,7 @@ def test_unstated_circumstances_are_asked_for(call: Call, stop: Path) -> None:
         ["."],
     ],
 )
-def test_what_cannot_be_used_exits_4_with_a_message(call: Call, stop: Path, arguments: list[str]) -> None:
+def test_what_cannot_be_used_exits_4_with_a_message(call, stop, arguments):
     answer = call("evaluate", *arguments)
     assert (answer.code, answer.out) == (4, "")
     assert answer.err
@@ -147,19 +132,15 @@ def test_what_cannot_be_used_exits_4_with_a_message(call: Call, stop: Path, argu
     assert not Path("reports").exists()
 
 
-def test_list_shows_channels_and_the_preset_that_fits(call: Call, stop: Path) -> None:
-    answer = call("evaluate", stop, "--list")
-    assert answer.code == 0
+def test_list_shows_channels_and_the_preset_that_fits_or_proposes_a_map(call, stop, workplace):
+    answer = call("evaluate", stop, "--list", code=0)
     assert "speed\tm/s\t1050\t0 .. 10" in answer.out
     assert answer.out.splitlines()[-1] == "the preset uictest fits (--map uictest)"
-
-
-def test_list_proposes_a_map_where_no_preset_fits(call: Call, workplace: Path) -> None:
     (workplace / "run.csv").write_text("t [s],vZug\n0,10\n1,9\n")
     assert "schema: uictest/channel-map/1" in call("evaluate", "run.csv", "--list").out
 
 
-def test_list_calls_no_preset_fitting_that_leaves_the_wheels_out(call: Call, workplace: Path) -> None:
+def test_list_calls_no_preset_fitting_that_leaves_the_wheels_out(call, workplace):
     header = "Zeit [s],vZug [km/h],Achse1 [km/h],Achse2 [km/h],Achse3 [km/h],Achse4 [km/h]"
     (workplace / "run.csv").write_text(f"{header}\n0,10,10,10,10,10\n1,9,9,9,9,9\n")
     out = call("evaluate", "run.csv", "--list").out
@@ -169,7 +150,7 @@ def test_list_calls_no_preset_fitting_that_leaves_the_wheels_out(call: Call, wor
     assert 'speed: "vZug"' in out
 
 
-def test_a_proposed_map_reads_the_file_it_was_proposed_for(call: Call, workplace: Path) -> None:
+def test_a_proposed_map_reads_the_file_it_was_proposed_for(call, workplace):
     units = ";".join(["s", *["km/h"] * 5, "°C"])
     rows = [";".join([f"{k / 10:.1f}", *[f"{36 - 3.6 * k / 10:.2f}"] * 5, "20"]) for k in range(101)]
     names = "Zeit;vZug;v1;v2;v3;v4;T"
@@ -185,14 +166,14 @@ def test_a_proposed_map_reads_the_file_it_was_proposed_for(call: Call, workplace
     assert (answer.code, "braking_time_s=10 " in answer.out) == (0, True), answer.err
 
 
-def test_list_says_how_a_table_of_another_dialect_is_declared(call: Call, workplace: Path) -> None:
+def test_list_says_how_a_table_of_another_dialect_is_declared(call, workplace):
     (workplace / "run.csv").write_text("t [s];v [km/h]\n0,0;10,5\n1,0;9,5\n")
     answer = call("evaluate", "run.csv", "--list")
     assert (answer.code, answer.out) == (4, "")
     assert 'set csv: {delimiter: ";", decimal: ","} in a channel map' in answer.err
 
 
-def test_a_channel_map_with_a_dialect(call: Call, workplace: Path) -> None:
+def test_a_channel_map_with_a_dialect(call, workplace):
     lines = [
         "Zeit;vZug",
         "s;km/h",
@@ -203,28 +184,19 @@ def test_a_channel_map_with_a_dialect(call: Call, workplace: Path) -> None:
         "schema: uictest/channel-map/1\nname: zug\nextends: common-names\n"
         'csv: {delimiter: ";", decimal: ",", header_line: 1, unit_line: 2}\npreparation: {trigger: start}\n'
     )
-    answer = call("evaluate", "zug.csv", "--map", "map.yaml", *STATED)
-    assert answer.code == 1  # without wheel speeds there is no verdict on locked wheels
+    answer = call(
+        "evaluate", "zug.csv", "--map", "map.yaml", *STATED, code=1
+    )  # without wheel speeds there is no verdict on locked wheels
     assert "braking_time_s=10" in answer.out
     assert "the record begins with it; raster: 100 ms" in answer.err
 
 
-def test_files_of_one_name_get_different_ids(call: Call, stop: Path, workplace: Path) -> None:
-    (workplace / "other").mkdir()
-    (workplace / "other" / "stop-1.csv").write_bytes(stop.read_bytes())
-    answer = call("evaluate", stop, "other/stop-1.csv", *STATED)
-    assert [line.split()[1] for line in answer.out.splitlines()] == ["stop-1", "stop-1-2"]
-
-
-def test_a_full_temporary_folder_is_an_error_and_no_fault_of_the_file(
-    call: Call, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    def broken_off(path: Path, dialect: object = None) -> None:
+def test_a_full_temporary_folder_is_an_error_and_no_fault_of_the_file(call, monkeypatch, tmp_path):
+    def broken_off(path, dialect=None):
         raise ReadingInterruptedError(28, f"No space left on device to read {path}", "/small")
 
     monkeypatch.setattr("uictest.recorded.field_data.recorded_stop.read_contents", broken_off)
     (tmp_path / "stop.csv").write_text("time,speed\n0,1\n")
-    answer = call("evaluate", "stop.csv", *STATED)
-    assert answer.code == 3
+    answer = call("evaluate", "stop.csv", *STATED, code=3)
     assert "/small: No space left on device to read stop.csv" in answer.err
     assert "damaged" not in answer.err

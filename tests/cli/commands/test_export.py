@@ -6,19 +6,18 @@ from uictest.core.recording import write_parquet
 from uictest.core.recording.formats import Dialect
 from uictest.core.recording.formats.reader import read_here
 
-from ..conftest import Call, rolling_train
+from ..conftest import rolling_train
 
 
 @pytest.fixture
-def recording(workplace: Path) -> Path:
+def recording(workplace):
     path = workplace / "a[friction=0.10].parquet"
     write_parquet(rolling_train(0.1), path)
     return path
 
 
-def test_every_format_is_written_with_its_provenance(call: Call, recording: Path) -> None:
-    answer = call("export", recording, "--to", "mdf,tdms", "--to", "mat,csv", "-o", "out/deep")
-    assert answer.code == 0
+def test_every_format_is_written_with_its_provenance(call, recording):
+    answer = call("export", recording, "--to", "mdf,tdms", "--to", "mat,csv", "-o", "out/deep", code=0)
     names = ["a[friction=0.10].mf4", "a[friction=0.10].tdms", "a[friction=0.10].mat", "a[friction=0.10].csv"]
     assert [Path(line).name for line in answer.out.splitlines()] == names
     for name, file in zip(("mdf", "tdms", "mat", "csv"), names, strict=True):
@@ -29,15 +28,13 @@ def test_every_format_is_written_with_its_provenance(call: Call, recording: Path
 
 
 @pytest.mark.parametrize("name", ["mf4", "MDF", "mdf,mf4"])
-def test_a_format_is_known_by_the_suffix_of_its_files_too(call: Call, recording: Path, name: str) -> None:
+def test_a_format_is_known_by_the_suffix_of_its_files_too(call, recording, name):
     assert call("export", recording, "--to", name).out.split() == ["a[friction=0.10].mf4"]
 
 
-def test_nothing_is_overwritten_unless_forced(call: Call, recording: Path) -> None:
+def test_nothing_is_overwritten_unless_forced(call, recording):
     assert call("export", recording, "--to", "csv").code == 0
-    answer = call("export", recording, "--to", "csv")
-    assert answer.code == 4
-    assert "already there" in answer.err
+    call("export", recording, "--to", "csv", code=4, says="already there")
     assert call("export", recording, "--to", "csv", "--force").code == 0
 
 
@@ -54,25 +51,19 @@ def test_nothing_is_overwritten_unless_forced(call: Call, recording: Path) -> No
         (["one.parquet", "b/one.parquet", "-o", "stop.mf4"], "one file for 2 recordings"),
     ],
 )
-def test_what_cannot_be_exported_exits_4_and_leaves_nothing(
-    call: Call, recording: Path, arguments: list[str], said: str
-) -> None:
+def test_what_cannot_be_exported_exits_4_and_leaves_nothing(call, recording, arguments, said):
     recording.rename("one.parquet")
     Path("b").mkdir()
     Path("b/one.parquet").write_bytes(Path("one.parquet").read_bytes())
     Path("table.csv").write_text("a,b\n1,2\n")
     Path("run.csv").write_text("time [s],speed [m/s]\n0,10\n1,n.a.\n")
     before = sorted(Path().rglob("*"))
-    answer = call("export", *arguments)
-    assert answer.code == 4
-    assert said in answer.err
+    call("export", *arguments, code=4, says=said)
     assert sorted(Path().rglob("*")) == before
 
 
 @pytest.mark.parametrize("arguments", [[], ["--to", "mdf"]])
-def test_a_file_is_written_in_the_format_of_its_suffix(
-    call: Call, recording: Path, arguments: list[str]
-) -> None:
+def test_a_file_is_written_in_the_format_of_its_suffix(call, recording, arguments):
     answer = call("export", recording, *arguments, "-o", "out/stop.mf4")
     assert (answer.code, answer.out.split()) == (0, [str(Path("out/stop.mf4"))])
     assert read_here("mdf", Path("out/stop.mf4"), Dialect()).metadata["source"] == recording.name

@@ -1,22 +1,19 @@
 import zipfile
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from uictest.api import rig_fmu
 
-from ..conftest import Call, Write
-
 TWO_CASES = "matrix:\n  brake.command: [80 %, 90 %]\n"
 
 
 @pytest.fixture
-def built(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
+def built(monkeypatch):
     """What would be built: case and version. The rig's own tests build FMUs."""
     made: list[tuple[str, int]] = []
 
-    def build(case: Any, version: int, compiler: str) -> bytes:
+    def build(case, version, compiler):
         made.append((case.id, version))
         return b"an FMU"
 
@@ -25,39 +22,29 @@ def built(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
     return made
 
 
-def test_the_only_case_is_written_and_its_file_printed(
-    call: Call, scenario: Write, built: list[tuple[str, int]]
-) -> None:
+def test_the_only_case_is_written_and_force_replaces_a_file(call, scenario, built):
     answer = call("export-rig", scenario("stop"), "-o", "out.fmu")
     assert (answer.code, answer.out, answer.err) == (0, "out.fmu\n", "")
     assert Path("out.fmu").read_bytes() == b"an FMU"
     assert built == [("stop", 2)]
+    Path("rig.fmu").write_text("older")
+    assert call("export-rig", scenario("stop"), "--force").code == 0
+    assert Path("rig.fmu").read_bytes() == b"an FMU"
 
 
 @pytest.mark.parametrize("selection", [("--case", "stop[command=90]"), ("-k", "90")])
-def test_one_of_several_cases_is_chosen(
-    call: Call, scenario: Write, built: list[tuple[str, int]], selection: tuple[str, str]
-) -> None:
+def test_one_of_several_cases_is_chosen(call, scenario, built, selection):
     assert call("export-rig", scenario("stop", TWO_CASES), *selection, "--fmi", "3").code == 0
     assert built == [("stop[command=90]", 3)]
 
 
-def test_several_cases_are_refused_with_their_ids(
-    call: Call, scenario: Write, built: list[tuple[str, int]]
-) -> None:
-    answer = call("export-rig", scenario("stop", TWO_CASES))
-    assert answer.code == 4
+def test_several_cases_are_refused_with_their_ids_and_an_unknown_one_exits_5(call, scenario, built):
+    answer = call("export-rig", scenario("stop", TWO_CASES), code=4)
     assert answer.err == (
         "uictest: 2 cases; an FMU holds one: choose it with --case ID\nstop[command=80]\nstop[command=90]\n"
     )
     assert not Path("rig.fmu").exists()
-
-
-def test_an_unknown_case_exits_5_and_lists_the_cases(
-    call: Call, scenario: Write, built: list[tuple[str, int]]
-) -> None:
-    answer = call("export-rig", scenario("stop", TWO_CASES), "--case", "stop")
-    assert answer.code == 5
+    answer = call("export-rig", scenario("stop", TWO_CASES), "--case", "stop", code=5)
     assert answer.err.endswith("stop[command=80]\nstop[command=90]\n")
 
 
@@ -69,24 +56,14 @@ def test_an_unknown_case_exits_5_and_lists_the_cases(
         ("there.fmu", "already there: there.fmu; --force replaces it"),
     ],
 )
-def test_a_file_that_cannot_be_written_is_refused_before_anything_is_read(
-    call: Call, built: list[tuple[str, int]], target: str, reason: str
-) -> None:
+def test_a_file_that_cannot_be_written_is_refused_before_anything_is_read(call, built, target, reason):
     Path("there.fmu").write_text("older")
     answer = call("export-rig", "no-such.yaml", "-o", target)
     assert (answer.code, answer.err) == (4, f"uictest: {reason}\n")
 
 
-def test_force_replaces_a_file(call: Call, scenario: Write, built: list[tuple[str, int]]) -> None:
-    Path("rig.fmu").write_text("older")
-    assert call("export-rig", scenario("stop"), "--force").code == 0
-    assert Path("rig.fmu").read_bytes() == b"an FMU"
-
-
-def test_a_machine_without_a_compiler_is_told_before_anything_is_compiled(
-    call: Call, scenario: Write, built: list[tuple[str, int]], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def missing() -> str:
+def test_a_machine_without_a_compiler_is_told_before_anything_is_compiled(call, scenario, built, monkeypatch):
+    def missing():
         raise rig_fmu.CannotBuildError("no C compiler (cc)")
 
     monkeypatch.setattr(rig_fmu, "usable_compiler", missing)
@@ -95,26 +72,20 @@ def test_a_machine_without_a_compiler_is_told_before_anything_is_compiled(
     assert built == []
 
 
-def test_a_compiler_that_fails_exits_3_and_leaves_nothing(
-    call: Call, scenario: Write, built: list[tuple[str, int]], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(*arguments: Any) -> bytes:
+def test_a_compiler_that_fails_exits_3_and_leaves_nothing(call, scenario, built, monkeypatch):
+    def fail(*arguments):
         raise RuntimeError("ld: no space left")
 
     monkeypatch.setattr(rig_fmu, "build_fmu", fail)
-    answer = call("export-rig", scenario("stop"))
-    assert answer.code == 3
-    assert "ld: no space left" in answer.err
+    call("export-rig", scenario("stop"), code=3, says="ld: no space left")
     assert not Path("rig.fmu").exists()
 
 
-def test_an_invalid_file_exits_4(call: Call, scenario: Write, built: list[tuple[str, int]]) -> None:
-    answer = call("export-rig", scenario("stop", "brake: {command: 200 %}\n"))
-    assert answer.code == 4
-    assert "scenarios/stop.yaml:4:" in answer.err
+def test_an_invalid_file_exits_4(call, scenario, built):
+    call("export-rig", scenario("stop", "brake: {command: 200 %}\n"), code=4, says="scenarios/stop.yaml:4:")
 
 
-def test_the_program_writes_an_fmu(call: Call, scenario: Write) -> None:
+def test_the_program_writes_an_fmu(call, scenario):
     try:
         rig_fmu.usable_compiler()
     except rig_fmu.CannotBuildError as error:

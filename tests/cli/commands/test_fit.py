@@ -7,26 +7,23 @@ from uictest.core.recording import write_parquet
 from uictest.plans.scenario import load
 from uictest.rig import simulate
 
-from ..conftest import Call, Write
-
 WET = "rail: {condition: wet, friction: 0.07}\ncriteria: [uictest-stop]\n"
 
 
-def simulated(scenario: Path, recording: str) -> None:
+def simulated(scenario, recording):
     """Simulate a scenario and write its recording."""
     [case] = load([scenario])
     write_parquet(simulate(case, record_every=0.01).recording, Path(recording))
 
 
 @pytest.fixture
-def recorded(scenario: Write) -> Path:
+def recorded(scenario):
     simulated(scenario("real", WET), "stop.parquet")
     return scenario("guess", WET.replace("0.07", "0.12"))
 
 
-def test_a_fit_leaves_a_scenario_that_runs(call: Call, recorded: Path) -> None:
-    answer = call("fit", "stop.parquet", "--scenario", recorded)
-    assert answer.code == 0
+def test_a_fit_leaves_a_scenario_that_runs(call, recorded):
+    answer = call("fit", "stop.parquet", "--scenario", recorded, code=0)
     assert answer.out.startswith("friction everywhere: 0.07")
     [folder] = Path("reports").iterdir()
     assert sorted(path.name for path in folder.iterdir()) == [
@@ -45,19 +42,18 @@ def test_a_fit_leaves_a_scenario_that_runs(call: Call, recorded: Path) -> None:
     )
 
 
-def test_steps_and_pads_and_settings_are_kept(call: Call, recorded: Path) -> None:
+def test_steps_and_pads_and_settings_are_kept(call, recorded):
     arguments = ("--break", "10 m", "--pads", "--set", "brake.command=95 %")
     assert call("fit", "stop.parquet", "--scenario", recorded, *arguments).code == 0
     [fitted] = load(list(Path("reports").glob("*/guess-fitted.yaml")))
-    assert [float(point.position) for point in fitted.scenario.rail.friction.points] == [0.0, 10.0]  # type: ignore[union-attr]
+    assert [float(point.position) for point in fitted.scenario.rail.friction.points] == [0.0, 10.0]
     assert float(fitted.scenario.brake.command) == pytest.approx(0.95)
 
 
-def test_a_record_that_cannot_tell_exits_1(call: Call, scenario: Write) -> None:
+def test_a_record_that_cannot_tell_exits_1(call, scenario):
     path = scenario("dry", "rail: {condition: dry}\n")
     simulated(path, "stop.parquet")
-    answer = call("fit", "stop.parquet", "--scenario", path)
-    assert answer.code == 1
+    answer = call("fit", "stop.parquet", "--scenario", path, code=1)
     assert "at least" in answer.out
 
 
@@ -70,16 +66,15 @@ criteria: [uictest-stop]
 
 
 @pytest.fixture
-def cleaned(scenario: Write) -> Path:
+def cleaned(scenario):
     for name, friction in (("first", 0.07), ("second", 0.1)):
         text = CLEANED.format(friction=friction, energy="8000 J/m", clean=0.22)
         simulated(scenario(name, text), f"{name}.parquet")
     return scenario("guess", CLEANED.format(friction=0.09, energy="5300 J/m", clean=0.28))
 
 
-def test_several_stops_share_the_cleaning_that_is_found(call: Call, cleaned: Path) -> None:
-    answer = call("fit", "first.parquet", "second.parquet", "--scenario", cleaned, "--cleaning")
-    assert answer.code == 0
+def test_several_stops_share_the_cleaning_that_is_found(call, cleaned):
+    answer = call("fit", "first.parquet", "second.parquet", "--scenario", cleaned, "--cleaning", code=0)
     assert answer.out.startswith("energy that cleans the rail: ")
     assert "\nfirst: friction everywhere: " in answer.out
     assert "\nsecond: friction everywhere: " in answer.out
@@ -100,11 +95,8 @@ def test_several_stops_share_the_cleaning_that_is_found(call: Call, cleaned: Pat
         assert float(rail.cleaning.recovered_friction) == pytest.approx(0.22, rel=0.05)
 
 
-def test_cleaning_that_is_not_seen_exits_1_and_is_not_written_as_found(
-    call: Call, recorded: Path, cleaned: Path
-) -> None:
-    answer = call("fit", "stop.parquet", "--scenario", cleaned, "--cleaning")
-    assert answer.code == 1
+def test_cleaning_that_is_not_seen_exits_1_and_is_not_written_as_found(call, recorded, cleaned):
+    answer = call("fit", "stop.parquet", "--scenario", cleaned, "--cleaning", code=1)
     assert "cleaning is not seen" in answer.out
     [fitted] = load(list(Path("reports").glob("*/guess-fitted.yaml")))
     assert float(fitted.scenario.rail.cleaning.energy) > 1e5
@@ -122,10 +114,7 @@ def test_cleaning_that_is_not_seen_exits_1_and_is_not_written_as_found(
         (["stop.parquet", "--cleaning"], "the library's values"),
     ],
 )
-def test_what_cannot_be_fitted_exits_4_and_leaves_nothing(
-    call: Call, recorded: Path, arguments: list[str], what: str
-) -> None:
-    answer = call("fit", *arguments, "--scenario", recorded)
-    assert answer.code == 4
+def test_what_cannot_be_fitted_exits_4_and_leaves_nothing(call, recorded, arguments, what):
+    answer = call("fit", *arguments, "--scenario", recorded, code=4)
     assert what in " ".join(answer.err.split())
     assert not Path("reports").exists()

@@ -9,7 +9,6 @@ import pytest
 
 from uictest.core.recording import ORIGIN, Recording, read_parquet, write_parquet
 from uictest.plans.scenario import load_part
-from uictest.plans.scenario.parts.compensation import Compensation
 from uictest.rig.identification.lines import FittedLine, computed_force
 
 STEP = 0.001
@@ -54,7 +53,7 @@ def record(recorded, workplace):
     return Path(shutil.copy(recorded, workplace))
 
 
-def read(path) -> Compensation:
+def read(path):
     from uictest.rig.identification.compensation_file import load_compensation
 
     return load_compensation(str(path))
@@ -62,8 +61,7 @@ def read(path) -> Compensation:
 
 def test_hysteresis_writes_a_compensation_with_provenance_and_marks(call, record, workplace):
     command = "identify hysteresis record.parquet -o found.yaml"
-    answer = call(*command.split(), "--date", "2026-01-02")
-    assert answer.code == 0, answer.err
+    answer = call(*command.split(), "--date", "2026-01-02", code=0)
     assert "bc loop width" in answer.out
     found = read(workplace / "found.yaml")
     assert (found.name, found.title) == ("record", "Compensation record")
@@ -108,9 +106,7 @@ def test_cylinder_keeps_the_lines_of_its_base(call, record, workplace):
 def test_a_result_is_never_silently_called_like_a_library_part(call, record, workplace):
     record.rename("Six Inch.parquet")
     command = ("identify", "hysteresis", "Six Inch.parquet", "-o", "other.yaml")
-    refused = call(*command)
-    assert refused.code == 4
-    assert "--name" in refused.err
+    call(*command, code=4, says="--name")
     assert not Path("other.yaml").exists()
     assert call(*command, "--name", "ours").code == 0
     assert read(workplace / "other.yaml").name == "ours"
@@ -151,9 +147,7 @@ def test_channels_may_have_other_names_and_come_from_csv(call, record, workplace
     ],
 )
 def test_what_cannot_be_used_is_told_and_nothing_is_written(call, record, workplace, arguments, told):
-    answer = call("identify", *arguments)
-    assert answer.code == 4
-    assert told in answer.err
+    call("identify", *arguments, code=4, says=told)
     assert [path.name for path in workplace.iterdir()] == ["record.parquet"]
 
 
@@ -186,8 +180,7 @@ def test_a_record_that_supports_nothing_is_refused_with_the_reason(
     channels = {**recording.channels, channel: change(recording[channel])}
     write_parquet(Recording(channels, recording.units), record)
     kind = "cylinder" if channel == "measured_pressure_2" else "hysteresis"
-    answer = call("identify", kind, "record.parquet", "-o", "found.yaml")
-    assert answer.code == 4
+    answer = call("identify", kind, "record.parquet", "-o", "found.yaml", code=4)
     assert answer.err.startswith("uictest: record.parquet: ")
     assert reason in answer.err
     assert "Warning" not in answer.err
@@ -199,8 +192,7 @@ def test_numbers_that_a_scenario_would_reject_are_not_written(call, record, work
     leading = np.roll(recording["cylinder_pressure_1"], -round(0.05 / STEP))
     force = np.maximum(4.5 * leading - 1.7, 0.0)
     write_parquet(Recording({**recording.channels, "clamping_force_1": force}, recording.units), record)
-    answer = call("identify", "hysteresis", "record.parquet", "-o", "found.yaml")
-    assert answer.code == 4
+    answer = call("identify", "hysteresis", "record.parquet", "-o", "found.yaml", code=4)
     assert "record.parquet: nothing written" in answer.err
     assert "found.yaml" in answer.err
     assert "the squeezing line must lie below the releasing line" in answer.err
@@ -218,16 +210,12 @@ def test_two_names_of_one_signal_hold_no_dynamics(call, record):
     recording = read_parquet(record)
     channels = {**recording.channels, "measured_pressure_2": recording["cylinder_pressure_1"]}
     write_parquet(Recording(channels, recording.units), record)
-    answer = call("identify", "cylinder", "record.parquet")
-    assert answer.code == 4
-    assert "the same, sample by sample" in answer.err
+    call("identify", "cylinder", "record.parquet", code=4, says="the same, sample by sample")
 
 
 def test_a_file_that_is_no_recording_is_refused(call, workplace):
     (workplace / "x.parquet").write_bytes(b"PAR1 and nothing else")
-    answer = call("identify", "cylinder", "x.parquet")
-    assert answer.code == 4
-    assert "x.parquet" in answer.err
+    call("identify", "cylinder", "x.parquet", code=4, says="x.parquet")
 
 
 def test_a_record_of_another_tank_than_assumed_is_refused_with_what_to_write(call, workplace):
@@ -235,6 +223,5 @@ def test_a_record_of_another_tank_than_assumed_is_refused_with_what_to_write(cal
     assert (
         call("bench", "wsp-cycling", "--set", "brake.system.tank.volume=4 L", "-o", "four.parquet").code == 0
     )
-    answer = call("identify", "air", "four.parquet")
-    assert answer.code == 4
+    answer = call("identify", "air", "four.parquet", code=4)
     assert "brake.system.tank.volume 4 L, not 2 L; write --set 'brake.system.tank.volume=4 L'" in answer.err

@@ -2,10 +2,8 @@ from pathlib import Path
 
 import pytest
 
-from ..conftest import Call
 
-
-def test_every_part_is_listed_with_its_title(call: Call) -> None:
+def test_every_part_is_listed_with_its_title(call):
     lines = call("library", "list").out.splitlines()
     listed = {line.split()[0] for line in lines}
     assert {"vehicles/intercity-180", "criteria/uic-541-05-appendix-b"} <= listed
@@ -13,10 +11,9 @@ def test_every_part_is_listed_with_its_title(call: Call) -> None:
     assert all(len(line.split(maxsplit=1)) == 2 for line in lines)
 
 
-def test_every_listed_part_shows_the_mark_of_every_number_and_each_source_once(call: Call) -> None:
+def test_every_listed_part_shows_the_mark_of_every_number_and_each_source_once(call):
     for line in call("library", "list").out.splitlines():
-        answer = call("library", "show", line.split()[0])
-        assert answer.code == 0
+        answer = call("library", "show", line.split()[0], code=0)
         if line.startswith(("channel_maps/", "pads/constant")):
             continue  # without numbers
         numbers, *rest = answer.out.split("\n\n")
@@ -27,24 +24,18 @@ def test_every_listed_part_shows_the_mark_of_every_number_and_each_source_once(c
         assert len({source.split()[0] for source in sources}) == len(sources)
 
 
-def test_a_compensation_shows_how_it_was_identified(call: Call) -> None:
+def test_parts_are_shown_with_provenance_known_names_and_numbers_as_written(call):
     shown = call("library", "show", "compensations/six-inch").out.split("\n\n")[-1]
     assert shown.startswith("provenance\n")
     assert "uictest identify cylinder" in shown
-
-
-def test_a_channel_map_shows_the_names_that_it_knows(call: Call) -> None:
     lines = call("library", "show", "channel_maps/common-names").out.splitlines()
     assert any(line.startswith("speed ") and "vZug" in line for line in lines)
-
-
-def test_a_number_is_shown_as_written(call: Call) -> None:
     lines = call("library", "show", "vehicles/manchester-benchmark").out.splitlines()
     (mass,) = (line for line in lines if line.startswith("body.mass"))
     assert mass.split()[1:4] == ["32000", "kg", "published"]
 
 
-def test_a_users_part_shows_marks_sources_and_what_it_changes(call: Call) -> None:
+def test_a_users_part_shows_marks_sources_and_what_it_changes(call):
     Path("mine.yaml").write_text(
         "schema: uictest/controller/1\nname: mine\ntitle: Ours\nextends: threshold\nslip_threshold: 3 km/h\n"
         "sources: {bench: {mark: published, text: Our bench test of 2024}}\n"
@@ -68,7 +59,7 @@ def test_a_users_part_shows_marks_sources_and_what_it_changes(call: Call) -> Non
         ("name: mine\n", "not a part: its schema is none"),
     ],
 )
-def test_a_file_that_is_no_part_exits_4_and_says_where(call: Call, text: str, message: str) -> None:
+def test_a_file_that_is_no_part_exits_4_and_says_where(call, text, message):
     Path("mine.yaml").write_text(text)
     answer = call("library", "show", "mine.yaml")
     assert (answer.code, answer.out) == (4, "")
@@ -78,7 +69,7 @@ def test_a_file_that_is_no_part_exits_4_and_says_where(call: Call, text: str, me
 @pytest.mark.parametrize(
     "reference", ["vehicles/intercity", "vehicle/intercity-180", "intercity-180", "\x1b[2J", ""]
 )
-def test_an_unknown_part_exits_4_and_says_what_there_is(call: Call, reference: str) -> None:
+def test_an_unknown_part_exits_4_and_says_what_there_is(call, reference):
     answer = call("library", "show", reference)
     assert (answer.code, answer.out) == (4, "")
     assert "intercity-180" in answer.err or "vehicles/..." in answer.err

@@ -4,12 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from ..conftest import Call, Write
 
-
-def test_one_id_per_line_that_can_be_run_and_titles_and_tags_on_demand(
-    call: Call, scenario: Write, made_up: list[str]
-) -> None:
+def test_one_id_per_line_that_can_be_run_and_titles_and_tags_on_demand(call, scenario, made_up):
     scenario("a", "title: A dry stop\ntags: [dry, quick]\n")
     scenario("b", "matrix:\n  brake.command: [80 %, 90 %]\n")
     answer = call("list")
@@ -19,7 +15,7 @@ def test_one_id_per_line_that_can_be_run_and_titles_and_tags_on_demand(
     assert made_up == call("list", "-k", "90").out.split() == ["b[command=90]"]
 
 
-def test_json(call: Call, scenario: Write) -> None:
+def test_json(call, scenario):
     scenario("a", "expect: fail\nmatrix:\n  brake.command: [80 %]\n")
     assert json.loads(call("list", "--format", "json").out) == [
         {
@@ -33,15 +29,13 @@ def test_json(call: Call, scenario: Write) -> None:
     ]
 
 
-def test_nothing_selected_exits_5(call: Call, scenario: Write) -> None:
+def test_nothing_selected_exits_5(call, scenario):
     scenario("a")
     assert call("list", "-m", "wet").code == 5
 
 
 @pytest.mark.parametrize("columns", ["40", "60", "80", "120"])
-def test_described_cases_keep_to_a_terminal_and_their_ids_stay_whole(
-    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch, columns: str
-) -> None:
+def test_described_cases_keep_to_a_terminal_and_their_ids_stay_whole(call, scenario, monkeypatch, columns):
     scenario("slide-80-four-caliper", "title: Slide test, a caliper in every module\ntags: [slide]\n")
     monkeypatch.setattr("uictest.cli.commands.list.terminal_width", lambda stream: int(columns))
     table = [line for line in call("list", "-v").out.splitlines() if not line.startswith("not shown")]
@@ -61,7 +55,7 @@ criteria:
 """
 
 
-def test_requirements_are_listed_with_what_verifies_them(call: Call, scenario: Write) -> None:
+def test_requirements_are_listed_with_what_verifies_them(call, scenario):
     scenario("a", "requirements: [BR-10, BR-2]\nmatrix:\n  brake.command: [80 %, 90 %]\n" + OWN)
     scenario("b", OWN)
     answer = call("list", "--requirements")
@@ -73,9 +67,7 @@ def test_requirements_are_listed_with_what_verifies_them(call: Call, scenario: W
 
 
 @pytest.mark.parametrize(("listed", "code"), [("BR-1\nBR-2\n", 1), ("BR-1\n", 0)])
-def test_a_list_shows_what_is_uncovered_and_what_it_does_not_know_and_can_fail(
-    call: Call, scenario: Write, listed: str, code: int
-) -> None:
+def test_a_list_shows_what_is_uncovered_and_what_it_does_not_know_and_can_fail(call, scenario, listed, code):
     scenario("a", "requirements: [BR-1, BR-X]\n")
     Path("all.txt").write_text(listed)
     command = ("list", "--requirements", "--requirement-list", "all.txt")
@@ -91,7 +83,7 @@ def test_a_list_shows_what_is_uncovered_and_what_it_does_not_know_and_can_fail(
     assert call(*command, "--fail-uncovered").code == code
 
 
-def test_requirements_as_json(call: Call, scenario: Write) -> None:
+def test_requirements_as_json(call, scenario):
     scenario("a", "requirements: [BR-1]\n" + OWN)
     of_scenario = {"scenario": "a", "cases": ["a"], "series_ids": []}
     of_criterion = {"criterion": "short", "profile": "own", "cases": ["a"], "series_ids": []}
@@ -101,13 +93,10 @@ def test_requirements_as_json(call: Call, scenario: Write) -> None:
     ]
 
 
-def test_requirements_of_selected_cases_only(call: Call, scenario: Write) -> None:
+def test_requirements_of_selected_cases_and_of_the_scenario_of_a_sweep(call, scenario, workplace):
     scenario("a", "requirements: [BR-1]\ntags: [wet]\n")
     scenario("b", "requirements: [BR-2]\n")
     assert call("list", "--requirements", "-m", "wet").out == "covered\tBR-1\tscenario a (1 case)\n"
-
-
-def test_requirements_of_the_scenario_of_a_sweep(call: Call, scenario: Write, workplace: Path) -> None:
     scenario("a", "requirements: [BR-1]\n")
     text = (
         "schema: uictest/sweep/1\nname: s\nscenario: scenarios/a.yaml\ngrid: {brake.command: [80 %, 90 %]}\n"
@@ -116,35 +105,28 @@ def test_requirements_of_the_scenario_of_a_sweep(call: Call, scenario: Write, wo
     assert call("list", "s.sweep.yaml", "--requirements").out == "covered\tBR-1\tscenario a (1 case)\n"
 
 
-def test_no_requirement_at_all(call: Call, scenario: Write) -> None:
+def test_no_requirement_at_all(call, scenario):
     scenario("a")
     answer = call("list", "--requirements")
     assert (answer.code, answer.out) == (0, "")
     assert answer.err == "uictest: no scenario, series or criterion names a requirement\n"
 
 
-def test_a_list_that_cannot_be_read_exits_4_and_names_the_line(
-    call: Call, scenario: Write, workplace: Path
-) -> None:
+def test_a_list_that_cannot_be_read_exits_4_and_names_the_line(call, scenario, workplace):
     scenario("a")
     (workplace / "all.txt").write_text("BR-1\nBR 2\n")
-    answer = call("list", "--requirements", "--requirement-list", "all.txt")
-    assert answer.code == 4
+    answer = call("list", "--requirements", "--requirement-list", "all.txt", code=4)
     assert answer.err.startswith("all.txt:2:1: 'BR 2' is not the id of a requirement")
 
 
 @pytest.mark.parametrize("option", [["--requirement-list", "all.txt"], ["--fail-uncovered"]])
-def test_options_of_requirements_need_the_word(call: Call, scenario: Write, option: list[str]) -> None:
+def test_options_of_requirements_need_the_word(call, scenario, option):
     scenario("a")
-    answer = call("list", *option)
-    assert answer.code == 4
-    assert "add --requirements" in answer.err
+    call("list", *option, code=4, says="add --requirements")
 
 
 @pytest.mark.parametrize("columns", ["40", "80"])
-def test_requirements_keep_to_a_terminal(
-    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch, columns: str
-) -> None:
+def test_requirements_keep_to_a_terminal(call, scenario, monkeypatch, columns):
     scenario("slide-80-four-caliper", "requirements: [BR-WSP-AUTHORITY-12, BR-1]\n" + OWN)
     width = "uictest.cli.requirement_listing.terminal_width"
     monkeypatch.setattr(width, lambda stream: int(columns))

@@ -1,18 +1,15 @@
 import os
 import sys
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from ..conftest import Call, MadeOnce, Write
-
 
 @pytest.fixture
-def runs(call: Call, scenario: Write, made_up: list[str], made_once: MadeOnce) -> list[str]:
+def runs(call, scenario, made_up, made_once):
     """The names of two runs below `reports`, oldest first."""
 
-    def make() -> None:
+    def make():
         scenario("stop")
         call("run")
         call("run", "--seed", "3")
@@ -25,83 +22,71 @@ def runs(call: Call, scenario: Write, made_up: list[str], made_once: MadeOnce) -
 
 
 @pytest.fixture(autouse=True)
-def no_display(monkeypatch: pytest.MonkeyPatch) -> None:
+def no_display(monkeypatch):
     for variable in ("BROWSER", "DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(variable, raising=False)
 
 
-def opened(answer: Any) -> Path:
+def opened(answer):
     assert answer.code == 0, answer.err
     return Path(answer.out.removesuffix("\n"))
 
 
 @pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="there is always a display")
-def test_without_a_display_the_path_of_the_index_is_printed(call: Call, runs: list[str]) -> None:
+def test_without_a_display_the_path_of_the_index_is_printed(call, runs):
     answer = call("open")
     assert opened(answer) == Path("reports", "index.html").absolute()
     assert answer.err == "uictest: there is no display here; open the file yourself\n"
 
 
-def test_the_newest_run_is_opened_with_last(call: Call, runs: list[str]) -> None:
+def test_the_newest_run_is_opened_with_last_and_others_by_name_or_folder(call, runs):
     assert opened(call("open", "--last")) == Path("reports", runs[-1], "index.html").absolute()
-
-
-def test_a_run_is_named_by_its_name_or_its_folder(call: Call, runs: list[str]) -> None:
     page = Path("reports", runs[0], "index.html").absolute()
     assert opened(call("open", runs[0])) == page
     assert opened(call("open", Path("reports", runs[0]))) == page
     assert opened(call("open", "latest")).resolve() == Path("reports", runs[-1], "index.html").resolve()
 
 
-def test_a_folder_of_runs_elsewhere_is_opened(call: Call, runs: list[str]) -> None:
+def test_a_folder_of_runs_elsewhere_is_opened(call, runs):
     Path("reports").rename("nightly")
     for arguments in (["nightly"], ["-o", "nightly"]):
         assert opened(call("open", *arguments)) == Path("nightly", "index.html").absolute()
 
 
-def test_the_index_is_written_anew(call: Call, runs: list[str]) -> None:
+def test_a_mistyped_name_has_a_hint_and_the_index_is_written_anew(call, runs):
     index = Path("reports", "index.html")
     index.unlink()
     assert opened(call("open")) == index.absolute()
     assert runs[0] in index.read_text("utf-8")
-
-
-def test_a_mistyped_name_has_a_hint(call: Call, runs: list[str]) -> None:
     answer = call("open", runs[0][:-1])
     assert (answer.code, answer.out) == (4, "")
     assert f"did you mean {runs[0]!r}?" in answer.err
 
 
 @pytest.mark.parametrize("name", ["nothing", "../..", "-o nowhere"])
-def test_what_is_no_run_is_a_usage_error(call: Call, runs: list[str], name: str) -> None:
+def test_what_is_no_run_is_a_usage_error(call, runs, name):
     Path("nothing").mkdir()
     answer = call("open", *name.split())
     assert (answer.code, answer.out) == (4, "")
     assert answer.err.startswith("uictest: ")
 
 
-def test_a_run_without_a_page_says_how_to_write_one(call: Call, scenario: Write, made_up: list[str]) -> None:
+def test_a_run_without_a_page_says_how_to_write_one(call, scenario, made_up):
     scenario("stop")
     call("run", "--report", "csv")
-    answer = call("open", "--last")
-    assert answer.code == 4
-    assert "--format html writes it" in answer.err
+    call("open", "--last", code=4, says="--format html writes it")
 
 
-def test_an_index_of_somebody_else_is_neither_opened_nor_replaced(call: Call, runs: list[str]) -> None:
+def test_an_index_of_somebody_else_is_neither_opened_nor_replaced(call, runs):
     index = Path("reports", "index.html")
     index.write_text("mine")
-    answer = call("open")
-    assert answer.code == 4
-    assert "--last opens the newest run" in answer.err
+    call("open", code=4, says="--last opens the newest run")
     assert index.read_text() == "mine"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a shell script stands for the browser")
 @pytest.mark.parametrize(("exit_code", "complaint"), [(0, ""), (3, "no browser could be started")])
-def test_the_browser_of_the_environment_gets_the_address(
-    process: Call, runs: list[str], tmp_path: Path, exit_code: int, complaint: str
-) -> None:
+def test_the_browser_of_the_environment_gets_the_address(process, runs, tmp_path, exit_code, complaint):
     browser = tmp_path / "browser"
     browser.write_text(f'#!/bin/sh\necho "$@" > {tmp_path}/opened\nexit {exit_code}\n')
     browser.chmod(0o755)

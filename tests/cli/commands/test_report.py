@@ -2,21 +2,18 @@ from pathlib import Path
 
 import pytest
 
-from ..conftest import Call, Write
-
 pytestmark = pytest.mark.usefixtures("made_up")
 
 
 @pytest.fixture
-def run(call: Call, scenario: Write) -> Path:
+def run(call, scenario):
     scenario("a", "tags: [fail]\n")
     call("run", "--report", "csv")
     return Path("reports/latest")
 
 
-def test_further_formats_are_written_into_the_run_and_named(call: Call, run: Path) -> None:
-    answer = call("report", run, "--format", "xlsx,html,md")
-    assert answer.code == 0
+def test_further_formats_are_written_into_the_run_and_named(call, run):
+    answer = call("report", run, "--format", "xlsx,html,md", code=0)
     names = ["report.xlsx", "index.html", "summary.md"]
     assert [Path(line).name for line in answer.out.splitlines()] == names
     assert all((run / name).stat().st_size for name in names)
@@ -25,16 +22,13 @@ def test_further_formats_are_written_into_the_run_and_named(call: Call, run: Pat
 @pytest.mark.parametrize(
     ("expression", "said"), [("b", "no case of the run matches 'b'"), ("a and", "in 'a and'")]
 )
-def test_stops_to_draw_are_chosen_among_those_there_are(
-    call: Call, run: Path, expression: str, said: str
-) -> None:
-    answer = call("report", run, "--format", "html", "--draw", expression)
-    assert answer.code == 4
+def test_stops_to_draw_are_chosen_among_those_there_are(call, run, expression, said):
+    answer = call("report", run, "--format", "html", "--draw", expression, code=4)
     assert said in " ".join(answer.err.split())
     assert call("report", run, "--format", "html", "--draw", "a").code == 0
 
 
-def test_they_can_go_elsewhere(call: Call, run: Path) -> None:
+def test_they_can_go_elsewhere(call, run):
     assert call("report", run, "--format", "csv", "-o", "elsewhere/deep").code == 0
     assert sorted(path.name for path in Path("elsewhere/deep").iterdir()) == [
         "criteria.csv",
@@ -47,7 +41,7 @@ def test_they_can_go_elsewhere(call: Call, run: Path) -> None:
     "arguments",
     [["missing"], ["scenarios"], ["reports/latest", "--format", "pdf"], ["reports/latest", "-o", "a.txt"]],
 )
-def test_what_is_no_run_or_no_format_is_refused(call: Call, run: Path, arguments: list[str]) -> None:
+def test_what_is_no_run_or_no_format_is_refused(call, run, arguments):
     Path("a.txt").touch()
     answer = call("report", *arguments)
     assert answer.code in (3, 4)
@@ -66,15 +60,13 @@ def test_what_is_no_run_or_no_format_is_refused(call: Call, run: Path, arguments
         ("study", "study holds a sweep that is not finished: run its command again"),
     ],
 )
-def test_a_folder_is_named_for_what_it_is(call: Call, run: Path, place: str, said: str) -> None:
+def test_a_folder_is_named_for_what_it_is(call, run, place, said):
     Path("study").mkdir()
     Path("study/manifest.json").write_text('{"schema": "uictest/sweep-manifest/1"}')
-    answer = call("report", place)
-    assert answer.code == 4
-    assert said in answer.err
+    call("report", place, code=4, says=said)
 
 
-def test_a_run_that_names_the_newest_in_a_file_is_found(call: Call, run: Path) -> None:
+def test_a_run_that_names_the_newest_in_a_file_is_found(call, run):
     target = run.resolve()
     run.unlink()
     run.write_text(f"{target.name}\n")

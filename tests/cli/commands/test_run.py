@@ -7,20 +7,17 @@ import pytest
 from uictest import report
 from uictest.running import campaign
 
-from ..conftest import Call, Write
-
 pytestmark = pytest.mark.usefixtures("made_up")
 
 
-def _reports() -> list[str]:
+def _reports():
     return sorted(path.name for path in Path("reports").iterdir()) if Path("reports").exists() else []
 
 
-def test_met_cases_exit_0_with_one_line_each_and_reports_on_disk(call: Call, scenario: Write) -> None:
+def test_met_cases_exit_0_with_one_line_each_and_reports_on_disk(call, scenario):
     scenario("a")
     scenario("b")
-    answer = call("run")
-    assert answer.code == 0
+    answer = call("run", code=0)
     assert [line.split()[:2] for line in answer.out.splitlines()] == [["pass", "a"], ["pass", "b"]]
     assert "2 cases: 2 pass" in answer.err
     files = sorted(path.name for path in Path("reports/latest/").iterdir())
@@ -37,18 +34,17 @@ def test_met_cases_exit_0_with_one_line_each_and_reports_on_disk(call: Call, sce
     ]
 
 
-def test_a_missed_case_exits_1_and_an_error_3(call: Call, scenario: Write) -> None:
+def test_a_missed_case_exits_1_and_an_error_3(call, scenario):
     scenario("a", "tags: [fail]\nexpect: fail\n")
     assert call("run").code == 0
     scenario("a", "tags: [fail]\n")
     assert call("run").code == 1
     scenario("b", "tags: [error]\n")
-    answer = call("run")
-    assert answer.code == 3
+    answer = call("run", code=3)
     assert "error b outcome=error expect=pass reason=ZeroDivisionError: no wheel load" in answer.out
 
 
-def test_nothing_selected_exits_5_and_writes_nothing(call: Call, scenario: Write) -> None:
+def test_nothing_selected_exits_5_and_writes_nothing(call, scenario):
     scenario("a", "tags: [wet]\n")
     answer = call("run", "-k", "snow")
     assert (answer.code, answer.out) == (5, "")
@@ -78,9 +74,7 @@ def test_nothing_selected_exits_5_and_writes_nothing(call: Call, scenario: Write
         ["missing.yaml"],
     ],
 )
-def test_a_usage_error_exits_4_with_one_message_and_nothing_written(
-    call: Call, scenario: Write, arguments: list[str]
-) -> None:
+def test_a_usage_error_exits_4_with_one_message_and_nothing_written(call, scenario, arguments):
     scenario("a")
     answer = call("run", *arguments)
     assert (answer.code, answer.out) == (4, "")
@@ -89,10 +83,8 @@ def test_a_usage_error_exits_4_with_one_message_and_nothing_written(
     assert _reports() == []
 
 
-def test_without_a_folder_of_scenarios_the_way_to_one_is_shown(call: Call) -> None:
-    answer = call("run")
-    assert answer.code == 4
-    assert "uictest init" in answer.err
+def test_without_a_folder_of_scenarios_the_way_to_one_is_shown(call):
+    call("run", code=4, says="uictest init")
 
 
 @pytest.mark.parametrize(
@@ -104,9 +96,7 @@ def test_without_a_folder_of_scenarios_the_way_to_one_is_shown(call: Call) -> No
         (["scenarios/b.yaml", "scenarios/a.yaml"], ["b", "a"]),
     ],
 )
-def test_selection(
-    call: Call, scenario: Write, made_up: list[str], arguments: list[str], ids: list[str]
-) -> None:
+def test_selection(call, scenario, made_up, arguments, ids):
     scenario("a")
     scenario("b", "tags: [wet]\n")
     scenario("c", "tags: [wet, long]\n")
@@ -114,22 +104,25 @@ def test_selection(
     assert sorted(made_up) == sorted(ids)
 
 
-def test_dry_run_lists_and_does_nothing(call: Call, scenario: Write, made_up: list[str]) -> None:
+def test_dry_run_lists_and_does_nothing(call, scenario, made_up):
     scenario("a", "matrix:\n  brake.command: [80 %, 90 %]\n")
     answer = call("run", "--dry-run")
     assert (answer.code, answer.out) == (0, "a[command=80]\na[command=90]\n")
     assert made_up == _reports() == []
 
 
-def test_set_sweeps_and_parameters_reach_the_summary(call: Call, scenario: Write) -> None:
+def test_set_sweeps_and_durations_name_the_slowest(call, scenario):
     scenario("a")
     assert call("run", "--set", "brake.command=80 %,90 %").code == 0
     header, *rows = Path("reports/latest/summary.csv").read_text().splitlines()
     assert "parameters.brake.command" in header
     assert len(rows) == 2
+    scenario("b")
+    assert "the slowest 1 of 2 cases" in call("run", "--durations", "1").err
+    assert "the slowest 2 of 2 cases" in call("run", "--durations", "0").err
 
 
-def test_json_is_the_document_and_nothing_else(call: Call, scenario: Write) -> None:
+def test_json_is_the_document_and_nothing_else(call, scenario):
     scenario("a")
     answer = call("run", "--format", "json")
     assert answer.out == Path("reports/latest/results.json").read_text()
@@ -137,31 +130,28 @@ def test_json_is_the_document_and_nothing_else(call: Call, scenario: Write) -> N
     assert (document["schema"], document["complete"]) == ("uictest/result/2", True)
 
 
-def test_github_annotates_what_is_not_met(call: Call, scenario: Write) -> None:
+def test_github_annotates_what_is_not_met_and_quiet_shows_nothing_else(call, scenario):
     scenario("a")
     scenario("b", "tags: [fail]\n")
     lines = call("run", "--format", "github").out.splitlines()
     assert [line.split()[0] for line in lines] == ["pass", "fail", "::error"]
     assert lines[2].startswith("::error file=scenarios/b.yaml,title=fail b::")
+    answer = call("run", "-q")
+    assert [line.split()[0] for line in answer.out.splitlines()] == ["fail"]
+    assert answer.err == ""
 
 
 @pytest.mark.parametrize(
     ("file", "said"), [("no/junit.xml", "no/junit.xml: there is no folder no"), (".", ". is a folder")]
 )
-def test_junit_with_no_place_is_refused_before_the_first_case(
-    call: Call, scenario: Write, made_up: list[str], file: str, said: str
-) -> None:
+def test_junit_with_no_place_is_refused_before_the_first_case(call, scenario, made_up, file, said):
     scenario()
-    answer = call("run", "--junitxml", file)
-    assert answer.code == 4
-    assert f"--junitxml: {said}" in answer.err
+    call("run", "--junitxml", file, code=4, says=f"--junitxml: {said}")
     assert not made_up
 
 
 @pytest.mark.parametrize("file", ["junit.xml", "out/junit.xml", "out/latest/other.xml"])
-def test_junit_is_written_where_it_is_wanted_and_in_the_reports(
-    call: Call, scenario: Write, file: str
-) -> None:
+def test_junit_is_written_where_it_is_wanted_and_in_the_reports(call, scenario, file):
     scenario("a", "tags: [fail]\n")
     call("run", "--junitxml", file, "-o", "out")
     root = ElementTree.parse(file).getroot()
@@ -170,32 +160,16 @@ def test_junit_is_written_where_it_is_wanted_and_in_the_reports(
 
 
 @pytest.mark.parametrize("option", [["-x"], ["--maxfail", "1"]])
-def test_the_first_missed_case_ends_the_run(call: Call, scenario: Write, option: list[str]) -> None:
+def test_the_first_missed_case_ends_the_run(call, scenario, option):
     for name in "abc":
         scenario(name, "tags: [fail]\n")
-    answer = call("run", *option)
-    assert answer.code == 1
+    answer = call("run", *option, code=1)
     assert answer.out.count("outcome=fail expect=pass") == 1
     assert "2 not run" in answer.err
     assert json.loads(Path("reports/latest/results.json").read_text())["complete"] is False
 
 
-def test_quiet_shows_only_what_is_not_met(call: Call, scenario: Write) -> None:
-    scenario("a")
-    scenario("b", "tags: [fail]\n")
-    answer = call("run", "-q")
-    assert [line.split()[0] for line in answer.out.splitlines()] == ["fail"]
-    assert answer.err == ""
-
-
-def test_durations_name_the_slowest(call: Call, scenario: Write) -> None:
-    scenario("a")
-    scenario("b")
-    assert "the slowest 1 of 2 cases" in call("run", "--durations", "1").err
-    assert "the slowest 2 of 2 cases" in call("run", "--durations", "0").err
-
-
-def test_colour_is_off_unless_wanted(call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_colour_is_off_unless_wanted(call, scenario, monkeypatch):
     scenario("a")
     assert "\x1b" not in call("run").out
     assert "\x1b[32mpass\x1b[0m a" in call("run", "--color", "always").out
@@ -203,7 +177,7 @@ def test_colour_is_off_unless_wanted(call: Call, scenario: Write, monkeypatch: p
     assert "\x1b" not in call("run").out
 
 
-def test_the_manifest_holds_command_seed_and_inputs(call: Call, scenario: Write) -> None:
+def test_the_manifest_holds_command_seed_and_inputs(call, scenario):
     path = scenario("a")
     call("run", path.absolute(), "--seed", "7")
     manifest = json.loads(Path("reports/latest/manifest.json").read_text())
@@ -213,16 +187,13 @@ def test_the_manifest_holds_command_seed_and_inputs(call: Call, scenario: Write)
     assert str(Path.cwd()) not in json.dumps(manifest)
 
 
-def test_an_internal_error_is_one_line_and_a_traceback_only_with_v(
-    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def broken(*_: object) -> None:
+def test_an_internal_error_is_one_line_and_a_traceback_only_with_v(call, scenario, monkeypatch):
+    def broken(*_):
         raise RuntimeError("a \x1b[31mbug")
 
     scenario("a")
     monkeypatch.setattr(report, "run_manifest", broken)
-    answer = call("run")
-    assert answer.code == 3
+    answer = call("run", code=3)
     assert answer.err.splitlines() == [
         r"uictest: internal error: RuntimeError: a \x1b[31mbug (-v shows where)"
     ]
@@ -230,8 +201,8 @@ def test_an_internal_error_is_one_line_and_a_traceback_only_with_v(
 
 
 def test_an_interrupt_before_the_first_case_is_finished_exits_2_and_writes_nothing(
-    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    call, scenario, monkeypatch
+):
     scenario("a")
     monkeypatch.setattr(campaign, "run_cases", lambda *_, **__: campaign.BatchResult([], interrupted=True))
     answer = call("run", "--format", "json")
@@ -240,10 +211,8 @@ def test_an_interrupt_before_the_first_case_is_finished_exits_2_and_writes_nothi
     assert _reports() == []
 
 
-def test_an_interrupt_outside_the_simulation_exits_2(
-    call: Call, scenario: Write, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def interrupted(*_: object, **__: object) -> None:
+def test_an_interrupt_outside_the_simulation_exits_2(call, scenario, monkeypatch):
+    def interrupted(*_, **__):
         raise KeyboardInterrupt
 
     scenario("a")

@@ -6,23 +6,17 @@ from typing import Any
 
 import pytest
 
-from ..conftest import Call, Write
-
-Call = Call
-
 WET = "rail: {condition: wet, friction: 0.05}\ncriteria: uictest-stop\n"
 
 
-def results() -> list[dict[str, Any]]:
+def results():
     document: dict[str, Any] = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
-    cases: list[dict[str, Any]] = document["cases"]
-    return cases
+    return document["cases"]
 
 
-def test_the_option_repeats_every_stop(call: Call, scenario: Write) -> None:
+def test_the_option_repeats_every_stop(call, scenario):
     path = scenario("stop", f"{WET}seed: 3\nrepeat: 2\n")
-    answer = call("run", path, "--repeat", "3")
-    assert answer.code == 0
+    answer = call("run", path, "--repeat", "3", code=0)
     assert answer.out.startswith(
         "pass stop outcome=pass expect=pass stops=3 passed=3 share=1 share_low=0.2924"
     )
@@ -34,7 +28,7 @@ def test_the_option_repeats_every_stop(call: Call, scenario: Write) -> None:
     assert not Path("reports/latest/repeats.csv").exists()
 
 
-def test_reports_are_written_again_from_the_results(call: Call, scenario: Write) -> None:
+def test_reports_are_written_again_from_the_results(call, scenario):
     call("run", scenario("stop", WET), "--repeat", "2", "--record", "all")
     run = Path("reports/latest").resolve()
     names = ("summary.csv", "criteria.csv", "repeats.csv", "index.html")
@@ -45,21 +39,19 @@ def test_reports_are_written_again_from_the_results(call: Call, scenario: Write)
     assert "2 stops, seeds 0..1: all pass" in Path("again/index.html").read_text("utf-8").lower()
 
 
-def test_an_expectation_is_met_by_all_stops_or_not(call: Call, scenario: Write) -> None:
+def test_an_expectation_is_met_by_all_stops_or_not(call, scenario):
     path = scenario("stop", f"{WET}expect: fail\n")
-    answer = call("run", path, "--repeat", "2")
-    assert answer.code == 1
+    answer = call("run", path, "--repeat", "2", code=1)
     assert answer.out.startswith("unexpected-pass stop outcome=pass expect=fail stops=2 passed=2")
     assert "fail 0 % (0 .. 84.2 % with 95 % confidence); rule: all" in answer.out
     assert call("run", path, "--repeat", "2", "--lf").code == 1
 
 
-def test_a_baseline_compares_medians_shares_and_the_number_of_stops(call: Call, scenario: Write) -> None:
+def test_a_baseline_compares_medians_shares_and_the_number_of_stops(call, scenario):
     path = scenario("stop", WET)
     call("run", path, "--repeat", "2", "--baseline", "accepted", "--accept")
     assert call("run", path, "--repeat", "2", "--baseline", "accepted").code == 0
-    answer = call("run", path, "--repeat", "3", "--baseline", "accepted", "--tolerance", "100%")
-    assert answer.code == 1
+    answer = call("run", path, "--repeat", "3", "--baseline", "accepted", "--tolerance", "100%", code=1)
     assert "baseline: stops was 2, rule all, is 3, rule all" in answer.out
 
 
@@ -71,20 +63,15 @@ def test_a_baseline_compares_medians_shares_and_the_number_of_stops(call: Call, 
         (("run", "--real-time"), "stop repeats its stop 2 times; run one stop: --repeat 1"),
     ],
 )
-def test_what_cannot_be_repeated_is_said(
-    call: Call, scenario: Write, arguments: tuple[str, ...], message: str
-) -> None:
+def test_what_cannot_be_repeated_is_said(call, scenario, arguments, message):
     scenario("stop", "repeat: 2\n")
-    answer = call(*arguments)
-    assert answer.code == 4
-    assert message in answer.err
+    call(*arguments, code=4, says=message)
 
 
-def test_a_recording_is_one_stop(call: Call, scenario: Write) -> None:
+def test_a_recording_is_one_stop(call, scenario):
     path = scenario("stop", f"{WET}repeat: 2\n")
     call("run", path, "--record", "all")
-    answer = call("evaluate", Path("reports/latest/recordings/stop.parquet"), "--scenario", path)
-    assert answer.code == 0
+    answer = call("evaluate", Path("reports/latest/recordings/stop.parquet"), "--scenario", path, code=0)
     assert "note: stop: `repeat` plays no part: a recording is one stop" in answer.err
     assert "stops=" not in answer.out
 
@@ -103,16 +90,13 @@ def test_a_recording_is_one_stop(call: Call, scenario: Write) -> None:
         ),
     ],
 )
-def test_a_sweep_runs_one_stop_per_case(
-    call: Call, scenario: Write, repeat: int, grid: str, said: list[str]
-) -> None:
+def test_a_sweep_runs_one_stop_per_case(call, scenario, repeat, grid, said):
     scenario("stop", f"{WET}repeat: {repeat}\n")
     sweep = Path("scenarios/study.sweep.yaml")
     sweep.write_text(
         f"schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\ngrid: {{{grid}}}\n", "utf-8"
     )
-    answer = call("sweep", sweep, "--dry-run")
-    assert answer.code == 4
+    answer = call("sweep", sweep, "--dry-run", code=4)
     for each in said:
         assert each in answer.err
     assert (call("sweep", sweep, "--dry-run", "--set", "repeat=1").code == 0) is (repeat == 2)

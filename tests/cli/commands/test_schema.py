@@ -3,10 +3,8 @@ from pathlib import Path
 
 import jsonschema
 
-from ..conftest import Call
 
-
-def test_the_schema_is_draft_07_and_the_same_on_stdout_and_in_a_file(call: Call) -> None:
+def test_the_schema_is_draft_07_and_the_same_on_stdout_and_in_a_file(call):
     printed = call("schema").out
     assert call("schema", "-o", "schema.json").out == ""
     assert Path("schema.json").read_text("utf-8") == printed
@@ -15,7 +13,5 @@ def test_the_schema_is_draft_07_and_the_same_on_stdout_and_in_a_file(call: Call)
     jsonschema.Draft7Validator.check_schema(schema)
 
 
-def test_a_file_in_a_folder_that_is_not_there_exits_4(call: Call) -> None:
-    answer = call("schema", "-o", "missing/schema.json")
-    assert answer.code == 4
-    assert "No such file or directory" in answer.err
+def test_a_file_in_a_folder_that_is_not_there_exits_4(call):
+    call("schema", "-o", "missing/schema.json", code=4, says="No such file or directory")

@@ -1,9 +1,7 @@
 """Every kind of file has a schema that its shipped files keep to and that mistakes do not."""
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import jsonschema
 import pytest
@@ -13,29 +11,28 @@ from uictest.plans.scenario import PART_MODELS
 from uictest.plans.scenario.yaml import plain, read_file
 
 REPOSITORY = Path(__file__).parents[3]
-LIBRARY = REPOSITORY / "src" / "uictest" / "library"
 KINDS = {kind.value: kind for kind in SchemaKind}
-PARTS = [LIBRARY, REPOSITORY / "examples", REPOSITORY / "calibration"]
+PARTS = [REPOSITORY / name for name in ("src/uictest/plans/library", "examples", "calibration", "scenarios")]
 
 
-def _document(path: Path) -> Any:
+def _document(path):
     return json.loads(json.dumps(plain(read_file(path))))
 
 
-def _files() -> Iterator[Path]:
+def _files():
     for folder in PARTS:
         for path in sorted(folder.rglob("*.yaml")):
             if path.read_text("utf-8").partition("uictest/")[2].partition("/")[0] in KINDS:
                 yield path
 
 
-def _errors(path_or_kind: str, document: Any) -> list[str]:
+def _errors(path_or_kind, document):
     validator = jsonschema.Draft7Validator(json.loads(schema_text(KINDS[path_or_kind])))
     return [f"{list(error.path)}: {error.message}" for error in validator.iter_errors(document)]
 
 
 @pytest.mark.parametrize("kind", SchemaKind, ids=str)
-def test_the_schema_of_each_kind_is_kept_in_the_repository(kind: SchemaKind) -> None:
+def test_the_schema_of_each_kind_is_kept_in_the_repository(kind):
     text = schema_text(kind)
     jsonschema.Draft7Validator.check_schema(json.loads(text))
     kept = REPOSITORY / "schema" / f"{kind}.schema.json"
@@ -43,15 +40,16 @@ def test_the_schema_of_each_kind_is_kept_in_the_repository(kind: SchemaKind) -> 
 
 
 @pytest.mark.parametrize("path", list(_files()), ids=lambda path: path.stem)
-def test_shipped_files_keep_to_the_schema_and_a_mistyped_key_does_not(path: Path) -> None:
+def test_shipped_files_keep_to_the_schema_and_a_mistyped_key_does_not(path):
     document = _document(path)
     kind = document["schema"].split("/")[1]
     assert _errors(kind, document) == []
     assert _errors(kind, {**document, "mistyped_key": 1}) != []
 
 
-def test_every_kind_of_part_has_a_schema() -> None:
+def test_every_kind_has_a_schema_and_shipped_files():
     assert PART_MODELS.keys() <= set(KINDS)
+    assert {_document(path)["schema"].split("/")[1] for path in _files()} == set(KINDS) - {"validation"}
 
 
 @pytest.mark.parametrize(
@@ -71,12 +69,12 @@ def test_every_kind_of_part_has_a_schema() -> None:
         ("channel-map", {"extends": "uictest", "channels": {"speed": 3}}, False),
     ],
 )
-def test_a_part_states_only_what_differs(kind: str, own: dict[str, Any], valid: bool) -> None:
+def test_a_part_states_only_what_differs(kind, own, valid):
     document = {"schema": f"uictest/{kind}/1", "name": "mine", **own}
     assert (_errors(kind, document) == []) is valid
 
 
-def test_the_examples_name_the_schema_of_their_kind() -> None:
+def test_the_examples_name_the_schema_of_their_kind():
     for path in sorted((REPOSITORY / "examples").rglob("*.yaml")):
         first = path.read_text("utf-8").splitlines()[0]
         named = path.parent / first.removeprefix("# yaml-language-server: $schema=")

@@ -2,7 +2,6 @@
 
 import json
 import math
-from collections.abc import Callable
 from pathlib import Path
 
 import junitparser
@@ -11,14 +10,12 @@ import pytest
 from uictest import report, selftest
 from uictest.selftest import examination
 
-from ..conftest import Call
 
-
-def no_answer(stops: selftest.KnownStops) -> selftest.Answer:
+def no_answer(stops):
     raise ZeroDivisionError("no wheel load")
 
 
-def not_here(stops: selftest.KnownStops) -> selftest.Answer:
+def not_here(stops):
     raise selftest.NotCheckedError("no C compiler (cc)")
 
 
@@ -37,10 +34,10 @@ FOUR = ("met", "missed", "error", "skipped")
 
 
 @pytest.fixture
-def asks(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+def asks(monkeypatch):
     """Let the installation be asked only some made-up questions."""
 
-    def ask(*names: str) -> None:
+    def ask(*names):
         monkeypatch.setattr(examination, "all_checks", lambda stops: [CHECKS[name] for name in names])
 
     return ask
@@ -48,23 +45,14 @@ def asks(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
 
 @pytest.mark.parametrize(
     ("names", "code"),
-    [
-        (("met",), 0),
-        (("met", "skipped"), 0),
-        (("met", "missed"), 1),
-        (("missed", "error"), 3),
-    ],
+    [(("met",), 0), (("met", "skipped"), 0), (("met", "missed"), 1), (("missed", "error"), 3)],
 )
-def test_exit_code_is_that_of_the_worst_finding(
-    call: Call, asks: Callable[..., None], names: tuple[str, ...], code: int
-) -> None:
+def test_exit_code_is_that_of_the_worst_finding(call, asks, names, code):
     asks(*names)
     assert call("selftest").code == code
 
 
-def test_the_table_names_what_was_expected_and_found_and_hides_nothing(
-    call: Call, asks: Callable[..., None]
-) -> None:
+def test_the_table_names_what_was_expected_and_found_to_the_tenth_digit_and_hides_nothing(call, asks):
     asks(*FOUR)
     lines = call("selftest").out.splitlines()
     assert "tank   pass     1         1.001  1e-02   K     a tank" in lines
@@ -75,20 +63,15 @@ def test_the_table_names_what_was_expected_and_found_and_hides_nothing(
         "skipped c: no C compiler (cc)",
         "4 checks: 1 skipped, 1 pass, 1 fail, 1 error",
     ]
+    asks("close")
+    assert "1.000000001" in call("selftest").out
 
 
 @pytest.mark.parametrize(
     ("width", "hidden"),
-    [
-        (None, []),
-        (100, []),
-        (45, ["within", "unit"]),
-        (40, ["within", "unit", "requirement"]),
-    ],
+    [(None, []), (100, []), (45, ["within", "unit"]), (40, ["within", "unit", "requirement"])],
 )
-def test_a_narrow_table_keeps_the_verdict_and_says_what_it_leaves_out(
-    width: int | None, hidden: list[str]
-) -> None:
+def test_a_narrow_table_keeps_the_verdict_and_says_what_it_leaves_out(width, hidden):
     """What was expected and found goes last, and is in JSON all the same."""
     stops = selftest.KnownStops()
     examined = selftest.examine(stops, [CHECKS["met"]])
@@ -102,14 +85,7 @@ def test_a_narrow_table_keeps_the_verdict_and_says_what_it_leaves_out(
     )
 
 
-def test_numbers_that_differ_in_the_tenth_digit_are_told_apart(call: Call, asks: Callable[..., None]) -> None:
-    asks("close")
-    assert "1.000000001" in call("selftest").out
-
-
-def test_json_has_the_installation_and_every_finding_with_numbers_as_numbers(
-    call: Call, asks: Callable[..., None]
-) -> None:
+def test_json_has_the_installation_and_every_finding_with_numbers_as_numbers(call, asks):
     asks(*FOUR, "nothing")
     document = json.loads(call("selftest", "--format", "json").out)
     assert (document["schema"], document["status"]) == ("uictest/selftest/2", "error")
@@ -131,9 +107,7 @@ def test_json_has_the_installation_and_every_finding_with_numbers_as_numbers(
     }
 
 
-def test_junit_has_a_testcase_for_every_question_that_says_why_it_failed(
-    call: Call, asks: Callable[..., None]
-) -> None:
+def test_junit_has_a_testcase_for_every_question_that_says_why_it_failed(call, asks):
     asks(*FOUR, "nothing")
     call("selftest", "--junitxml", "selftest.xml")
     [suite] = junitparser.JUnitXml.fromfile(str(Path("selftest.xml")))

@@ -2,7 +2,6 @@
 
 import json
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import pytest
@@ -10,8 +9,6 @@ import pytest
 from uictest.core import recording
 from uictest.core.recording.formats import writer_of
 from uictest.judging import series
-
-from ..conftest import Call, Write
 
 DRY = "tags: [reference]\nrail: {condition: dry}\ncriteria: uictest-stop\n"
 WET = "rail: {condition: wet, friction: 0.06}\ncriteria: uictest-stop\n"
@@ -31,10 +28,10 @@ criteria: own.yaml
 
 
 @pytest.fixture
-def campaign(scenario: Write) -> Write:
+def campaign(scenario):
     """scenarios/small.series.yaml with a dry stop and two wet ones from 30 km/h, and its own criteria."""
 
-    def write(limit: str = "900 % of the dry stop", text: str = "") -> Path:
+    def write(limit="900 % of the dry stop", text=""):
         scenario("dry", DRY)
         scenario("wet", WET)
         Path("scenarios/own.yaml").write_text(PROFILE.replace("LIMIT", limit))
@@ -45,7 +42,7 @@ def campaign(scenario: Write) -> Write:
     return write
 
 
-def test_requirements_of_series_are_listed(call: Call, campaign: Write) -> None:
+def test_requirements_of_series_are_listed(call, campaign):
     path = campaign(text="requirements: [BR-1, BR-2]\n")
     answer = call("list", path, "--requirements")
     assert answer.out == "covered\tBR-1\tseries small (1 series)\ncovered\tBR-2\tseries small (1 series)\n"
@@ -53,13 +50,12 @@ def test_requirements_of_series_are_listed(call: Call, campaign: Write) -> None:
     assert first["verified_by"] == [{"series": "small", "cases": [], "series_ids": ["small"]}]
 
 
-def results() -> Any:
+def results():
     return json.loads(Path("reports/latest/results.json").read_text())
 
 
-def test_a_series_is_run_judged_and_reported(call: Call, campaign: Write) -> None:
-    answer = call("run", campaign(), "--report", "csv,html,md,xlsx")
-    assert answer.code == 0
+def test_a_series_is_run_judged_and_reported_and_reported_again(call, campaign):
+    answer = call("run", campaign(), "--report", "csv,html,md,xlsx", code=0)
     assert answer.out.splitlines()[0].startswith("pass small outcome=pass expect=pass k_wet=0.")
     assert "criterion small stopping-distance (requirement) pass:" in answer.out
     assert "Valid stops from 30 km/h: dry 1 of 1, wet 2 of 2" in answer.out
@@ -70,21 +66,14 @@ def test_a_series_is_run_judged_and_reported(call: Call, campaign: Write) -> Non
     assert testcase.get("name") == "small: stopping-distance"
     # Its stops are no cases of the run: a wet stop that fails is a figure, not a failure.
     assert results()["cases"] == []
+    assert call("report", "reports/latest", "--format", "junit,md,csv", "-o", "again").code == 0
+    for name in ("series.csv", "series-stops.csv", "series-criteria.csv"):
+        assert Path("again", name).read_text() == Path("reports/latest", name).read_text()
 
 
-def test_a_series_that_misses_a_criterion_is_a_miss(call: Call, campaign: Write) -> None:
-    answer = call("run", campaign("101 % of the dry stop"), "--format", "github")
-    assert answer.code == 1
-    assert "fail small" in answer.out
-    assert "::error file=scenarios/small.series.yaml,title=fail small::fail: " in answer.out
-    assert call("run", "scenarios", "--lf", "--dry-run").out.splitlines()[0] == "small"
-    assert call("run", campaign("101 % of the dry stop", "expect: fail\n")).code == 0
-
-
-def test_a_series_stands_beside_the_scenarios_of_a_folder(call: Call, campaign: Write) -> None:
+def test_a_series_stands_beside_the_scenarios_of_a_folder_and_a_miss_is_one(call, campaign):
     campaign()
-    answer = call("run", "scenarios")
-    assert answer.code == 0
+    answer = call("run", "scenarios", code=0)
     assert [line.split()[1] for line in answer.out.splitlines() if line.startswith("pass")] == [
         "dry",
         "wet",
@@ -92,21 +81,27 @@ def test_a_series_stands_beside_the_scenarios_of_a_folder(call: Call, campaign: 
     ]
     assert "uictest: 2 cases: 2 pass; 1 series: 1 pass in" in answer.err
     assert [case["id"] for case in results()["cases"]] == ["dry", "wet"]
+    answer = call("run", campaign("101 % of the dry stop"), "--format", "github", code=1)
+    assert "fail small" in answer.out
+    assert "::error file=scenarios/small.series.yaml,title=fail small::fail: " in answer.out
+    assert call("run", "scenarios", "--lf", "--dry-run").out.splitlines()[0] == "small"
+    assert call("run", campaign("101 % of the dry stop", "expect: fail\n")).code == 0
 
 
-def test_the_document_is_all_that_json_prints(call: Call, campaign: Write) -> None:
+def test_the_document_is_all_that_json_prints(call, campaign):
     document = json.loads(call("run", campaign(), "--format", "json").out)
     (read,) = series.series_results_of(document["series"])
     assert (read.id, read.outcome) == ("small", "pass")
     assert [stop.seed for stop in series.observed_stops(read.cases, 3.0)] == [None, 0, 1]
 
 
-def test_a_dry_run_and_a_list_name_the_stops(call: Call, campaign: Write) -> None:
+def test_a_dry_run_and_a_list_name_the_stops_and_a_selection_of_none_the_tags(call, campaign):
     path = campaign()
     for arguments in (("run", path, "--dry-run"), ("list", path)):
         assert call(*arguments).out.splitlines() == ["small", "  dry small.dry", "  wet small.wet x 2"]
     (listed,) = json.loads(call("list", path, "--format", "json").out)
     assert [stop["role"] for stop in listed["stops"]] == ["dry", "wet"]
+    call("run", campaign(), "-k", "nothing", code=5, says="0 cases and 1 series; their tags: acceptance")
 
 
 @pytest.mark.parametrize(
@@ -118,21 +113,13 @@ def test_a_dry_run_and_a_list_name_the_stops(call: Call, campaign: Write) -> Non
         (("-m", "reference"), ["dry"]),
     ],
 )
-def test_series_are_selected_like_cases(
-    call: Call, campaign: Write, options: tuple[str, str], ids: list[str]
-) -> None:
+def test_series_are_selected_like_cases(call, campaign, options, ids):
     campaign()
     listed = call("list", "scenarios", *options).out.splitlines()
     assert [line for line in listed if not line.startswith(" ")] == ids
 
 
-def test_nothing_selected_names_the_tags_of_series(call: Call, campaign: Write) -> None:
-    answer = call("run", campaign(), "-k", "nothing")
-    assert answer.code == 5
-    assert "0 cases and 1 series; their tags: acceptance" in answer.err
-
-
-def test_set_seed_and_repeat_reach_all_stops(call: Call, campaign: Write) -> None:
+def test_set_seed_and_repeat_reach_all_stops(call, campaign):
     path = campaign()
     assert call("run", path, "--set", "rig.wsp=bypassed", "--seed", "40", "--repeat", "3").code in (0, 1)
     (read,) = series.series_results_of(results()["series"])
@@ -147,7 +134,7 @@ def test_set_seed_and_repeat_reach_all_stops(call: Call, campaign: Write) -> Non
     assert values == {"bypassed"}
 
 
-def test_the_first_series_that_is_missed_ends_the_run(call: Call, campaign: Write) -> None:
+def test_the_first_series_that_is_missed_ends_the_run(call, campaign):
     path = campaign("101 % of the dry stop", "matrix: {controller: [threshold, slip-band]}\n")
     assert "fail small[controller=slip-band]" not in call("run", path, "-x").out
     (read,) = series.series_results_of(results()["series"])
@@ -157,8 +144,8 @@ def test_the_first_series_that_is_missed_ends_the_run(call: Call, campaign: Writ
 
 @pytest.mark.parametrize(("maxfail", "series_run"), [(1, 0), (2, 1), (3, 2)])
 def test_cases_that_are_missed_count_towards_the_series_that_may_be(
-    call: Call, scenario: Write, campaign: Write, maxfail: int, series_run: int
-) -> None:
+    call, scenario, campaign, maxfail, series_run
+):
     path = campaign("101 % of the dry stop", "matrix: {controller: [threshold, slip-band]}\n")
     alone = scenario("alone", "criteria: uictest-stop\nexpect: fail\n")
     assert call("run", alone, path, "--maxfail", str(maxfail)).code == 1
@@ -175,28 +162,17 @@ def test_cases_that_are_missed_count_towards_the_series_that_may_be(
         ("tags: [acceptance]", "requirements: [BR-1, BR-1]", "3:22: requirements.1: 'BR-1' appears twice"),
     ],
 )
-def test_check_finds_the_errors_of_series(call: Call, campaign: Write, old: str, new: str, said: str) -> None:
+def test_check_finds_the_errors_of_series(call, campaign, old, new, said):
     path = campaign()
     assert "and 1 series, no error" in call("check", "scenarios").err
     path.write_text(SERIES.replace(old, new))
-    answer = call("check", "scenarios")
-    assert answer.code == 4
-    assert f"scenarios/small.series.yaml:{said}" in answer.err
+    call("check", "scenarios", code=4, says=f"scenarios/small.series.yaml:{said}")
 
 
-def test_a_finished_run_is_reported_again(call: Call, campaign: Write) -> None:
-    call("run", campaign())
-    assert call("report", "reports/latest", "--format", "junit,md,csv", "-o", "again").code == 0
-    for name in ("series.csv", "series-stops.csv", "series-criteria.csv"):
-        assert Path("again", name).read_text() == Path("reports/latest", name).read_text()
-
-
-def test_a_series_is_compared_with_its_baseline(call: Call, campaign: Write) -> None:
+def test_a_series_is_compared_with_its_baseline(call, campaign):
     path = campaign()
     assert call("run", path, "--baseline", "kept", "--accept").code == 0
-    same = call("run", path, "--baseline", "kept")
-    assert same.code == 0
-    assert "compared with the baseline kept: no difference" in same.err
+    call("run", path, "--baseline", "kept", code=0, says="compared with the baseline kept: no difference")
     changed = call("run", path, "--baseline", "kept", "--set", "brake.command=90 %", "--format", "github")
     assert changed.code == 1
     assert "1 series different from the baseline" in changed.err
@@ -216,15 +192,11 @@ def test_a_series_is_compared_with_its_baseline(call: Call, campaign: Write) -> 
         (("evaluate", "--rail", "wet"), "a series says itself"),
     ],
 )
-def test_what_a_series_cannot_be_used_for_is_said(
-    call: Call, campaign: Write, command: tuple[str, ...], said: str
-) -> None:
-    answer = call(command[0], campaign(), *command[1:])
-    assert answer.code == 4
-    assert said in answer.err
+def test_what_a_series_cannot_be_used_for_is_said(call, campaign, command, said):
+    call(command[0], campaign(), *command[1:], code=4, says=said)
 
 
-def test_recorded_stops_give_the_figures_of_the_simulated_ones(call: Call, campaign: Write) -> None:
+def test_recorded_stops_give_the_figures_of_the_simulated_ones(call, campaign):
     path = campaign()
     call("run", path, "--repeat", "1", "--record", "all", "--record-rate", "1000")
     (simulated,) = series.series_results_of(results()["series"])
@@ -237,13 +209,11 @@ def test_recorded_stops_give_the_figures_of_the_simulated_ones(call: Call, campa
             "wet: wet.yaml", "wet: {scenario: wet.yaml, recordings: [wet.csv], map: uictest}"
         )
     )
-    answer = call("evaluate", path)
-    assert answer.code == 0, answer.err
+    call("evaluate", path, code=0)
     (recorded,) = series.series_results_of(results()["series"])
     assert [each.case.id for each in recorded.cases] == ["small.dry.dry", "small.wet.wet"]
     for name in ("stopping_distance_extension", "k_wet", "worst_slid_distance", "median_air_consumed"):
         one, other = (each.measures[name].estimate for each in (simulated, recorded))
-        assert one is not None
         if other is not None:  # no record holds every measure
             assert other.value == pytest.approx(one.value, rel=5e-3), name
     assert recorded.measures["k_wet"].estimate is not None

@@ -5,7 +5,6 @@ import json
 import shutil
 from html import unescape
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -15,13 +14,13 @@ from openpyxl import load_workbook
 from uictest.analysis.validation import read_validation
 from uictest.running.campaign import batch
 
-from ..conftest import FIGURES, Call, MadeOnce, Write
+from ..conftest import FIGURES
 
 SIMULATED = FIGURES["braking_distance_m"]
 """What every simulation comes to here, m."""
 
 
-def record(name: str, distance: float, speed_kmh: float = 30.0) -> str:
+def record(name, distance, speed_kmh=30.0):
     """Write the record of a train that stops within a distance (m) at a constant deceleration."""
     speed = speed_kmh / 3.6
     deceleration = speed**2 / (2.0 * distance)
@@ -33,14 +32,14 @@ def record(name: str, distance: float, speed_kmh: float = 30.0) -> str:
 
 
 @pytest.fixture
-def validate(call: Call, scenario: Write, made_up: list[str]) -> Call:
+def validate(call, scenario, made_up):
     """Validate records, whose simulation is made up, against a stop from 30 km/h."""
     scenario("stop", "rail: {condition: wet, friction: 0.1}\n")
     Path("map.yaml").write_text(
         "schema: uictest/channel-map/1\nname: m\nextends: uictest\npreparation: {trigger_time: 0 s}\n"
     )
 
-    def run(*entries: str, options: tuple[str, ...] = (), text: str = "") -> Any:
+    def run(*entries, options=(), text=""):
         stops = "".join(f"  - {{scenario: scenarios/stop.yaml, map: map.yaml, {each}}}\n" for each in entries)
         head = "schema: uictest/validation/1\nname: my-train\n"
         Path("my.validation.yaml").write_text(f"{head}{text}stops:\n{stops}", "utf-8")
@@ -49,27 +48,26 @@ def validate(call: Call, scenario: Write, made_up: list[str]) -> Call:
     return run
 
 
-def newest() -> Path:
+def newest():
     return max(Path("reports").glob("validation-*"), key=lambda folder: folder.stat().st_mtime_ns)
 
 
-def rows(name: str) -> list[dict[str, str]]:
+def rows(name):
     with (newest() / name).open(encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 
-def distance(table: str = "figures.csv") -> dict[str, str]:
+def distance(table="figures.csv"):
     """The row of the braking distance."""
     [row] = [row for row in rows(table) if row["figure"] == "braking_distance_m"]
     return row
 
 
-def run_results() -> dict[str, Any]:
-    document: dict[str, Any] = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
-    return document
+def run_results():
+    return json.loads(Path("reports/latest/results.json").read_text("utf-8"))
 
 
-def test_a_known_bias_of_the_distance_is_found(validate: Call) -> None:
+def test_a_known_bias_of_the_distance_is_found(validate):
     """Simulated stops are 5, 10 and 15 m longer than these records: bias 10 m, deviation 5 m."""
     files = [record(f"r{error}.csv", SIMULATED - error) for error in (5, 10, 15)]
     answer = validate(f"recordings: [{', '.join(files)}]")
@@ -88,24 +86,26 @@ def test_a_known_bias_of_the_distance_is_found(validate: Call) -> None:
     assert any(line.startswith("braking_distance_m") and "+10" in line for line in lines)
 
 
-def test_every_stop_is_in_the_table_of_stops_with_its_difference(validate: Call) -> None:
+def test_every_stop_is_in_the_table_one_claims_no_spread_and_json_is_the_document(validate):
     validate(f"recordings: [{record('a.csv', SIMULATED - 5.0)}]")
     row = distance("stops.csv")
     assert (row["stop"], row["recording"], row["counted"]) == ("my-train.stop.a", "a.csv", "true")
     assert float(row["simulated"]) == SIMULATED
     assert float(row["difference"]) == pytest.approx(5.0, abs=1e-3)
-
-
-def test_one_stop_claims_no_spread(validate: Call) -> None:
     answer = validate(f"recordings: [{record('a.csv', SIMULATED)}]")
     assert "not compared, as no counted stop has both: " in answer.out
     assert "maximum_disc_temperature_degc_1" not in answer.out
     assert "one stop: it shows a difference, and nothing of bias or spread" in answer.out
     figure = distance()
     assert (figure["deviation"], figure["bias_low"], figure["limits_high"]) == ("", "", "")
+    answer = validate(f"recordings: [{record('a.csv', SIMULATED)}]", options=("--format", "json"))
+    assert answer.out == (newest() / "validation.json").read_text("utf-8")
+    document = json.loads(answer.out)
+    assert (document["schema"], document["kind"]) == ("uictest/result/2", "validation")
+    assert {"my.validation.yaml", "scenarios/stop.yaml", "map.yaml", "a.csv"} <= set(document["inputs"])
 
 
-def test_a_stop_that_the_numbers_come_from_is_listed_and_not_counted(validate: Call) -> None:
+def test_a_stop_that_the_numbers_come_from_is_listed_and_not_counted(validate):
     used, other = record("used.csv", SIMULATED - 100.0), record("other.csv", SIMULATED - 5.0)
     answer = validate(f"recordings: [{used}], tuned: true", f"recordings: [{other}]")
     assert answer.code == 0
@@ -115,14 +115,12 @@ def test_a_stop_that_the_numbers_come_from_is_listed_and_not_counted(validate: C
     assert "1 of 2 recorded stops counted" in answer.err
 
 
-def test_every_recorded_stop_has_a_draw_of_its_own_whatever_the_others_are(
-    validate: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_every_recorded_stop_has_a_draw_of_its_own_whatever_the_others_are(validate, monkeypatch):
     """One draw for all stops of a speed would make the interval of the bias too narrow."""
     simulated: dict[str, int] = {}
     run_case = batch.run_case
 
-    def noted(case: Any, *rest: Any) -> Any:
+    def noted(case, *rest):
         simulated[case.id.rpartition(".")[2]] = case.scenario.seed
         return run_case(case, *rest)
 
@@ -143,7 +141,7 @@ def test_every_recorded_stop_has_a_draw_of_its_own_whatever_the_others_are(
     assert simulated == {"r15": seeds["r15"], "r5": seeds["r5"]}
 
 
-def test_two_files_of_one_name_are_not_compared_with_one_simulation(validate: Call) -> None:
+def test_two_files_of_one_name_are_not_compared_with_one_simulation(validate):
     for folder in ("monday", "tuesday"):
         Path(folder).mkdir()
         record(f"{folder}/run.csv", SIMULATED)
@@ -153,7 +151,7 @@ def test_two_files_of_one_name_are_not_compared_with_one_simulation(validate: Ca
     assert list(Path("reports").glob("*")) == []
 
 
-def test_a_copy_of_a_record_is_no_second_stop(validate: Call) -> None:
+def test_a_copy_of_a_record_is_no_second_stop(validate):
     copy = Path(shutil.copy(record("a.csv", SIMULATED - 5.0), "b.csv"))
     answer = validate(f"recordings: [a.csv, {copy}]")
     assert answer.code == 1
@@ -166,7 +164,7 @@ def test_a_copy_of_a_record_is_no_second_stop(validate: Call) -> None:
     assert "0 of 2 recorded stops counted" in answer.err
 
 
-def test_a_stop_from_another_speed_than_its_scenario_is_not_counted(validate: Call) -> None:
+def test_a_stop_from_another_speed_than_its_scenario_is_not_counted(validate):
     near, far = record("near.csv", SIMULATED, 32.0), record("far.csv", SIMULATED, 34.0)
     slow, copy = record("slow.csv", SIMULATED, 26.0), shutil.copy("far.csv", "copy.csv")
     answer = validate(f"recordings: [{near}, {far}, {slow}, {copy}]")
@@ -178,7 +176,7 @@ def test_a_stop_from_another_speed_than_its_scenario_is_not_counted(validate: Ca
     assert [stop.id for stop in validation.counted] == ["my-train.stop.near"]
 
 
-def test_a_record_without_an_end_is_named_and_the_others_count(validate: Call) -> None:
+def test_a_record_without_an_end_is_named_and_the_others_count(validate):
     Path("bad.csv").write_text("time [s],speed [m/s]\n0,8\n1,nan\n")
     answer = validate(f"recordings: [bad.csv, {record('good.csv', SIMULATED)}]")
     assert answer.code == 1
@@ -189,7 +187,7 @@ def test_a_record_without_an_end_is_named_and_the_others_count(validate: Call) -
     assert [domain.stops for domain in validation.domains] == [1]
 
 
-def test_a_simulation_that_fails_is_an_error_and_never_a_figure(validate: Call, scenario: Write) -> None:
+def test_a_simulation_that_fails_is_an_error_and_never_a_figure(validate, scenario):
     scenario("stop", "tags: [error]\n")
     answer = validate(f"recordings: [{record('a.csv', SIMULATED)}]")
     assert answer.code == 3
@@ -197,29 +195,19 @@ def test_a_simulation_that_fails_is_an_error_and_never_a_figure(validate: Call, 
     assert rows("figures.csv") == []
 
 
-def test_json_is_the_document_that_is_written(validate: Call) -> None:
-    answer = validate(f"recordings: [{record('a.csv', SIMULATED)}]", options=("--format", "json"))
-    assert answer.out == (newest() / "validation.json").read_text("utf-8")
-    document = json.loads(answer.out)
-    assert (document["schema"], document["kind"]) == ("uictest/result/2", "validation")
-    assert {"my.validation.yaml", "scenarios/stop.yaml", "map.yaml", "a.csv"} <= set(document["inputs"])
-
-
-def test_a_series_without_recordings_says_what_to_write(call: Call, scenario: Write) -> None:
+def test_a_series_without_recordings_says_what_to_write(call, scenario):
     scenario("dry", "rail: {condition: dry}\n")
     scenario("wet", "rail: {condition: wet}\n")
     text = "schema: uictest/series/1\nname: s\ndry: scenarios/dry.yaml\nwet: scenarios/wet.yaml\n"
     Path("s.series.yaml").write_text(text)
-    answer = call("validate", "s.series.yaml")
-    assert answer.code == 4
-    assert "no stop names a recording: list them under `recordings`" in answer.err
+    call("validate", "s.series.yaml", code=4, says="no stop names a recording: list them under `recordings`")
 
 
 @pytest.fixture
-def validated(validate: Call, made_once: MadeOnce) -> Path:
+def validated(validate, made_once):
     """The document of a validation from 29 to 31 km/h."""
 
-    def make() -> None:
+    def make():
         files = [record(f"r{speed}.csv", SIMULATED, float(speed)) for speed in (29, 31)]
         assert validate(f"recordings: [{', '.join(files)}]").code == 0
 
@@ -227,7 +215,7 @@ def validated(validate: Call, made_once: MadeOnce) -> Path:
     return newest() / "validation.json"
 
 
-def test_cases_outside_of_what_was_validated_are_flagged(call: Call, validated: Path) -> None:
+def test_cases_outside_of_what_was_validated_are_flagged(call, validated):
     changes = ("--set", "initial_speed=30 km/h,40 km/h")
     answer = call("run", "scenarios/stop.yaml", *changes, "--validated", validated, "--report", "html,xlsx")
     assert answer.code == 0
@@ -254,17 +242,13 @@ def test_cases_outside_of_what_was_validated_are_flagged(call: Call, validated: 
     assert cells["Cases"].count(flag) == 1
 
 
-def test_without_the_option_nothing_is_said(call: Call, validated: Path) -> None:
+def test_without_the_option_nothing_is_said_and_results_with_a_domain_are_read_back(call, validated):
     answer = call("run", "scenarios/stop.yaml", "--set", "initial_speed=90 km/h")
     assert "outside" not in answer.out + answer.err
     assert "domain_of_validity" not in Path("reports/latest/results.json").read_text("utf-8")
-
-
-def test_results_with_a_domain_are_read_back(call: Call, validated: Path) -> None:
     call("run", "scenarios/stop.yaml", "--set", "vehicle=crh380a", "--validated", validated)
     before = Path("reports/latest/results.json").read_text("utf-8")
-    answer = call("report", "reports/latest", "--format", "md")
-    assert answer.code == 0
+    call("report", "reports/latest", "--format", "md", code=0)
     assert "outside of what my-train validated" in Path("reports/latest/summary.md").read_text("utf-8")
     assert Path("reports/latest/results.json").read_text("utf-8") == before
 
@@ -280,29 +264,22 @@ def test_results_with_a_domain_are_read_back(call: Call, validated: Path) -> Non
         (None, "other.json"),
     ],
 )
-def test_a_document_that_is_none_is_refused(
-    call: Call, validated: Path, scenario: Write, change: dict[str, Any] | None, message: str, named: str
-) -> None:
+def test_a_document_that_is_none_is_refused(call, validated, scenario, change, message, named):
     if change is not None:
         document = json.loads(validated.read_text("utf-8")) | change
         Path("scenarios/other.json").write_text(json.dumps(document), "utf-8")
     if named == "scenario":
         scenario("stop", "validated: other.json\n")
     options = ("--validated", "scenarios/other.json") if named == "option" else ()
-    answer = call("run", "scenarios/stop.yaml", *options)
-    assert answer.code == 4
-    assert (message if named == "option" else "other.json") in answer.err
+    call("run", "scenarios/stop.yaml", *options, code=4, says=message if named == "option" else "other.json")
 
 
-def test_a_scenario_names_the_validation_that_its_cases_are_held_against(
-    call: Call, validated: Path, scenario: Write
-) -> None:
+def test_a_scenario_names_the_validation_that_its_cases_are_held_against(call, validated, scenario):
     shutil.copy(validated, "scenarios/train.json")
     friction = "rail: {condition: wet, friction: 0.1}\n"
     scenario("fast", f"{friction}validated: train.json\n")
     scenario("other", friction)
-    answer = call("run", "scenarios", "--set", "initial_speed=40 km/h")
-    assert answer.code == 0
+    answer = call("run", "scenarios", "--set", "initial_speed=40 km/h", code=0)
     results = run_results()
     asked = {case["id"]: "domain_of_validity" in case for case in results["cases"]}
     assert asked == {"fast": True, "other": False, "stop": False}
@@ -312,9 +289,7 @@ def test_a_scenario_names_the_validation_that_its_cases_are_held_against(
     assert "scenarios/train.json" in manifest["inputs"]
 
 
-def test_the_option_takes_the_place_of_what_a_scenario_names(
-    call: Call, validated: Path, scenario: Write
-) -> None:
+def test_the_option_takes_the_place_of_what_a_scenario_names(call, validated, scenario):
     document = json.loads(validated.read_text("utf-8")) | {"name": "another-train"}
     Path("scenarios/another.json").write_text(json.dumps(document), "utf-8")
     scenario("stop", "rail: {condition: wet, friction: 0.1}\nvalidated: another.json\n")
@@ -336,20 +311,17 @@ def test_the_option_takes_the_place_of_what_a_scenario_names(
     ],
 )
 @pytest.mark.parametrize("command", ["check", "run"])
-def test_what_a_scenario_names_is_checked_on_loading(
-    call: Call, scenario: Write, command: str, text: str, message: str
-) -> None:
+def test_what_a_scenario_names_is_checked_on_loading(call, scenario, command, text, message):
     scenario("stop", f"validated: {text}\n")
     Path("scenarios/list.json").write_text("[]")
-    answer = call(command, "scenarios/stop.yaml")
-    assert answer.code == 4
+    answer = call(command, "scenarios/stop.yaml", code=4)
     shown = answer.out + answer.err
     assert "scenarios/stop.yaml:4:12: validated: " in shown
     assert message in shown
 
 
 @pytest.fixture
-def study(validated: Path) -> Path:
+def study(validated):
     """A sweep of four stops, of which three are outside of the validation."""
     path = Path("study.sweep.yaml")
     head = "schema: uictest/sweep/1\nname: study\nscenario: scenarios/stop.yaml\n"
@@ -363,7 +335,7 @@ NOTE = (
 )
 
 
-def test_a_sweep_counts_and_names_the_cases_outside(call: Call, validated: Path, study: Path) -> None:
+def test_a_sweep_counts_and_names_the_cases_outside(call, validated, study):
     answer = call("sweep", study, "--validated", validated, "--report", "csv,html,xlsx")
     assert answer.code in (0, 1)
     assert f"note: {NOTE}" in answer.out
@@ -381,7 +353,7 @@ def test_a_sweep_counts_and_names_the_cases_outside(call: Call, validated: Path,
     assert "outside" in next(workbook["Cases"].values)
 
 
-def test_another_validation_simulates_nothing_again(call: Call, validated: Path, study: Path) -> None:
+def test_another_validation_simulates_nothing_again(call, validated, study):
     call("sweep", study)
     before = json.loads(Path("reports/study/sweep.json").read_text("utf-8"))
     assert before["domain_of_validity"] is None
@@ -393,9 +365,7 @@ def test_another_validation_simulates_nothing_again(call: Call, validated: Path,
     assert after["outcomes"] == before["outcomes"]
 
 
-def test_a_swept_scenario_names_its_validation(
-    call: Call, validated: Path, study: Path, scenario: Write
-) -> None:
+def test_a_swept_scenario_names_its_validation(call, validated, study, scenario):
     shutil.copy(validated, "scenarios/train.json")
     scenario("stop", "rail: {condition: wet, friction: 0.1}\nvalidated: train.json\n")
     answer = call("sweep", study, "--format", "json")

@@ -5,8 +5,6 @@ from pathlib import Path
 
 import pytest
 
-from ..conftest import Call, Write
-
 TWIN = Path(__file__).parents[2] / "sweeps" / "controllers" / "slip_band.py"
 """The built-in slip-band as a controller from outside."""
 CASES = "rail: {condition: wet}\nmatrix: {rail.friction: [0.08, 0.10], seed: [1, 2]}\n"
@@ -15,7 +13,7 @@ BUILT_IN = "controller=slip-band"
 
 
 @pytest.fixture
-def run(call: Call, scenario: Write) -> Call:
+def run(call, scenario):
     """Run four cases with a controller into a folder."""
     scenario("stop", CASES)
     shutil.copy(TWIN, ".")
@@ -24,7 +22,7 @@ def run(call: Call, scenario: Write) -> Call:
     )
 
 
-def test_a_controller_named_on_the_command_line_leaves_ids_and_noise(run: Call, call: Call) -> None:
+def test_a_controller_named_on_the_command_line_leaves_ids_and_noise(run, call):
     for folder, controller in (("ours", BUILT_IN), ("theirs", OUTSIDE % 0.08)):
         assert run(folder, controller, "--record", "all").code in (0, 1)
     compared = call("compare", "ours/latest", "theirs/latest")
@@ -37,25 +35,20 @@ def test_a_controller_named_on_the_command_line_leaves_ids_and_noise(run: Call, 
     assert "measured_speed" not in case.out
 
 
-def test_cases_of_another_name_have_other_noise(run: Call) -> None:
+def test_controllers_differ_case_by_case_and_noise_of_another_name(run, call):
     run("ours", BUILT_IN)
     run("both", "controller=slip-band,threshold")
     first, second = (Path(folder, "latest/summary.csv").read_text() for folder in ("ours", "both"))
     distance = first.splitlines()[0].split(",").index("braking_distance_m")
     ours, both = ({line.split(",")[distance] for line in each.splitlines()[1:]} for each in (first, second))
     assert not ours & both
-
-
-def test_two_controllers_differ_case_by_case(run: Call, call: Call) -> None:
-    run("ours", BUILT_IN)
     run("theirs", OUTSIDE % 0.15)
-    compared = call("compare", "ours/latest", "theirs/latest")
-    assert compared.code == 1
+    compared = call("compare", "ours/latest", "theirs/latest", code=1)
     for case in ("0.08,seed=1", "0.08,seed=2", "0.10,seed=1", "0.10,seed=2"):
         assert f"differs  stop[friction={case}]" in compared.out
 
 
-def test_the_built_in_twin_keeps_a_baseline_and_another_controller_does_not(run: Call) -> None:
+def test_the_built_in_twin_keeps_a_baseline_and_another_controller_does_not(run):
     run("first", BUILT_IN, "--baseline", "kept", "--accept")
     assert "no difference" in run("second", OUTSIDE % 0.08, "--baseline", "kept").err
     answer = run("third", OUTSIDE % 0.15, "--baseline", "kept")

@@ -16,37 +16,37 @@ MISSED = CaseResult("b", "b.yaml", {}, "pass", "fail", reason="locked")
 class Terminal(io.StringIO):
     """A stream that is a terminal."""
 
-    def isatty(self) -> bool:
+    def isatty(self):
         return True
 
 
 @pytest.fixture
-def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
+def terminal(monkeypatch):
     monkeypatch.setenv("COLUMNS", "120")
     return Terminal()
 
 
 @pytest.mark.parametrize(
-    ("shown", "display"),
-    [(Format.TEXT, VerdictTable), (Format.JSON, ResultsDocument), (Format.GITHUB, Annotations)],
+    ("stream", "shown", "display"),
+    [
+        (Terminal, Format.TEXT, VerdictTable),
+        (Terminal, Format.JSON, ResultsDocument),
+        (Terminal, Format.GITHUB, Annotations),
+        (io.StringIO, Format.TEXT, Lines),
+    ],
 )
-def test_text_is_a_table_on_a_terminal(terminal: Terminal, shown: Format, display: type) -> None:
-    with redirect_stdout(terminal):
+def test_text_is_a_table_on_a_terminal_and_lines_elsewhere(stream, shown, display):
+    with redirect_stdout(stream()):
         assert type(chosen_display(shown, Colour.AUTO, quiet=False, verbose=False)) is display
 
 
-def test_text_is_lines_elsewhere() -> None:
-    with redirect_stdout(io.StringIO()):
-        assert type(chosen_display(Format.TEXT, Colour.AUTO, quiet=False, verbose=False)) is Lines
-
-
 @pytest.mark.parametrize(("ci", "watched"), [("true", False), ("1", False), ("", True), ("false", True)])
-def test_on_a_ci_service_nobody_watches(monkeypatch: pytest.MonkeyPatch, ci: str, watched: bool) -> None:
+def test_on_a_ci_service_nobody_watches(monkeypatch, ci, watched):
     monkeypatch.setenv("CI", ci)
     assert interactive(Terminal()) is watched
 
 
-def _shown(terminal: Terminal, colour: Colour = Colour.AUTO, *, quiet: bool = False) -> str:
+def _shown(terminal, colour=Colour.AUTO, *, quiet=False):
     with redirect_stdout(terminal):
         display = chosen_display(Format.TEXT, colour, quiet=quiet, verbose=False)
         for result in (MET, MISSED):
@@ -55,26 +55,22 @@ def _shown(terminal: Terminal, colour: Colour = Colour.AUTO, *, quiet: bool = Fa
     return terminal.getvalue()
 
 
-def test_the_table_explains_what_is_not_met(terminal: Terminal) -> None:
+def test_the_table_explains_what_is_not_met_and_a_quiet_one_holds_nothing_else(terminal):
     shown = _shown(terminal, Colour.NEVER)
     assert "[bold]a" in shown
     assert "fail b\n  fail. Expected: pass\n  locked\n" in shown
     assert "\x1b" not in shown
+    terminal.truncate(0)
+    assert "[bold]a" not in _shown(terminal, Colour.NEVER, quiet=True)
 
 
-def test_the_table_is_as_wide_as_columns_says(terminal: Terminal, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_table_is_as_wide_as_columns_says(terminal, monkeypatch):
     monkeypatch.setenv("COLUMNS", "100")
     assert max(map(len, _shown(terminal, Colour.NEVER).splitlines())) <= 100
 
 
-def test_a_quiet_table_holds_only_what_is_not_met(terminal: Terminal) -> None:
-    assert "[bold]a" not in _shown(terminal, Colour.NEVER, quiet=True)
-
-
 @pytest.mark.parametrize(("variable", "value"), [("NO_COLOR", "1"), ("TERM", "dumb")])
-def test_colour_on_a_terminal_until_it_is_unwanted(
-    terminal: Terminal, monkeypatch: pytest.MonkeyPatch, variable: str, value: str
-) -> None:
+def test_colour_on_a_terminal_until_it_is_unwanted(terminal, monkeypatch, variable, value):
     assert "\x1b[" in _shown(terminal)
     terminal.truncate(0)
     monkeypatch.setenv(variable, value)

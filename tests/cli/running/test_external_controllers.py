@@ -4,15 +4,11 @@ import json
 import signal
 import subprocess
 import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from ..conftest import HANGING, Call, Write
-
-Call = Call
+from ..conftest import HANGING
 
 WSP = """
 import os
@@ -45,24 +41,27 @@ matrix: {controller.parameters.fault: [%s]}
 
 
 @pytest.fixture
-def faults(scenario: Write, workplace: Path) -> Callable[..., None]:
+def faults(scenario, workplace):
     """Write a scenario with a case for each fault of a controller."""
 
-    def write(*names: str) -> None:
+    def write(*names):
         (workplace / "wsp.py").write_text(WSP, "utf-8")
         scenario("stop", CASES % ", ".join(names))
 
     return write
 
 
-def results() -> dict[str, Any]:
+def results():
     document = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
     return {case["parameters"]["controller.parameters.fault"]: case for case in document["cases"]}
 
 
-def test_other_cases_finish(call: Call, faults: Callable[..., None]) -> None:
+def test_other_cases_finish_and_what_a_controller_prints_is_no_data(process, faults):
     faults("none", "exit", "forbidden", "last")
-    assert call("run", "-n2").code == 3
+    answer = process("run", "-n2", "--format", "json")
+    assert answer.code == 3
+    assert json.loads(answer.out) == json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+    assert "from the controller" in answer.err
     outcomes = {fault: (case["outcome"], case["reason"]) for fault, case in results().items()}
     assert outcomes == {
         "none": ("pass", ""),
@@ -72,14 +71,7 @@ def test_other_cases_finish(call: Call, faults: Callable[..., None]) -> None:
     }
 
 
-def test_what_a_controller_prints_is_no_data(call: Call, faults: Callable[..., None], program: Path) -> None:
-    faults("none")
-    done = subprocess.run([program, "run", "--format", "json"], capture_output=True, text=True, check=True)
-    assert json.loads(done.stdout)["cases"][0]["outcome"] == "pass"
-    assert "from the controller" in done.stderr
-
-
-def test_a_child_process_and_this_one_give_the_same_results(call: Call, faults: Callable[..., None]) -> None:
+def test_a_child_process_and_this_one_give_the_same_results(call, faults):
     faults("none")
     answer = call("run")
     assert (answer.code, "not isolated" in answer.err) == (0, False)
@@ -89,22 +81,16 @@ def test_a_child_process_and_this_one_give_the_same_results(call: Call, faults: 
     assert results() == isolated
 
 
-def test_who_interrupts_a_hanging_controller_leaves_no_process(
-    faults: Callable[..., None], program: Path, workplace: Path
-) -> None:
+def test_who_interrupts_a_hanging_controller_leaves_no_process(faults, program, workplace):
     faults("hang")
     with subprocess.Popen([program, "run"], start_new_session=True) as running:
         while not (workplace / "hanging").exists() and running.poll() is None:
             time.sleep(0.01)
-        children = children_of(running.pid)
+        tasks = Path(f"/proc/{running.pid}/task").glob("*/children")
+        children = [child for task in tasks for child in task.read_text().split()]
         running.send_signal(signal.SIGTERM)
         assert running.wait(HANGING) == 2
     assert len(children) == 1
-    assert not any(Path(f"/proc/{child}").exists() for child in children)
+    assert not any(Path("/proc", child).exists() for child in children)
     # A stop that ends with its child is no result, in particular no crash of the controller.
     assert list(workplace.rglob("results.json")) == []
-
-
-def children_of(pid: int) -> list[int]:
-    tasks = Path(f"/proc/{pid}/task").glob("*/children")
-    return [int(child) for task in tasks for child in task.read_text().split()]

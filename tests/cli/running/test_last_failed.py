@@ -6,24 +6,22 @@ import pytest
 
 from uictest.core.recording.formats import writer_of
 
-from ..conftest import STATED, Call, Write, rolling_train
+from ..conftest import STATED, rolling_train
 
 
 @pytest.fixture
-def evaluate(call: Call) -> Call:
+def evaluate(call):
     """Evaluate a recording, whose results lie beside those of the runs."""
 
-    def run() -> None:
+    def run():
         writer_of("csv")(rolling_train(), Path("recorded.csv"))
-        assert call("evaluate", "recorded.csv", *STATED).code == 0
+        call("evaluate", "recorded.csv", *STATED, code=0)
         assert '"recorded"' in Path("reports/latest/results.json").read_text()
 
     return run
 
 
-def test_what_failed_last_is_selected_whatever_was_evaluated_since(
-    call: Call, scenario: Write, made_up: list[str], evaluate: Call
-) -> None:
+def test_what_failed_last_is_selected_whatever_was_evaluated_since(call, scenario, made_up, evaluate):
     scenario("a")
     scenario("b", "tags: [fail]\n")
     call("run", "-q")
@@ -38,9 +36,7 @@ def test_what_failed_last_is_selected_whatever_was_evaluated_since(
     assert sorted(made_up) == ["a", "b"]
 
 
-def test_without_an_earlier_run_all_are_selected_and_evaluations_are_none(
-    call: Call, scenario: Write, made_up: list[str], evaluate: Call
-) -> None:
+def test_without_an_earlier_run_all_are_selected_and_evaluations_are_none(call, scenario, made_up, evaluate):
     scenario("a")
     evaluate()
     answer = call("run", "--lf")
@@ -50,18 +46,14 @@ def test_without_an_earlier_run_all_are_selected_and_evaluations_are_none(
 
 @pytest.mark.usefixtures("made_up")
 @pytest.mark.parametrize("content", ["", "{", "[]", '{"schema": "other"}', '{"schema": "uictest/result/1"}'])
-def test_results_that_cannot_be_read_exit_4(call: Call, scenario: Write, content: str) -> None:
+def test_results_that_cannot_be_read_exit_4(call, scenario, content):
     scenario("a")
     call("run")
     Path("reports/latest/results.json").write_text(content)
-    answer = call("run", "--lf")
-    assert answer.code == 4
-    assert "results.json" in answer.err
+    call("run", "--lf", code=4, says="results.json")
 
 
-def test_of_several_runs_the_newest_counts(
-    call: Call, scenario: Write, made_up: list[str], evaluate: Call
-) -> None:
+def test_of_several_runs_the_newest_counts(call, scenario, made_up, evaluate):
     """Within a second, too, and whatever the hash in their names."""
     for failing in ("a", "b", "c"):
         for name in ("a", "b", "c"):

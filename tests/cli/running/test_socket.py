@@ -5,16 +5,13 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import pytest
 
-from ..conftest import HANGING, Call, Write
+from ..conftest import HANGING
 
-Call = Call
 EXAMPLE = Path(__file__).parents[3] / "examples" / "socket" / "wsp.py"
 
 IN_REAL_TIME = ("run", "--real-time", "--set", "initial_speed=10 km/h")
@@ -58,7 +55,7 @@ matrix: {controller.parameters.fault: [%s]}
 
 
 @pytest.fixture
-def faults(scenario: Write) -> Iterator[Callable[..., None]]:
+def faults(scenario):
     """Start a program, and write a scenario with a case for each of its faults."""
     command = [sys.executable, "-c", PROGRAM, str(EXAMPLE)]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
@@ -67,46 +64,33 @@ def faults(scenario: Write) -> Iterator[Callable[..., None]]:
         process.kill()
 
 
-def results() -> dict[str, Any]:
+def results():
     document = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
     return {case["parameters"]["controller.parameters.fault"]: case for case in document["cases"]}
 
 
-def test_a_connection_that_breaks_ends_its_case(call: Call, faults: Callable[..., None]) -> None:
-    faults("none", "close", "last")
-    assert call("run", "-n2").code == 3
+def test_a_connection_that_breaks_ends_its_case_and_results_name_the_program(call, faults):
+    faults("none", "close", "sleep")
+    answer = call("run", "-n2", "-v", code=3)
     outcomes = {fault: (case["outcome"], case["reason"]) for fault, case in results().items()}
     broken = "the program closed the connection before its answer to the step frame"
     assert outcomes == {
         "none": ("pass", ""),
         "close": ("error", f"controller: step failed: {broken} (cycle 50)"),
-        "last": ("pass", ""),
+        "sleep": ("pass", ""),
     }
-
-
-def test_a_stop_without_a_clock_says_nothing_of_time(call: Call, faults: Callable[..., None]) -> None:
-    faults("sleep")
-    assert call("run").code == 0
-    assert "response_times" not in results()["sleep"]
-
-
-def test_a_result_names_the_program_and_the_stop_that_it_was_given(
-    call: Call, faults: Callable[..., None]
-) -> None:
-    faults("none", "close")
-    answer = call("run", "-v")
-    named, broken = results()["none"], results()["close"]
+    named, closed, late = results().values()
+    assert "response_times" not in late  # without a clock nothing is said of time
     assert named["controller_version"] == "slip band in Python 1.0"
     assert "version slip band in Python 1.0, connect tcp://" in answer.out
-    digests = {named["case_sha256"], broken["case_sha256"]}
+    digests = {named["case_sha256"], closed["case_sha256"]}
     assert [len(digest) for digest in digests] == [64, 64]
-    assert "controller_version" not in broken
+    assert "controller_version" not in closed
 
 
-def test_a_missed_deadline_makes_a_stop_invalid(call: Call, faults: Callable[..., None]) -> None:
+def test_a_missed_deadline_makes_a_stop_invalid(call, faults):
     faults("sleep")
-    answer = call(*IN_REAL_TIME, "-v", "--junitxml", "junit.xml")
-    assert answer.code == 1
+    answer = call(*IN_REAL_TIME, "-v", "--junitxml", "junit.xml", code=1)
     result = results()["sleep"]
     times = result["response_times"]
     # At least: on a machine that others use as well, more can come late.
@@ -126,9 +110,7 @@ def test_a_missed_deadline_makes_a_stop_invalid(call: Call, faults: Callable[...
     assert Path("stops").read_text("utf-8") == "sleep "
 
 
-def test_a_stop_in_real_time_takes_its_time_and_is_drawn_as_it_ran(
-    call: Call, faults: Callable[..., None]
-) -> None:
+def test_a_stop_in_real_time_takes_its_time_and_is_drawn_as_it_ran(call, faults):
     faults("none")
     began = time.monotonic()
     call(*IN_REAL_TIME, "--record-rate", "10")  # too coarse for the valves: else the stop would run again
@@ -140,22 +122,16 @@ def test_a_stop_in_real_time_takes_its_time_and_is_drawn_as_it_ran(
 
 
 @pytest.mark.parametrize("controller", ["threshold", "{library: wsp.so}"])
-def test_only_a_program_at_a_socket_keeps_to_the_clock(
-    call: Call, scenario: Write, controller: str, workplace: Path
-) -> None:
+def test_only_a_program_at_a_socket_keeps_to_the_clock(call, scenario, controller, workplace):
     (workplace / "scenarios").mkdir()
     (workplace / "scenarios" / "wsp.so").write_bytes(b"never loaded")
     scenario("stop", f"controller: {controller}\n")
-    answer = call("run", "--real-time")
-    assert answer.code == 4
-    assert "--real-time: stop has the controller" in answer.err
+    answer = call("run", "--real-time", code=4, says="--real-time: stop has the controller")
     assert "expected one with `connect`" in answer.err
     assert not Path("reports").exists()
 
 
-def test_who_interrupts_does_not_wait_for_a_program(
-    faults: Callable[..., None], program: Path, workplace: Path
-) -> None:
+def test_who_interrupts_does_not_wait_for_a_program(faults, program, workplace):
     faults("hang", "none")
     with subprocess.Popen([program, "run", "-n2"], start_new_session=True) as running:
         while not (workplace / "hanging").exists() and running.poll() is None:

@@ -7,8 +7,6 @@ import pytest
 
 from uictest.core.files import FolderLock
 
-from ..conftest import Call, Write
-
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such locks")
 
 SWEEP = """schema: uictest/sweep/1
@@ -20,7 +18,7 @@ COMMAND = ("sweep", "scenarios/study.sweep.yaml", "-q")
 
 
 @pytest.fixture
-def folder(scenario: Write) -> Path:
+def folder(scenario):
     scenario("stop")
     Path("scenarios/study.sweep.yaml").write_text(SWEEP)
     place = Path("reports/study")
@@ -29,16 +27,14 @@ def folder(scenario: Write) -> Path:
 
 
 @pytest.mark.parametrize("options", [(), ("--restart",), ("--shard", "1/2"), ("--shard", "1/2", "--restart")])
-def test_a_second_one_is_rejected_and_touches_nothing(call: Call, folder: Path, options: tuple[str]) -> None:
+def test_a_second_one_is_rejected_and_touches_nothing(call, folder, options):
     with FolderLock(folder):
-        answer = call(*COMMAND, *options)
-        assert answer.code == 4
-        assert f"{folder} is in use by process" in answer.err
+        answer = call(*COMMAND, *options, code=4, says=f"{folder} is in use by process")
         assert "-o" in answer.err
         assert [path.name for path in folder.iterdir()] == [".uictest.lock"]
 
 
-def test_shards_share_a_folder_and_nobody_discards_their_chunks(call: Call, folder: Path) -> None:
+def test_shards_share_a_folder_and_nobody_discards_their_chunks(call, folder):
     with FolderLock(folder, shared=True):
         assert call(*COMMAND, "--shard", "1/2").code == 0
         for options in ((), ("--shard", "2/2", "--restart")):

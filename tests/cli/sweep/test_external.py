@@ -2,13 +2,9 @@
 
 import csv
 import json
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
-
-from ..conftest import Call, Write
 
 FILE = "study.sweep.yaml"
 CONTROLLER = """\
@@ -35,12 +31,12 @@ PARAMETERS = {"share": {"default": 0.0, "unit": "1"}}
 
 
 @pytest.fixture
-def study(scenario: Write) -> Callable[[str], Path]:
+def study(scenario):
     """A sweep of a stop from 30 km/h with that controller; it says the given text after its head."""
     scenario("stop", "controller: {python: ../share.py, class: Share}\nmeasures: {extends: standard}\n")
     Path("share.py").write_text(CONTROLLER)
 
-    def write(text: str) -> Path:
+    def write(text):
         head = "schema: uictest/sweep/1\nname: study\nscenario: scenarios/stop.yaml\n"
         Path(FILE).write_text(f"{head}{text}")
         return Path(FILE)
@@ -48,14 +44,13 @@ def study(scenario: Write) -> Callable[[str], Path]:
     return write
 
 
-def summary() -> list[dict[str, str]]:
+def summary():
     with Path("reports/study/summary.csv").open() as file:
         return list(csv.DictReader(file))
 
 
-def test_a_controller_that_fails_is_an_error_and_the_sweep_goes_on(call: Call, study: Any) -> None:
-    answer = call("sweep", study("grid: {controller.parameters.share: [0, -1, 0.3]}\n"))
-    assert answer.code == 3
+def test_a_controller_that_fails_is_an_error_and_the_sweep_goes_on(call, study):
+    call("sweep", study("grid: {controller.parameters.share: [0, -1, 0.3]}\n"), code=3)
     outcomes = [row["outcome"] for row in summary()]
     assert outcomes[1] == "error" and "error" not in outcomes[::2]
     assert summary()[1]["reason"].startswith("controller: step failed: ValueError: a share below zero")
@@ -64,22 +59,20 @@ def test_a_controller_that_fails_is_an_error_and_the_sweep_goes_on(call: Call, s
     assert distances[0] < distances[1]
 
 
-def test_another_content_of_the_controller_is_another_sweep(call: Call, study: Any) -> None:
+def test_another_content_of_the_controller_is_another_sweep(call, study):
     file = study("grid: {controller.parameters.share: [0, 0.3]}\n")
     assert call("sweep", file).code in (0, 1)
     first = summary()
     manifest = json.loads(Path("reports/study/manifest.json").read_bytes())
     assert len(manifest["inputs"]["share.py"]) == 64
     Path("share.py").write_text(CONTROLLER + "\n")
-    answer = call("sweep", file)
-    assert answer.code == 4
-    assert "holds chunks of this sweep with other inputs" in answer.err
+    answer = call("sweep", file, code=4, says="holds chunks of this sweep with other inputs")
     assert "inputs: share.py" in answer.err
     assert call("sweep", file, "--restart").code in (0, 1)
     assert summary() == first
 
 
-def test_an_axis_of_controllers_names_them_in_manifest_and_ids(call: Call, study: Any) -> None:
+def test_an_axis_of_controllers_names_them_in_manifest_and_ids(call, study):
     file = study("grid: {controller: [threshold, {python: share.py, class: Share}, own.yaml]}\n")
     Path("own.yaml").write_text(
         "schema: uictest/controller/1\npython: share.py\nclass: Share\nparameters: {share: 0.5}\n"
@@ -94,13 +87,12 @@ def test_an_axis_of_controllers_names_them_in_manifest_and_ids(call: Call, study
     assert {"share.py", "own.yaml"} <= inputs.keys()
 
 
-def test_the_frontier_of_a_parameter_is_found(call: Call, study: Any) -> None:
+def test_the_frontier_of_a_parameter_is_found(call, study):
     file = study("grid: {controller.parameters.share: [0.0, 1.0]}\n")
     scenario = Path("scenarios/stop.yaml")
     text = scenario.read_text()
     scenario.write_text(f"{text}criteria: [uictest-stop]\nsimulation: {{maximum_duration: 15 s}}\n")
-    answer = call("sweep", file, "--frontier", "controller.parameters.share", "--tolerance", "0.1")
-    assert answer.code == 1
+    answer = call("sweep", file, "--frontier", "controller.parameters.share", "--tolerance", "0.1", code=1)
     assert "Frontier along controller.parameters.share" in answer.out
     with Path("reports/study/frontier.csv").open() as lines:
         (flip,) = csv.DictReader(lines)

@@ -1,14 +1,10 @@
 """What a sweep says of its progress where nobody watches a bar."""
 
-import pytest
-
 from uictest.cli import progress
 from uictest.cli.sweep import execution
 
 
-def test_a_line_now_and_then_with_rate_and_time_left(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_line_now_and_then_with_rate_and_time_left(monkeypatch, capsys):
     moments = iter([100.0, 101.0, 102.0, 140.0])
     monkeypatch.setattr(execution, "monotonic", lambda: next(moments))
     monkeypatch.setattr(progress, "HEARTBEAT", 30.0)
@@ -18,7 +14,7 @@ def test_a_line_now_and_then_with_rate_and_time_left(
     assert capsys.readouterr().err == "uictest: 220 of 1000 cases, 3 cases/s, 260 s left\n"
 
 
-def test_quiet_says_nothing(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_quiet_says_nothing(monkeypatch, capsys):
     monkeypatch.setattr(progress, "HEARTBEAT", 0.0)
     with execution.sweep_progress(10, 0, quiet=True) as advance:
         advance(5)

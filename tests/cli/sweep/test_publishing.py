@@ -10,8 +10,6 @@ import pyarrow.parquet as pq
 import pytest
 import yaml
 
-from ..conftest import Call, Write
-
 FOLDER = Path("reports/pads")
 TEXT = """\
 schema: uictest/sweep/1
@@ -24,7 +22,7 @@ grid:
 
 
 @pytest.fixture
-def pads(scenario: Write) -> Path:
+def pads(scenario):
     """A sweep of four stops that are expected to fail and do not."""
     scenario("stop", "expect: fail\n")
     Path("pads.sweep.yaml").write_text(TEXT)
@@ -34,28 +32,30 @@ def pads(scenario: Write) -> Path:
 HEADLINE = "## uictest sweep: 4 cases: 4 pass; 4 not as expected\n"
 
 
-def test_reports_are_written_in_the_formats_asked_for_and_in_others_later(
-    call: Call, pads: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_reports_are_written_in_the_formats_asked_for_and_in_others_later(call, pads, monkeypatch):
     Path("summary").write_text("# Before\n")
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", "summary")
     assert call("sweep", pads, "--report", "md").code == 1
     assert (FOLDER / "summary.md").read_text().startswith(HEADLINE)
     assert Path("summary").read_text().startswith(f"# Before\n{HEADLINE}")
-    answer = call("report", FOLDER, "--format", "csv,xlsx,md", "-o", "elsewhere")
-    assert answer.code == 0
+    answer = call("report", FOLDER, "--format", "csv,xlsx,md", "-o", "elsewhere", code=0)
     written = {Path(line).name for line in answer.out.splitlines()}
     assert {"summary.csv", "rates.csv", "map-met.csv", "report.xlsx", "summary.md"} <= written
     assert written == {path.name for path in Path("elsewhere").iterdir()}
     assert Path("elsewhere/report.xlsx").read_bytes().startswith(b"PK")
 
 
-def test_a_format_there_is_not_is_rejected_before_anything_runs(call: Call, pads: Path) -> None:
+def test_a_format_there_is_not_is_rejected_and_a_summary_that_cannot_be_written_undoes_nothing(
+    call, pads, monkeypatch
+):
     answer = call("sweep", pads, "--report", "pdf")
     assert (answer.code, answer.out, FOLDER.exists()) == (4, "", False)
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(Path("no/folder")))
+    call("sweep", pads, "--report", "md", code=1, says="GITHUB_STEP_SUMMARY cannot be written")
+    assert (FOLDER / "summary.md").exists()
 
 
-def test_nothing_of_an_earlier_result_stays_beside_another(call: Call, pads: Path) -> None:
+def test_nothing_of_an_earlier_result_stays_beside_another(call, pads):
     call("sweep", pads, "--report", "html", "--measure", "braking_time_s")
     (FOLDER / "notes.csv").write_text("mine")
     call("sweep", pads, "--report", "csv")
@@ -68,7 +68,7 @@ def test_nothing_of_an_earlier_result_stays_beside_another(call: Call, pads: Pat
 
 
 @pytest.mark.parametrize("name", ["sweep.json", "summary.parquet"])
-def test_a_damaged_sweep_is_rejected(call: Call, pads: Path, name: str) -> None:
+def test_a_damaged_sweep_is_rejected(call, pads, name):
     call("sweep", pads, "--report", "csv")
     (FOLDER / name).write_text("{}")
     answer = call("report", FOLDER, "--format", "xlsx")
@@ -76,7 +76,7 @@ def test_a_damaged_sweep_is_rejected(call: Call, pads: Path, name: str) -> None:
     assert "cannot be read as a sweep" in answer.err
 
 
-def test_github_gets_annotations_below_the_findings_and_alone_with_q(call: Call, pads: Path) -> None:
+def test_github_gets_annotations_below_the_findings_and_alone_with_q(call, pads):
     lines = call("sweep", pads, "--format", "github").out.splitlines()
     errors = [line for line in lines if line.startswith("::error ")]
     assert len(errors) == 4
@@ -87,17 +87,7 @@ def test_github_gets_annotations_below_the_findings_and_alone_with_q(call: Call,
     assert call("sweep", pads, "--format", "github", "-q").out.splitlines() == [*errors, notice]
 
 
-def test_a_summary_that_cannot_be_written_undoes_nothing(
-    call: Call, pads: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(Path("no/folder")))
-    answer = call("sweep", pads, "--report", "md")
-    assert answer.code == 1
-    assert "GITHUB_STEP_SUMMARY cannot be written" in answer.err
-    assert (FOLDER / "summary.md").exists()
-
-
-def test_the_page_draws_the_worst_cases_and_can_be_made_again(call: Call, pads: Path) -> None:
+def test_the_page_draws_the_worst_cases_and_can_be_made_again(call, pads):
     call("sweep", pads)
     page = FOLDER / "index.html"
     first = page.read_bytes()
@@ -108,7 +98,7 @@ def test_the_page_draws_the_worst_cases_and_can_be_made_again(call: Call, pads: 
     assert page.read_bytes() == first
 
 
-def test_the_command_for_one_stop_works_as_printed_beside_the_sweep(call: Call, pads: Path) -> None:
+def test_the_command_for_one_stop_works_as_printed_beside_the_sweep(call, pads):
     call("sweep", pads, "--seed", "7", "--set", "brake.command=80 %,90 %", "--report", "html,csv")
     written = re.search(r"<code>([^<]* -k [^<]*)</code>", (FOLDER / "index.html").read_text("utf-8"))
     for command in ("80", "90"):
@@ -121,7 +111,7 @@ def test_the_command_for_one_stop_works_as_printed_beside_the_sweep(call: Call, 
         assert row in of_sweep
 
 
-def test_a_case_in_error_is_3_and_a_row_and_not_drawn(call: Call, pads: Path) -> None:
+def test_a_case_in_error_is_3_and_a_row_and_not_drawn(call, pads):
     steps = "grid: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n"
     pads.write_text(TEXT.split("grid")[0] + steps)
     assert call("sweep", pads).code == 3
@@ -146,14 +136,14 @@ k_dry: {measure: mean_deceleration}
 
 
 @pytest.fixture
-def k_dry(scenario: Write, two_worst_cases: None) -> Path:
+def k_dry(scenario, two_worst_cases):
     """A sweep of 32 stops on dry rail for K_dry."""
     scenario("stop", "rail: {condition: dry}\n")
     Path("pads.sweep.yaml").write_text(K_DRY)
     return Path("pads.sweep.yaml")
 
 
-def test_k_dry_is_a_share_of_the_stop_with_the_values_of_the_scenario(call: Call, k_dry: Path) -> None:
+def test_k_dry_is_a_share_of_the_nominal_stop_and_may_be_asked_for_anew(call, k_dry):
     call("sweep", k_dry)
     (table,) = yaml.safe_load((FOLDER / "k_dry.yaml").read_text())["tables"]
     answer = call("run", "scenarios/stop.yaml", "--report", "csv", "-o", "alone", "--format", "json")
@@ -164,22 +154,6 @@ def test_k_dry_is_a_share_of_the_stop_with_the_values_of_the_scenario(call: Call
     # Of 32 draws the smallest bounds 10 %, and the eleventh 50 %, with 95 % confidence.
     factors = [level["k_dry"] for level in table["levels"][:3]]
     assert factors == [draws[10] / table["nominal_mps2"], draws[0] / table["nominal_mps2"], None]
-
-
-def test_shards_and_an_interrupted_sweep_give_the_same_k_dry(call: Call, k_dry: Path) -> None:
-    call("sweep", k_dry, "-o", "whole")
-    whole = Path("whole/pads/k_dry.yaml").read_text()
-    for number in (1, 2):
-        call("sweep", k_dry, "--shard", f"{number}/2", "-o", f"shard{number}")
-    call("sweep", k_dry, "-o", "merged", "--merge", "shard1/pads", "--merge", "shard2/pads")
-    assert Path("merged/pads/k_dry.yaml").read_text() == whole
-    next(iter(sorted(Path("whole/pads/chunks").iterdir()))).unlink()
-    assert "16 of 32 cases are already finished" in call("sweep", k_dry, "-o", "whole").err
-    assert Path("whole/pads/k_dry.yaml").read_text() == whole
-
-
-def test_k_dry_of_finished_cases_may_be_asked_for_anew(call: Call, k_dry: Path) -> None:
-    call("sweep", k_dry)
     chunks = sorted(path.name for path in (FOLDER / "chunks").iterdir())
     (before,) = yaml.safe_load((FOLDER / "k_dry.yaml").read_text())["tables"]
     text, _, request = k_dry.read_text().rpartition("k_dry:")
@@ -194,7 +168,19 @@ def test_k_dry_of_finished_cases_may_be_asked_for_anew(call: Call, k_dry: Path) 
     assert (answer.code, "the cases that the sweep file asks for" in answer.err) == (4, True)
 
 
-def test_a_nominal_case_without_a_deceleration_is_named(call: Call, k_dry: Path) -> None:
+def test_shards_and_an_interrupted_sweep_give_the_same_k_dry(call, k_dry):
+    call("sweep", k_dry, "-o", "whole")
+    whole = Path("whole/pads/k_dry.yaml").read_text()
+    for number in (1, 2):
+        call("sweep", k_dry, "--shard", f"{number}/2", "-o", f"shard{number}")
+    call("sweep", k_dry, "-o", "merged", "--merge", "shard1/pads", "--merge", "shard2/pads")
+    assert Path("merged/pads/k_dry.yaml").read_text() == whole
+    next(iter(sorted(Path("whole/pads/chunks").iterdir()))).unlink()
+    assert "16 of 32 cases are already finished" in call("sweep", k_dry, "-o", "whole").err
+    assert Path("whole/pads/k_dry.yaml").read_text() == whole
+
+
+def test_a_nominal_case_without_a_deceleration_is_named(call, k_dry):
     call("sweep", k_dry, "--set", "simulation.maximum_duration=2 s")
     (table,) = yaml.safe_load((FOLDER / "k_dry.yaml").read_text())["tables"]
     assert table["nominal_mps2"] is None
@@ -204,7 +190,7 @@ def test_a_nominal_case_without_a_deceleration_is_named(call: Call, k_dry: Path)
     assert any("no K_dry: the nominal case pads[pad_friction=nominal] has no mean" in note for note in notes)
 
 
-def test_check_warns_of_a_range_beside_the_nominal(call: Call, k_dry: Path) -> None:
+def test_check_warns_of_a_range_beside_the_nominal(call, k_dry):
     k_dry.write_text(K_DRY.replace("0.36", "0.39"))
     warning = call("check", k_dry).err
     assert "pad_friction: the scenario's own 0.38 lies OUTSIDE the range 0.39 .. 0.4" in warning
