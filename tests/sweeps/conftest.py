@@ -1,22 +1,17 @@
 """Sweeps of one scenario in a folder of their own, and a rig whose stops are a formula."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from uictest import rig
 from uictest.controllers import HEADER
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.plans.sweeps import Plan, load_sweep
+from uictest.plans.sweeps import load_sweep
 from uictest.rig.model.friction_law import FRICTIONS
 from uictest.running.chunked import ChunkRunner
 from uictest.running.chunked.case_blocks import BlockAssembler
@@ -35,29 +30,22 @@ grid:
 """
 SLIP_BAND = Path(__file__).parent / "controllers"
 """A controller from outside with the commands of the built-in slip-band."""
-Load = Callable[..., Plan]
 
 
 @pytest.fixture
-def load(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Load:
+def load(tmp_path, monkeypatch):
     """The plan of a sweep whose file says the given text after its head."""
     monkeypatch.chdir(tmp_path)
     Path("stop.yaml").write_text(SCENARIO)
 
-    def write_and_load(
-        text: str = GRID, *overrides: str, scenario: str = "stop.yaml", **options: Any
-    ) -> Plan:
+    def write_and_load(text=GRID, *overrides, scenario="stop.yaml", **options):
         Path("study.sweep.yaml").write_text(HEAD.replace("stop.yaml", scenario) + text)
         return load_sweep(Path("study.sweep.yaml"), overrides, **options)
 
     return write_and_load
 
 
-def formula(
-    parameters: NDArray[Any],
-    wheelset_parameters: NDArray[Any],
-    rail: NDArray[np.float64],
-) -> tuple[NDArray[Any], NDArray[Any]]:
+def formula(parameters, wheelset_parameters, rail):
     """Stops as a point of mass makes them: every figure is a known function of friction and speed."""
     measures = np.zeros(parameters.size, STOP_MEASURES)
     wheelsets = np.zeros((parameters.size, 4), WHEELSET_MEASURES)
@@ -91,13 +79,13 @@ def formula(
 
 
 @pytest.fixture
-def made_up() -> Callable[[Plan], ChunkRunner]:
+def made_up():
     """A runner whose stops are the formula."""
     return lambda plan: ChunkRunner(BlockAssembler(plan), formula, plan, rig.run_block)
 
 
 @pytest.fixture
-def library(tmp_path: Path) -> str:
+def library(tmp_path):
     """The controller slip-band as a shared library beside the sweep, as a scenario names it."""
     compiler = shutil.which(os.environ.get("CC", "gcc"))
     if compiler is None:
@@ -108,7 +96,7 @@ def library(tmp_path: Path) -> str:
 
 
 @pytest.fixture
-def python_file(tmp_path: Path) -> str:
+def python_file(tmp_path):
     """The controller slip-band as a class in a file beside the sweep, as a scenario names it."""
     shutil.copy(SLIP_BAND / "slip_band.py", tmp_path)
     return "slip_band.py, class: SlipBand"

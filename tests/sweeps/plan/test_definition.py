@@ -6,34 +6,30 @@ import numpy as np
 import pytest
 
 from uictest.plans.scenario import ScenarioErrors
-from uictest.plans.sweeps import Plan, load_sweep
+from uictest.plans.sweeps import load_sweep
 from uictest.plans.sweeps.base_case import BaseCase
 
-from ..conftest import GRID, HEAD, Load
+from ..conftest import GRID, HEAD
 
 SAMPLE = "sample: {method: sobol, size: 4, parameters: {rail.friction: {uniform: [0.05, 0.15]}}}\n"
 
+SHIPPED = sorted((Path(__file__).parents[3] / "scenarios").glob("*.sweep.yaml"))
 
-def values(plan: Plan, key: str) -> list[str]:
+
+def values(plan, key):
     return plan.settings(np.arange(plan.size))[key].texts
 
 
-def test_every_combination_first_key_slowest(load: Load) -> None:
+def test_every_combination_first_key_slowest_and_numbers_for_values_without_a_name(load):
     plan = load(GRID + "zip: {seed: [1, 2], rail.gradient: [0 permille, 5 permille]}\n")
     assert plan.size == 12
     assert values(plan, "rail.friction") == ["0.08"] * 4 + ["0.10"] * 4 + ["0.12"] * 4
     assert values(plan, "seed") == ["1", "2"] * 6
     assert values(plan, "rail.gradient") == ["0 permille", "5 permille"] * 6
     assert plan.ids(np.array([3])) == ["study[friction=0.08,command=100,seed=2,gradient=5permille]"]
-
-
-def test_values_without_a_name_are_numbered_from_one(load: Load) -> None:
     profiles = "{points: [{position: 0 m, friction: 0.1}]}, {points: [{position: 0 m, friction: 0.2}]}"
     plan = load(f"grid: {{rail.friction: [{profiles}]}}\n")
     assert plan.ids(np.arange(2)) == ["study[friction=value1]", "study[friction=value2]"]
-
-
-def test_ranges_by_step_and_count(load: Load) -> None:
     plan = load(
         "ranges:\n  rail.friction: {first: 0.08, last: 0.10, step: 0.01}\n"
         "  initial_speed: {first: 20 km/h, last: 30 km/h, count: 3}\n"
@@ -42,22 +38,19 @@ def test_ranges_by_step_and_count(load: Load) -> None:
     assert values(plan, "initial_speed")[:3] == ["20 km/h", "25 km/h", "30 km/h"]
 
 
-def test_a_sample_is_numbered_in_the_ids_and_goes_with_a_grid(load: Load) -> None:
+def test_a_sample_is_numbered_in_ids_that_are_unique_and_of_each_case(load):
     plan = load(SAMPLE + "grid: {brake.command: [80 %, 100 %]}\n")
     assert plan.ids(np.array([0, 5])) == ["study[command=80,sample=0]", "study[command=100,sample=1]"]
     drawn = plan.settings(np.arange(8))["rail.friction"]
     assert drawn.texts[:4] == drawn.texts[4:]
     assert all(0.05 <= number <= 0.15 for number in drawn.numbers)
-
-
-def test_ids_are_unique_and_do_not_depend_on_how_many_are_asked_for(load: Load) -> None:
     plan = load(SAMPLE + GRID.replace("rail.friction", "rail.condition.friction"))
     ids = plan.ids(np.arange(plan.size))
     assert len(set(ids)) == plan.size
     assert plan.ids(np.array([7, 2])) == [ids[7], ids[2]]
 
 
-def test_the_command_line_fixes_a_key_or_sweeps_it(load: Load) -> None:
+def test_the_command_line_fixes_a_key_or_sweeps_it(load):
     fixed = load(GRID, "rail.friction=0.2")
     assert fixed.keys == ("brake.command",)
     assert fixed.base.scenario.rail.friction == 0.2
@@ -65,19 +58,16 @@ def test_the_command_line_fixes_a_key_or_sweeps_it(load: Load) -> None:
     assert values(swept, "rail.friction") == ["0.2", "0.2", "0.3", "0.3"]
     assert load(
         SAMPLE + GRID.replace("rail.friction", "seed").replace("0.08, 0.10, 0.12", "1"), "rail.friction=0.2"
-    ).keys == (
-        "seed",
-        "brake.command",
-    )
+    ).keys == ("seed", "brake.command")
     assert load(GRID, seed=7).base.scenario.seed == 7
 
 
-def test_the_files_read_are_inputs(load: Load) -> None:
+def test_the_files_read_are_inputs(load):
     inputs = load(GRID + "zip: {rig.caliper: [six-inch], vehicle: [crh380a]}\n").inputs
     assert {"stop.yaml", "study.sweep.yaml", "library:vehicles/crh380a.yaml"} <= set(inputs)
 
 
-def test_a_case_of_a_scenario_with_several(load: Load, tmp_path: Path) -> None:
+def test_a_case_of_a_scenario_with_several(load, tmp_path):
     load()
     Path("stop.yaml").write_text(Path("stop.yaml").read_text() + "matrix: {rig.compensation: [none, full]}\n")
     wanted = HEAD + "case: stop[compensation=none]\n" + GRID
@@ -120,7 +110,7 @@ def test_a_case_of_a_scenario_with_several(load: Load, tmp_path: Path) -> None:
         ),
     ],
 )
-def test_errors_say_where_and_what_is_accepted(load: Load, text: str, expected: str) -> None:
+def test_errors_say_where_and_what_is_accepted(load, text, expected):
     with pytest.raises(ScenarioErrors) as caught:
         load(text)
     assert expected in str(caught.value)
@@ -145,7 +135,7 @@ def test_errors_say_where_and_what_is_accepted(load: Load, text: str, expected: 
         ),
     ],
 )
-def test_what_a_distribution_expects(load: Load, distribution: str, expected: str) -> None:
+def test_what_a_distribution_expects(load, distribution, expected):
     with pytest.raises(ScenarioErrors) as caught:
         load(f"sample: {{size: 3, parameters: {{rail.friction: {distribution}}}}}\n")
     (error,) = caught.value.diagnostics
@@ -153,7 +143,7 @@ def test_what_a_distribution_expects(load: Load, distribution: str, expected: st
     assert expected in str(error)
 
 
-def test_choices_of_one_label_are_two_where_they_are_written_differently(load: Load) -> None:
+def test_choices_of_one_label_are_two_where_they_are_written_differently(load):
     load()
     for folder in (Path("here"), Path("there")):
         folder.mkdir()
@@ -172,7 +162,7 @@ def test_choices_of_one_label_are_two_where_they_are_written_differently(load: L
         ("name: a\n", "write `schema: uictest/scenario/1`"),
     ],
 )
-def test_what_is_no_sweep_gets_a_hint_how_a_sweep_starts(load: Load, text: str, hint: str) -> None:
+def test_what_is_no_sweep_gets_a_hint_how_a_sweep_starts(load, text, hint):
     load()
     Path("other.sweep.yaml").write_text(text)
     with pytest.raises(ScenarioErrors, match=hint):
@@ -192,15 +182,21 @@ def test_what_is_no_sweep_gets_a_hint_how_a_sweep_starts(load: Load, text: str, 
         ),
     ],
 )
-def test_a_normal_without_spread_between_its_ends_is_rejected(load: Load, normal: str, expected: str) -> None:
+def test_a_normal_without_spread_between_its_ends_is_rejected(load, normal, expected):
     with pytest.raises(ScenarioErrors, match=rf"rail\.friction\.normal\.{expected}"):
         load(f"sample: {{size: 3, parameters: {{rail.friction: {{normal: {normal}}}}}}}\n")
 
 
-def test_all_errors_are_reported_at_once(load: Load) -> None:
+def test_all_errors_are_reported_at_once_and_those_of_an_axis_counted(load):
     with pytest.raises(ScenarioErrors) as caught:
         load("grid:\n  rail.friction: [5, 0.1, 6]\n  brake.command: [200 %]\n")
     assert [error.line for error in caught.value.diagnostics] == [5, 6]
+    with pytest.raises(ScenarioErrors, match="; 2 more of the 5 values are rejected"):
+        load("grid: {rail.friction: [0.1, 5, 6, 0.2, 7]}\n")
+    with pytest.raises(ScenarioErrors, match="; 999 more of the 1000 values are rejected"):
+        load("ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}\n")
+    with pytest.raises(ScenarioErrors, match=r"unknown key 'frictoin'\n"):
+        load("grid: {rail.frictoin: [1, 2, 3]}\n")
 
 
 @pytest.mark.parametrize(
@@ -224,7 +220,7 @@ def test_all_errors_are_reported_at_once(load: Load) -> None:
         ("sample: {size: 1, parameters: {vehicle: {choice: [crh380a, a, b]}}}", 60, "no vehicle 'a'"),
     ],
 )
-def test_an_axis_has_one_error_at_its_place(load: Load, text: str, column: int, expected: str) -> None:
+def test_an_axis_has_one_error_at_its_place(load, text, column, expected):
     with pytest.raises(ScenarioErrors) as caught:
         load(text + "\n")
     (error,) = caught.value.diagnostics
@@ -232,18 +228,7 @@ def test_an_axis_has_one_error_at_its_place(load: Load, text: str, column: int, 
     assert expected in error.message
 
 
-def test_the_error_of_an_axis_counts_the_values_that_are_rejected_too(load: Load) -> None:
-    with pytest.raises(ScenarioErrors, match="; 2 more of the 5 values are rejected"):
-        load("grid: {rail.friction: [0.1, 5, 6, 0.2, 7]}\n")
-    with pytest.raises(ScenarioErrors, match="; 999 more of the 1000 values are rejected"):
-        load("ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}\n")
-    with pytest.raises(ScenarioErrors, match=r"unknown key 'frictoin'\n"):
-        load("grid: {rail.frictoin: [1, 2, 3]}\n")
-
-
-def test_only_the_first_rejected_value_is_read_as_a_scenario(
-    load: Load, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_only_the_first_rejected_value_is_read_as_a_scenario(load, monkeypatch):
     read: list[object] = []
     original = BaseCase.scenario_with
     monkeypatch.setattr(BaseCase, "scenario_with", lambda *given: read.append(given) or original(*given))
@@ -252,14 +237,14 @@ def test_only_the_first_rejected_value_is_read_as_a_scenario(
     assert len(read) == 1
 
 
-def test_what_a_value_does_to_an_option_is_reported_at_the_value(load: Load) -> None:
+def test_what_a_value_does_to_an_option_is_reported_at_the_value(load):
     with pytest.raises(
         ScenarioErrors, match=r"study.sweep.yaml:4:24: .*'0.005' is inconsistent with initial_speed"
     ):
         load("grid: {rail.friction: [0.005]}\n", "initial_speed=300 km/h")
 
 
-def test_errors_inside_a_part_are_reported_in_its_file(load: Load) -> None:
+def test_errors_inside_a_part_are_reported_in_its_file(load):
     load()
     Path("rail.yaml").write_text("name: rail\nfriction: 7\nfriction_ratio: 8\n")
     with pytest.raises(ScenarioErrors) as caught:
@@ -276,16 +261,21 @@ def test_errors_inside_a_part_are_reported_in_its_file(load: Load) -> None:
         "sample: {size: 4, parameters: {rail.condition.friction: {uniform: [0.2, 0.3]}}}\n",
     ],
 )
-def test_a_rail_condition_is_not_swept_beside_the_friction_of_the_scenario(load: Load, text: str) -> None:
+def test_a_rail_condition_is_not_swept_beside_the_friction_of_the_scenario(load, text):
     with pytest.raises(ScenarioErrors, match=r"but rail\.friction stays '0\.1'"):
         load(text)
     assert load(text + "zip: {rail.friction: [null, 0.2]}\n").size % 2 == 0
 
 
-def test_a_scenario_is_no_sweep_and_a_sweep_no_scenario(load: Load) -> None:
+def test_a_scenario_is_no_sweep_and_a_sweep_no_scenario(load):
     load()
     with pytest.raises(ScenarioErrors, match="a scenario without `vary` is run with `uictest run`"):
         load_sweep(Path("stop.yaml"))
     Path("study.sweep.yaml").write_text(HEAD.replace("stop.yaml", "study.sweep.yaml") + GRID)
     with pytest.raises(ScenarioErrors, match="is a sweep, not a scenario"):
         load_sweep(Path("study.sweep.yaml"))
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.name)
+def test_shipped_sweeps_are_called_like_their_files(path):
+    assert f"{load_sweep(path).name}.sweep.yaml" == path.name

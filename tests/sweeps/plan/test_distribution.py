@@ -1,15 +1,12 @@
 """Quantiles against scipy's distributions."""
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import pytest
 from scipy import stats
 from scipy.special import erfcx
 
 from uictest.plans.scenario.parts.vary import FARTHEST_END, Distribution
-from uictest.plans.sweeps.sampling import Probabilities, quantile
+from uictest.plans.sweeps.sampling import quantile
 
 SHARES = np.linspace(0.0, 0.999, 50)
 
@@ -27,19 +24,19 @@ SHARES = np.linspace(0.0, 0.999, 50)
         ),
     ],
 )
-def test_quantiles(given: dict[str, Any], expected: Callable[[Any], Any]) -> None:
+def test_quantiles(given, expected):
     found = quantile(Distribution.model_validate(given))(SHARES)
     assert found == pytest.approx(expected(SHARES), rel=1e-9, abs=1e-12)
 
 
 @pytest.mark.parametrize("name", Distribution.model_fields)
-def test_every_distribution_shows_an_example_that_it_accepts(name: str) -> None:
+def test_every_distribution_shows_an_example_that_it_accepts(name):
     field = Distribution.model_fields[name]
     (example,) = field.examples or ()
     assert Distribution.model_validate({field.alias or name: example}).form == name
 
 
-def test_a_choice_gives_places() -> None:
+def test_a_choice_gives_places():
     places = quantile(Distribution(choice=("a", "b", "c")))(np.array([0.0, 0.34, 0.99, 1.0]))
     assert places.tolist() == [0.0, 1.0, 2.0, 2.0]
 
@@ -56,25 +53,25 @@ TAILS: list[Normal] = [
 """Mean, deviation, lower and upper end: above the mean, the last ones far."""
 
 
-def drawn(normal: Normal, shares: Probabilities = SHARES) -> Probabilities:
+def drawn(normal, shares=SHARES):
     mean, deviation, lower, upper = normal
     given = {"mean": mean, "deviation": deviation, "lower": lower, "upper": upper}
     return quantile(Distribution.model_validate({"normal": given}))(shares)
 
 
-def mirrored(normal: Normal) -> Normal:
+def mirrored(normal):
     mean, deviation, lower, upper = normal
     return -mean, deviation, -upper, -lower
 
 
-def beyond(value: Any, low: float) -> Any:
+def beyond(value, low):
     """The probability to lie beyond a value for those that lie beyond `low`: Q(x) / Q(low)."""
     ratio = erfcx(value / np.sqrt(2.0)) / erfcx(low / np.sqrt(2.0))
     return ratio * np.exp(-(value - low) * (value + low) / 2.0)
 
 
 @pytest.mark.parametrize("normal", TAILS)
-def test_a_tail_of_a_normal_has_its_closed_form(normal: Normal) -> None:
+def test_a_tail_of_a_normal_has_its_closed_form(normal):
     mean, deviation, lower, upper = normal
     low, high = (lower - mean) / deviation, (upper - mean) / deviation
     value = (drawn(normal) - mean) / deviation
@@ -83,7 +80,7 @@ def test_a_tail_of_a_normal_has_its_closed_form(normal: Normal) -> None:
 
 
 @pytest.mark.parametrize("normal", [*TAILS, *map(mirrored, TAILS), (1, 2, 0, 4), (0, 1, -9, 9)])
-def test_a_normal_keeps_its_ends_and_rises(normal: Normal) -> None:
+def test_a_normal_keeps_its_ends_and_rises(normal):
     *_, lower, upper = normal
     values = drawn(normal, np.array([*SHARES, 1.0 - 2.0**-53, 1.0]))
     assert [values[0], values[-1]] == pytest.approx([lower, upper])
@@ -92,18 +89,18 @@ def test_a_normal_keeps_its_ends_and_rises(normal: Normal) -> None:
 
 
 @pytest.mark.parametrize("normal", TAILS)
-def test_the_lower_tail_mirrors_the_upper(normal: Normal) -> None:
+def test_the_lower_tail_mirrors_the_upper(normal):
     shares = np.arange(1, 64) / 64.0
     assert np.array_equal(drawn(mirrored(normal), shares), -drawn(normal, 1.0 - shares))
 
 
-def test_values_far_from_the_mean_crowd_at_the_nearer_end() -> None:
+def test_values_far_from_the_mean_crowd_at_the_nearer_end():
     # Beyond z deviations the normal falls as an exponential of mean 1/z deviations.
     assert drawn((0.2, 0.01, 0.9, 0.95)).mean() == pytest.approx(0.9 + 0.01 / 70.0, rel=1e-5)
 
 
 @pytest.mark.parametrize("end", [FARTHEST_END - 1.0, -FARTHEST_END + 1.0])
-def test_the_farthest_end_that_is_accepted_has_a_distribution_still(end: float) -> None:
+def test_the_farthest_end_that_is_accepted_has_a_distribution_still(end):
     low, high = sorted((end, np.copysign(FARTHEST_END + 9.0, end)))
     excess = abs(drawn((0, 1, low, high), np.array([0.5]))[0] - end)
     assert excess == pytest.approx(np.log(2.0) / FARTHEST_END, rel=1e-3)

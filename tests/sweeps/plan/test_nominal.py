@@ -1,7 +1,5 @@
 """A range for sensitivities says where the scenario's own value lies."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -9,8 +7,6 @@ import pytest
 
 from uictest.plans.sweeps import drawn_ranges, load_sweep
 from uictest.plans.sweeps.plan import saltelli_sample
-
-from ..conftest import Load
 
 SHIPPED = sorted((Path(__file__).parents[3] / "scenarios").glob("*.sweep.yaml"))
 TEXT = """\
@@ -25,28 +21,24 @@ sample:
 """
 
 
-def test_the_ends_are_those_of_the_draws(load: Load) -> None:
+def test_the_ends_are_those_of_the_draws(load):
     plan = load(TEXT)
     sample = saltelli_sample(plan)
-    assert sample is not None
     for each in drawn_ranges(plan):
         draw = sample.draws[sample.keys.index(each.key)]
         first, last = draw.values(np.array([0.0, 1.0]))
         assert (each.low, each.high) == (first.content, last.content)
 
 
-def test_a_range_beside_the_nominal_is_distinguished_from_one_around_it(load: Load) -> None:
+def test_only_samples_for_sensitivities_have_ranges_that_lie_around_the_nominal_or_beside(load):
     inside = {each.key: each.contains_nominal for each in drawn_ranges(load(TEXT))}
     assert inside == {"rail.friction": False, "brake.command": True, "initial_speed": True}
     sentences = list(map(str, drawn_ranges(load(TEXT))))
     assert sentences[0] == "rail.friction: the scenario's own 0.1 lies OUTSIDE the range 0.11 .. 0.15"
+    assert list(drawn_ranges(load(TEXT.replace("saltelli", "random")))) == []
+    assert list(drawn_ranges(load())) == []
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=[path.stem for path in SHIPPED])
-def test_the_shipped_sensitivities_are_those_of_the_shipped_scenario(path: Path) -> None:
+def test_the_shipped_sensitivities_are_those_of_the_shipped_scenario(path):
     assert [str(each) for each in drawn_ranges(load_sweep(path)) if not each.contains_nominal] == []
-
-
-def test_only_samples_for_sensitivities_have_ranges(load: Load) -> None:
-    assert list(drawn_ranges(load(TEXT.replace("saltelli", "random")))) == []
-    assert list(drawn_ranges(load())) == []

@@ -1,7 +1,5 @@
 """Which parameters are spaced or drawn logarithmically."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import pytest
@@ -9,8 +7,6 @@ from hypothesis import given, strategies as st
 
 from uictest.analysis.summaries.tally import bins_of_plan, logarithmic_keys, spaced_logarithmically
 from uictest.report import DrawnInterval
-
-from ..conftest import Load
 
 TEXT = """\
 grid:
@@ -24,14 +20,15 @@ sample:
 """
 
 
-def test_drawn_and_listed_parameters_of_a_sweep(load: Load) -> None:
+def test_drawn_and_listed_parameters_of_one_unit_are_logarithmic(load):
     assert logarithmic_keys(load(TEXT)) == ("seed", "brake.system.wsp_valve.vent_conductance")
+    assert not spaced_logarithmically(["1 m/s", "10 m/s", "100 km/h"])
 
 
 @pytest.mark.parametrize(
     "texts", ["1 2 5 10 20 50", "0.01 0.1 1", "8 4 2 1", "0.5e-8 1e-8 2e-8 4e-8", "10 20 50 100", "1 3 10"]
 )
-def test_like_ratios_are_logarithmic(texts: str) -> None:
+def test_like_ratios_are_logarithmic(texts):
     assert spaced_logarithmically([f"{text} km/h" for text in texts.split()])
 
 
@@ -49,23 +46,17 @@ def test_like_ratios_are_logarithmic(texts: str) -> None:
         "1 1 1",
     ],
 )
-def test_others_are_not(texts: str) -> None:
+def test_others_are_not(texts):
     assert not spaced_logarithmically(texts.split())
 
 
-def test_numbers_of_two_units_are_not() -> None:
-    assert not spaced_logarithmically(["1 m/s", "10 m/s", "100 km/h"])
-
-
 @given(st.floats(0.001, 1e3), st.floats(2.0, 20.0), st.integers(3, 8))
-def test_a_geometric_sequence_is_and_an_arithmetic_one_is_not(
-    first: float, factor: float, count: int
-) -> None:
+def test_a_geometric_sequence_is_and_an_arithmetic_one_is_not(first, factor, count):
     assert spaced_logarithmically([repr(first * factor**k) for k in range(count)])
     assert not spaced_logarithmically([repr(first + factor * k) for k in range(1, count + 1)])
 
 
-def test_intervals_of_a_log_uniform_parameter_have_like_ratios(load: Load) -> None:
+def test_intervals_of_a_log_uniform_parameter_have_like_ratios(load):
     values = bins_of_plan(load(TEXT))["brake.system.wsp_valve.vent_conductance"].values
     edges = [value.low for value in values if isinstance(value, DrawnInterval)]
     assert len(edges) == 10

@@ -1,7 +1,5 @@
 """A sweep is a scenario that says under `vary` what varies; what 0.2 wrote comes out the same."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 
@@ -29,28 +27,28 @@ Write = Callable[..., Plan]
 
 
 @pytest.fixture
-def write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Write:
+def write(tmp_path, monkeypatch):
     """The plan of a sweep file with the given text."""
     monkeypatch.chdir(tmp_path)
     Path("stop.yaml").write_text(SCENARIO)
 
-    def to(text: str, *overrides: str) -> Plan:
+    def to(text, *overrides):
         Path("study.sweep.yaml").write_text(text)
         return load_sweep(Path("study.sweep.yaml"), overrides)
 
     return to
 
 
-def vary(sections: str = SECTIONS) -> str:
+def vary(sections=SECTIONS):
     return "vary:\n" + "".join(f"  {line}\n" for line in sections.splitlines())
 
 
-def cases(plan: Plan) -> list[tuple[str, list[str]]]:
+def cases(plan):
     indices = np.arange(plan.size)
     return [(key, column.texts) for key, column in plan.settings(indices).items()]
 
 
-def test_a_file_of_0_2_has_the_same_cases(write: Write) -> None:
+def test_a_file_of_0_2_has_the_same_cases(write):
     now = write(HEAD + vary())
     old_sections = SECTIONS.replace("matrix:", "grid:")
     before = write("schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\n" + old_sections)
@@ -64,7 +62,7 @@ def test_a_file_of_0_2_has_the_same_cases(write: Write) -> None:
     assert not now.written_now
 
 
-def test_a_case_that_0_2_names_has_its_values(write: Write) -> None:
+def test_a_case_that_0_2_names_has_its_values(write):
     Path("stop.yaml").write_text(SCENARIO + "matrix: {brake.command: [60 %, 90 %]}\n")
     old = "schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\ngrid: {seed: [1, 2]}\n"
     plan = write(f"{old}case: stop[command=90]\n")
@@ -74,20 +72,20 @@ def test_a_case_that_0_2_names_has_its_values(write: Write) -> None:
         write(old)
 
 
-def test_lists_of_cases_that_a_sweep_inherits_do_not_count(write: Write) -> None:
+def test_lists_of_cases_that_a_sweep_inherits_do_not_count(write):
     Path("stop.yaml").write_text(SCENARIO + "brake: {command: 70 %}\nmatrix: {brake.command: [60 %, 90 %]}\n")
     plan = write(HEAD + vary("matrix: {seed: [1, 2]}"))
     assert plan.size == 2
     assert plan.base.scenario.brake.command == 0.7
 
 
-def test_a_sweep_may_extend_a_sweep(write: Write) -> None:
+def test_a_sweep_may_extend_a_sweep(write):
     Path("wide.sweep.yaml").write_text(HEAD + vary("matrix: {seed: [1, 2], brake.command: [80 %, 100 %]}"))
     text = HEAD.replace("stop.yaml", "wide.sweep.yaml")
     assert write(text + vary("matrix: {seed: [1, 2, 3]}")).size == 6
 
 
-def test_what_it_asks_of_its_draws_does_not_change_which_cases_there_are(write: Write) -> None:
+def test_what_it_asks_of_its_draws_does_not_change_which_cases_there_are(write):
     plan = write(HEAD + vary())
     other_level = write(HEAD + vary(SECTIONS.replace("50 %", "40 %")))
     other_seed = write(HEAD + vary(SECTIONS.replace("seed: 5", "seed: 6")))
@@ -109,21 +107,17 @@ def test_what_it_asks_of_its_draws_does_not_change_which_cases_there_are(write: 
         ("ranges: {seed: {first: 1, last: 2, step: 1}}\n", (4, "ranges"), "no 'ranges' beside 'vary'"),
         ("vary: {matrix: {seed: [1]}}\nrepeat: 2\n", (5, "repeat"), "repeats its stop 2 times"),
         ("vary: {matrix: {vary.matrix: [1]}}\n", (4, "vary.matrix.vary.matrix"), "cannot vary"),
-        (
-            "vary: {matrix: {seed: [1]}, zip: {seed: [1]}}\n",
-            (4, "vary.zip.seed"),
-            "vary.matrix as well",
-        ),
+        ("vary: {matrix: {seed: [1]}, zip: {seed: [1]}}\n", (4, "vary.zip.seed"), "vary.matrix as well"),
     ],
 )
-def test_a_mistake_is_told_at_its_key(write: Write, text: str, place: tuple[int, str], message: str) -> None:
+def test_a_mistake_is_told_at_its_key(write, text, place, message):
     with pytest.raises(ScenarioErrors, match=message) as caught:
         write(HEAD + text)
     first = caught.value.diagnostics[0]
     assert (first.line, first.key) == place or (not place[1] and first.line)
 
 
-def test_a_sweep_is_not_run_as_a_scenario(write: Write) -> None:
+def test_a_sweep_is_not_run_as_a_scenario(write):
     write(HEAD + vary())
     with pytest.raises(ScenarioErrors, match="run it with `uictest sweep`"):
         load([Path("study.sweep.yaml")])

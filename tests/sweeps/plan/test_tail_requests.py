@@ -1,29 +1,25 @@
 """What a sweep file may ask of its draws, and what is said of a request that is wrong."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from uictest.plans.scenario import ScenarioErrors
 from uictest.plans.scenario.parts.tail_requests import QuantileRequest
-from uictest.plans.sweeps import Plan, load_sweep
+from uictest.plans.sweeps import load_sweep
 
 from ..conftest import HEAD
 
-LoadOn = Callable[[str, str], Plan]
 SAMPLE = "sample: {method: %s, size: 4, parameters: {vehicle.body.mass: {uniform: [30 t, 34 t]}}}\n"
 DRAWN = SAMPLE % "random"
 
 
 @pytest.fixture
-def load_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> LoadOn:
+def load_on(tmp_path, monkeypatch):
     """The plan of a sweep on a rail of this condition, whose file says the given text after its head."""
     monkeypatch.chdir(tmp_path)
 
-    def write_and_load(condition: str, text: str) -> Plan:
+    def write_and_load(condition, text):
         stop = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 30 km/h\n"
         Path("stop.yaml").write_text(f"{stop}rail: {{condition: {condition}}}\n")
         Path("study.sweep.yaml").write_text(HEAD + text)
@@ -32,7 +28,7 @@ def load_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> LoadOn:
     return write_and_load
 
 
-def test_one_request_or_a_list_of_them(load_on: LoadOn) -> None:
+def test_one_request_or_a_list_of_them_and_k_dry_needs_nothing_but_a_sample(load_on):
     one = "{measure: mean_deceleration, levels: [0.1 %, 50 %]}"
     plan = load_on("wet", f"{DRAWN}quantiles: {one}\n")
     assert load_on("wet", f"{DRAWN}quantiles: [{one}]\n").quantiles == plan.quantiles
@@ -42,18 +38,7 @@ def test_one_request_or_a_list_of_them(load_on: LoadOn) -> None:
         (0.001, 0.5),
         0.95,
     )
-
-
-def test_the_bound_lies_on_the_tail_unless_stated(load_on: LoadOn) -> None:
-    request = QuantileRequest(measure="maximum_slide_3", levels=["1 %", "50 %", "99 %"])
-    assert [request.side_of(level) for level in request.levels] == ["lower", "both", "upper"]
-    stated = request.model_copy(update={"side": "upper"})
-    assert {stated.side_of(level) for level in request.levels} == {"upper"}
-
-
-def test_k_dry_needs_nothing_but_a_sample_on_dry_rail(load_on: LoadOn) -> None:
     request = load_on("dry", DRAWN + "k_dry: {}\n").k_dry
-    assert request is not None
     assert (request.measure, request.nominal, request.confidence) == (
         "developed_deceleration_mps2",
         None,
@@ -61,14 +46,17 @@ def test_k_dry_needs_nothing_but_a_sample_on_dry_rail(load_on: LoadOn) -> None:
     )
 
 
+def test_the_bound_lies_on_the_tail_unless_stated(load_on):
+    request = QuantileRequest(measure="maximum_slide_3", levels=["1 %", "50 %", "99 %"])
+    assert [request.side_of(level) for level in request.levels] == ["lower", "both", "upper"]
+    stated = request.model_copy(update={"side": "upper"})
+    assert {stated.side_of(level) for level in request.levels} == {"upper"}
+
+
 @pytest.mark.parametrize(
     ("condition", "text", "expected"),
     [
-        (
-            "dry",
-            "grid: {brake.command: [80 %]}\nk_dry: {}\n",
-            "5:1: k_dry: the values of this sweep are",
-        ),
+        ("dry", "grid: {brake.command: [80 %]}\nk_dry: {}\n", "5:1: k_dry: the values of this sweep are"),
         ("dry", SAMPLE % "sobol" + "k_dry: {}\n", "k_dry: points of method sobol are not independent"),
         (
             "dry",
@@ -102,16 +90,14 @@ def test_k_dry_needs_nothing_but_a_sample_on_dry_rail(load_on: LoadOn) -> None:
         ("wet", DRAWN + "quantiles: 7\n", "expected a mapping"),
     ],
 )
-def test_errors_say_where_and_what_is_accepted(
-    load_on: LoadOn, condition: str, text: str, expected: str
-) -> None:
+def test_errors_say_where_and_what_is_accepted(load_on, condition, text, expected):
     with pytest.raises(ScenarioErrors) as caught:
         load_on(condition, text)
     assert expected in str(caught.value)
     assert str(caught.value).startswith("study.sweep.yaml:")
 
 
-def test_a_sample_that_the_command_line_replaces_supports_nothing(load_on: LoadOn) -> None:
+def test_a_sample_that_the_command_line_replaces_supports_nothing(load_on):
     load_on("dry", DRAWN + "k_dry: {}\n")
     with pytest.raises(ScenarioErrors, match="are listed, not drawn"):
         load_sweep(Path("study.sweep.yaml"), ["vehicle.body.mass=30 t,34 t"])

@@ -1,8 +1,5 @@
 """A case of a sweep has the numbers that the scenario with its values has, to the last bit."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,14 +8,13 @@ import numpy as np
 import pytest
 
 from uictest.judging.evaluation import JUDGED_KEYS
-from uictest.plans.scenario import Case, Scenario, load as load_scenarios
+from uictest.plans.scenario import load as load_scenarios
 from uictest.plans.scenario.yaml.model import Model
-from uictest.plans.sweeps import Plan
 from uictest.rig import ASSIGNMENTS, FRICTION_KEYS, WHEELSET_ASSIGNMENTS, assemble, assigned, friction_laws
 from uictest.running.chunked.case_blocks import BlockAssembler
 from uictest.running.chunked.scenario_function import ScenarioVariants
 
-from ..conftest import GRID, Load
+from ..conftest import GRID
 
 SWEEPS = {
     "grid": GRID + "  initial_speed: [20 km/h, 8 m/s]\n",
@@ -99,7 +95,7 @@ sample:
 }
 
 
-def written_out(plan: Plan, index: int, *overrides: str) -> Case:
+def written_out(plan, index, *overrides):
     """The case as `uictest run --set ...` would load it, with the id that it has in the sweep."""
     settings = plan.settings(np.array([index]))
     # A part first, then what lies inside it: an override of a part would take the inside with it.
@@ -110,7 +106,7 @@ def written_out(plan: Plan, index: int, *overrides: str) -> Case:
 
 
 @pytest.mark.parametrize("name", SWEEPS)
-def test_records_are_those_of_the_scenario_written_out(load: Load, name: str) -> None:
+def test_records_are_those_of_the_scenario_written_out(load, name):
     plan = load(SWEEPS[name])
     block = BlockAssembler(plan).block(np.arange(plan.size))
     assert block.rejections == [""] * plan.size
@@ -121,7 +117,7 @@ def test_records_are_those_of_the_scenario_written_out(load: Load, name: str) ->
         assert np.array_equal(rail, block.rail[place][:, : rail.shape[1]])
 
 
-def test_keys_inside_a_fault_of_the_base_vary(load: Load) -> None:
+def test_keys_inside_a_fault_of_the_base_vary(load):
     fault = "faults=[{at: 3 s, wheelset: 2, part: speed-sensor, kind: stuck}]"
     plan = load("grid:\n  faults.0.at: [3 s, 20 m]\n  faults.0.wheelset: [1, 4]\n", fault)
     block = BlockAssembler(plan).block(np.arange(plan.size))
@@ -131,21 +127,19 @@ def test_keys_inside_a_fault_of_the_base_vary(load: Load) -> None:
         assert written.tobytes() == block.parameters[place].tobytes()
 
 
-def test_cases_that_differ_in_numbers_are_assembled_together(
-    load: Load, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_cases_that_differ_in_numbers_are_assembled_together(load, monkeypatch):
     plan = load(SWEEPS["numbers"])
     assembler = BlockAssembler(plan)
     assembler.block(np.array([0, plan.size - 1]))  # what listed values give is kept
 
-    def at(variants: ScenarioVariants, place: int) -> Scenario:
+    def at(variants, place):
         raise AssertionError(tuple(variants.settings))
 
     monkeypatch.setattr(ScenarioVariants, "at", at)
     assert assembler.block(np.arange(plan.size)).rejections == [""] * plan.size
 
 
-def test_a_case_does_not_depend_on_its_neighbours(load: Load) -> None:
+def test_a_case_does_not_depend_on_its_neighbours(load):
     plan = load(SWEEPS["sample"])
     whole = BlockAssembler(plan).block(np.arange(plan.size))
     assembler = BlockAssembler(plan)
@@ -154,7 +148,7 @@ def test_a_case_does_not_depend_on_its_neighbours(load: Load) -> None:
         assert alone.parameters.tobytes() == whole.parameters[[place]].tobytes()
 
 
-def test_impossible_combinations_are_rejected_case_by_case(load: Load) -> None:
+def test_impossible_combinations_are_rejected_case_by_case(load):
     plan = load(
         "grid:\n  simulation.time_step: [0.5 ms, 0.4 ms, 0.25 ms]\n  controller.cycle_time: [10 ms, 5 ms]\n"
     )
@@ -166,10 +160,10 @@ def test_impossible_combinations_are_rejected_case_by_case(load: Load) -> None:
 class Watched:
     """A scenario that notes which keys are read."""
 
-    def __init__(self, model: Model, above: str, read: set[str]) -> None:
+    def __init__(self, model, above, read):
         self.__dict__.update(_model=model, _above=above, _read=read)
 
-    def __getattr__(self, name: str) -> Any:
+    def __getattr__(self, name):
         declared = getattr(type(self._model), name, None)
         if isinstance(declared, property) and declared.fget is not None:
             return declared.fget(self)
@@ -185,12 +179,12 @@ class Watched:
         self._read.add(key)
         return value
 
-    def __iter__(self) -> Iterator[Any]:
+    def __iter__(self):
         self._read.add(self._above.rstrip("."))
         return iter(self._model)
 
 
-def keys_read(function: Any, scenario: Scenario) -> set[str]:
+def keys_read(function, scenario):
     read: set[str] = set()
     function(Watched(scenario, "", read))
     return read
@@ -200,7 +194,7 @@ SHIPPED = load_scenarios([Path(__file__).parents[3] / "scenarios"])
 
 
 @pytest.mark.parametrize("case", SHIPPED, ids=lambda case: case.id)
-def test_what_sets_parameters_reads_nothing_but_what_they_say(case: Case) -> None:
+def test_what_sets_parameters_reads_nothing_but_what_they_say(case):
     """What sets parameters, and what they are set to apart from all others."""
     assignments = [*ASSIGNMENTS, *(each for wheelset in WHEELSET_ASSIGNMENTS for each in wheelset)]
     setters = [(lambda scenario, each=each: assigned([each], scenario), each.keys) for each in assignments]
@@ -210,7 +204,7 @@ def test_what_sets_parameters_reads_nothing_but_what_they_say(case: Case) -> Non
 
 
 @pytest.mark.parametrize("case", SHIPPED[:3], ids=lambda case: case.id)
-def test_judging_reads_nothing_but_what_it_says(case: Case) -> None:
+def test_judging_reads_nothing_but_what_it_says(case):
     from uictest.judging.evaluation import evaluate
 
     from ..conftest import formula

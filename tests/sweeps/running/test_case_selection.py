@@ -7,10 +7,8 @@ from hypothesis import given, strategies as st
 from uictest.running.campaign import ExpressionError
 from uictest.running.chunked import CaseSelection, select_cases
 
-from ..conftest import Load
 
-
-def test_an_expression_selects_by_id(load: Load) -> None:
+def test_an_expression_selects_by_id_and_chunks_are_those_of_a_selection(load):
     plan = load()
     selection = select_cases(plan, "friction=0.10 and not command=80")
     assert plan.ids(selection.indices(0, selection.size)) == ["study[friction=0.10,command=100]"]
@@ -18,18 +16,21 @@ def test_an_expression_selects_by_id(load: Load) -> None:
     assert select_cases(plan, "nothing").size == 0
     with pytest.raises(ExpressionError):
         select_cases(plan, "and")
+    selection = CaseSelection(load(), np.array([5, 1, 3]))
+    assert (selection.size, selection.chunks) == (3, 1)
+    assert selection.chunk(0).tolist() == [5, 1, 3]
 
 
 class Sized:
     """A plan as far as its size goes."""
 
-    def __init__(self, size: int) -> None:
+    def __init__(self, size):
         self.size = size
 
 
 @given(st.integers(1, 3_000_000))
-def test_chunks_are_all_cases_once_and_of_a_bounded_size(size: int) -> None:
-    selection = CaseSelection(Sized(size))  # type: ignore[arg-type]
+def test_chunks_are_all_cases_once_and_of_a_bounded_size(size):
+    selection = CaseSelection(Sized(size))
     edges = [selection.chunk(0)[0], selection.chunk(selection.chunks - 1)[-1]]
     assert edges == [0, size - 1]
     assert selection.chunk(0).size <= selection.chunk_size <= 4096
@@ -39,21 +40,7 @@ def test_chunks_are_all_cases_once_and_of_a_bounded_size(size: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("size", "chunk"),
-    [
-        (10, 16),
-        (448, 16),
-        (3000, 93),
-        (50_000, 1024),
-        (10**5, 1562),
-        (10**6, 4096),
-    ],
+    ("size", "chunk"), [(10, 16), (448, 16), (3000, 93), (50_000, 1024), (10**5, 1562), (10**6, 4096)]
 )
-def test_a_chunk_is_a_fraction_of_the_cases_between_bounds(size: int, chunk: int) -> None:
-    assert CaseSelection(Sized(size)).chunk_size == chunk  # type: ignore[arg-type]
-
-
-def test_chunks_of_a_selection(load: Load) -> None:
-    selection = CaseSelection(load(), np.array([5, 1, 3]))
-    assert (selection.size, selection.chunks) == (3, 1)
-    assert selection.chunk(0).tolist() == [5, 1, 3]
+def test_a_chunk_is_a_fraction_of_the_cases_between_bounds(size, chunk):
+    assert CaseSelection(Sized(size)).chunk_size == chunk

@@ -1,33 +1,25 @@
 """A chunk holds the results of its cases run one by one, and every case has a row."""
 
-from __future__ import annotations
-
 import io
 import math
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
 from uictest.judging.evaluation import evaluate
-from uictest.plans.sweeps import Plan
-from uictest.running.chunked import CaseSelection, ChunkRunner, run_on_threads
+from uictest.running.chunked import CaseSelection, run_on_threads
 
-from ..conftest import Load, formula
+from ..conftest import formula
 from .test_case_blocks import written_out
 
-MakeRunner = Callable[[Plan], ChunkRunner]
+
+def rows(content):
+    return pq.read_table(io.BytesIO(content)).to_pylist()
 
 
-def rows(content: bytes) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = pq.read_table(io.BytesIO(content)).to_pylist()
-    return found
-
-
-def test_rows_are_the_results_of_the_cases(load: Load, made_up: MakeRunner) -> None:
+def test_rows_are_the_results_of_the_cases(load, made_up):
     plan = load()
     runner = made_up(plan)
     found = rows(runner.run(np.arange(plan.size)))
@@ -37,24 +29,20 @@ def test_rows_are_the_results_of_the_cases(load: Load, made_up: MakeRunner) -> N
         result = evaluate(written_out(plan, index), measures[0], wheelsets[0])
         assert (row["index"], row["id"]) == (index, result.id)
         assert (row["outcome"], row["met"], row["reason"]) == (result.outcome, result.met, result.reason)
-        assert result.measures is not None
         assert row["braking_distance_m"] == result.measures["braking_distance_m"]
     assert [row["parameters.brake.command"] for row in found] == ["80 %", "100 %"] * 3
     assert {row["outcome"] for row in found} == {"pass", "fail"}
 
 
-def test_a_measure_without_a_value_is_null(load: Load, made_up: MakeRunner) -> None:
+def test_the_same_cases_give_the_same_bytes_and_a_measure_without_a_value_is_null(load, made_up):
     row = rows(made_up(load()).run(np.array([0])))[0]
     assert row["initial_adhesion_g"] is None
     assert row["values.rail.friction"] == 0.08
-
-
-def test_the_same_cases_give_the_same_bytes(load: Load, made_up: MakeRunner) -> None:
     plan = load()
     assert made_up(plan).run(np.arange(6)) == made_up(plan).run(np.arange(6))
 
 
-def test_chunks_that_share_a_queue_give_the_bytes_of_each_alone(load: Load, made_up: MakeRunner) -> None:
+def test_chunks_that_share_a_queue_give_the_bytes_of_each_alone(load, made_up):
     plan = load("sample: {size: 90, parameters: {brake.command: {uniform: [60 %, 100 %]}}}\n")
     runner = made_up(plan)
     chunks = [np.arange(0, 31), np.arange(31, 62), np.arange(62, 90)]
@@ -62,14 +50,12 @@ def test_chunks_that_share_a_queue_give_the_bytes_of_each_alone(load: Load, made
 
 
 @pytest.mark.parametrize(("jobs", "queues"), [(1, [8, 8, 8, 8]), (2, [4] * 8), (100, [1] * 32)])
-def test_threads_take_queues_of_chunks_that_come_out_in_order(
-    load: Load, made_up: MakeRunner, jobs: int, queues: list[int]
-) -> None:
+def test_threads_take_queues_of_chunks_that_come_out_in_order(load, made_up, jobs, queues):
     plan = load("sample: {size: 1000, parameters: {brake.command: {uniform: [60 %, 100 %]}}}\n")
     selection, runner = CaseSelection(plan), made_up(plan)
     sizes: list[int] = []
 
-    def simulate(parameters: Any, own: Any, rail: Any) -> Any:
+    def simulate(parameters, own, rail):
         sizes.append(len(parameters))
         return formula(parameters, own, rail)
 
@@ -85,8 +71,8 @@ def test_threads_take_queues_of_chunks_that_come_out_in_order(
     assert sorted(sizes) == sorted(31 * chunks for chunks in queues)
 
 
-def test_a_case_that_fails_is_a_row_with_its_reason(load: Load, made_up: MakeRunner) -> None:
-    def breaks(parameters: Any, own: Any, rail: Any) -> Any:
+def test_a_case_that_fails_is_a_row_with_its_reason(load, made_up):
+    def breaks(parameters, own, rail):
         if (rail[:, 1, 0] == 0.10).any():
             raise ZeroDivisionError("no wheel load")
         return formula(parameters, own, rail)
@@ -100,7 +86,7 @@ def test_a_case_that_fails_is_a_row_with_its_reason(load: Load, made_up: MakeRun
     assert found[2]["braking_distance_m"] is None
 
 
-def test_a_rejected_combination_is_a_row_with_its_reason(load: Load, made_up: MakeRunner) -> None:
+def test_a_rejected_combination_is_a_row_with_its_reason(load, made_up):
     plan = load("grid: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n")
     found = rows(made_up(plan).run(np.arange(4)))
     assert [row["outcome"] for row in found].count("error") == 1

@@ -1,7 +1,5 @@
 """A cluster of processes computes the same chunks as this process, even if a worker dies."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import logging
@@ -10,17 +8,13 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from uictest import rig
 from uictest.running.chunked import CaseSelection, chunk_runner
-
-from ..conftest import Load
 
 distributed = pytest.importorskip("distributed")
 
@@ -33,7 +27,7 @@ sample: {size: 48, parameters: {brake.command: {uniform: [60 %, 100 %]}}}
 
 
 @pytest.fixture(scope="module")
-def cluster() -> Iterator[Any]:
+def cluster():
     """Two processes of one thread each; a dead one is started again."""
     settings = {"distributed.logging.distributed": "critical", "distributed.worker.daemon": True}
     import dask
@@ -47,14 +41,14 @@ def cluster() -> Iterator[Any]:
         yield started
 
 
-def test_chunks_are_the_same_and_a_dead_worker_is_survived(load: Load, cluster: Any) -> None:
+def test_chunks_are_the_same_and_a_dead_worker_is_survived(load, cluster):
     from uictest.running.chunked.cluster import run_on_cluster
 
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"))
     here = chunk_runner(selection.plan, rig.run_block)
     found: dict[int, bytes] = {}
 
-    def write_chunk(number: int, content: bytes) -> None:
+    def write_chunk(number, content):
         found[number] = content
         if len(found) == 2:
             os.kill(next(iter(cluster.workers.values())).pid, signal.SIGKILL)
@@ -65,7 +59,7 @@ def test_chunks_are_the_same_and_a_dead_worker_is_survived(load: Load, cluster: 
         assert content == here.run(selection.chunk(number))
 
 
-def test_only_missing_chunks_are_run(load: Load, cluster: Any) -> None:
+def test_only_missing_chunks_are_run(load, cluster):
     from uictest.running.chunked.cluster import run_on_cluster
 
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"), np.arange(40))
@@ -74,7 +68,7 @@ def test_only_missing_chunks_are_run(load: Load, cluster: Any) -> None:
     assert found == [2]
 
 
-def test_a_scheduler_that_does_not_answer_is_reported(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_scheduler_that_does_not_answer_is_reported(load, monkeypatch):
     from uictest.running.chunked import cluster as module
 
     monkeypatch.setattr(module, "_TIMEOUT", "1s")
@@ -84,7 +78,7 @@ def test_a_scheduler_that_does_not_answer_is_reported(load: Load, monkeypatch: p
         )
 
 
-def test_waiting_for_workers_is_reported_once(load: Load) -> None:
+def test_waiting_for_workers_is_reported_once(load):
     from uictest.running.chunked.cluster import run_on_cluster
 
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"))
@@ -93,7 +87,7 @@ def test_waiting_for_workers_is_reported_once(load: Load) -> None:
     with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None) as empty:
         address = empty.scheduler_address
 
-        def on_wait() -> None:
+        def on_wait():
             told.append(None)
             empty.scale(1)
 
@@ -102,7 +96,7 @@ def test_waiting_for_workers_is_reported_once(load: Load) -> None:
     assert len(told) == 1
 
 
-def announced_address(file: Path, scheduler: subprocess.Popen[bytes]) -> str:
+def announced_address(file, scheduler):
     """Wait for the file in which a scheduler tells its address; while it is being written it is no JSON."""
     while scheduler.poll() is None:
         with contextlib.suppress(FileNotFoundError, json.JSONDecodeError):
@@ -111,7 +105,7 @@ def announced_address(file: Path, scheduler: subprocess.Popen[bytes]) -> str:
     raise AssertionError("the scheduler did not start")
 
 
-def test_a_scheduler_that_dies_is_one_line(load: Load) -> None:
+def test_a_scheduler_that_dies_is_one_line(load):
     from uictest.running.chunked import cluster as module
 
     log = logging.getLogger("distributed.client")
@@ -133,7 +127,7 @@ def test_a_scheduler_that_dies_is_one_line(load: Load) -> None:
 
 
 @pytest.mark.parametrize("address", ["foo", "foo:x", "tcp://127.0.0.1:", "127.0.0.1:99999", ":8786", ""])
-def test_what_is_no_address_is_rejected(load: Load, capsys: pytest.CaptureFixture[str], address: str) -> None:
+def test_what_is_no_address_is_rejected(load, capsys, address):
     from uictest.cli.entry import execute
 
     assert execute(["sweep", load(TEXT).file, "--dask", address]) == 4
@@ -143,13 +137,13 @@ def test_what_is_no_address_is_rejected(load: Load, capsys: pytest.CaptureFixtur
 
 
 @pytest.mark.parametrize("address", ["foo:1", "tcp://foo:1", "tls://127.0.0.1:8786", "[::1]:8786"])
-def test_addresses(address: str) -> None:
+def test_addresses(address):
     from uictest.running.chunked.cluster import check_address
 
     check_address(address)
 
 
-def test_the_command_line_gives_the_summary_that_a_local_run_gives(load: Load, cluster: Any) -> None:
+def test_the_command_line_gives_the_summary_that_a_local_run_gives(load, cluster):
     from uictest.cli.entry import execute
 
     plan = load(TEXT, "initial_speed=15 km/h")

@@ -1,11 +1,7 @@
 """Controllers from outside in sweeps: lane by lane or one by one, with the bits of a stop alone."""
 
-from __future__ import annotations
-
 import io
 import pickle
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -13,35 +9,31 @@ import pytest
 
 from uictest import rig
 from uictest.core.measures import STOP_COLUMNS
-from uictest.plans.sweeps import Plan, programs_of
+from uictest.plans.sweeps import programs_of
 from uictest.rig import run_in_process
 from uictest.running.campaign import RecordingRequest, run_case
 from uictest.running.chunked import chunk_runner, cluster
 from uictest.running.chunked.manifest import program_digest
 
-from ..conftest import Load
 from .test_case_blocks import written_out
 
 FRICTIONS = "  rail.friction: [0.06, 0.08, 0.10]\n"
 
 
-def rows(plan: Plan) -> list[dict[str, Any]]:
+def rows(plan):
     content = chunk_runner(plan, rig.run_block).run(np.arange(plan.size))
-    found: list[dict[str, Any]] = pq.read_table(io.BytesIO(content)).to_pylist()
-    return found
+    return pq.read_table(io.BytesIO(content)).to_pylist()
 
 
-def without_names(row: dict[str, Any]) -> dict[str, Any]:
+def without_names(row):
     return {name: row[name] for name in (*STOP_COLUMNS, "outcome", "reason", "narrowest_margin")}
 
 
-def with_common_noise(found: list[dict[str, Any]], of: str) -> list[dict[str, Any]]:
+def with_common_noise(found, of):
     return [without_names(row) for row in found if row["parameters.controller"].startswith(of)]
 
 
-def test_one_block_runs_controllers_of_all_kinds_with_the_same_bits(
-    load: Load, library: str, python_file: str
-) -> None:
+def test_one_block_runs_controllers_of_all_kinds_with_the_same_bits(load, library, python_file):
     kinds = f"[slip-band, {{library: {library}}}, threshold, {{python: {python_file}}}]"
     found = rows(load(f"grid:\n  controller: {kinds}\n{FRICTIONS}"))
     built_in = with_common_noise(found, "slip-band")
@@ -53,9 +45,7 @@ def test_one_block_runs_controllers_of_all_kinds_with_the_same_bits(
 
 
 @pytest.mark.parametrize("kind", ["library", "python"])
-def test_a_controller_that_fails_is_a_row_and_the_others_keep_their_bits(
-    load: Load, kind: str, library: str, python_file: str
-) -> None:
+def test_a_controller_that_fails_is_a_row_and_the_others_keep_their_bits(load, kind, library, python_file):
     written = {"library": library, "python": python_file}[kind]
     swept = "grid:\n  controller.parameters.fails_at: [-1, 0, 150]\n" + FRICTIONS
     controller = f"controller={{{kind}: {written}, parameters: {{}}}}"
@@ -71,7 +61,6 @@ def test_a_controller_that_fails_is_a_row_and_the_others_keep_their_bits(
         else:
             case = written_out(plan, index, controller)
             alone = run_case(case, RecordingRequest("none"), run_in_process).result
-            assert alone.measures is not None
             assert row["braking_distance_m"] == alone.measures["braking_distance_m"]
             assert row["outcome"] == alone.outcome != "error"
 
@@ -92,9 +81,7 @@ def test_a_controller_that_fails_is_a_row_and_the_others_keep_their_bits(
     ],
     ids=["grid", "ranges", "zip", "choice"],
 )
-def test_parameters_of_a_controller_are_swept(
-    load: Load, python_file: str, text: str, texts: list[str]
-) -> None:
+def test_parameters_of_a_controller_are_swept(load, python_file, text, texts):
     found = rows(load(text, f"controller={{python: {python_file}}}"))
     assert [row["parameters.controller.parameters.upper_slide"] for row in found] == texts
     assert [row["values.controller.parameters.upper_slide"] for row in found] == [
@@ -111,9 +98,7 @@ def test_parameters_of_a_controller_are_swept(
         "normal: {mean: 0.2, deviation: 0.1, lower: 0.1, upper: 0.3}",
     ],
 )
-def test_parameters_of_a_controller_are_drawn_as_bare_numbers(
-    load: Load, python_file: str, distribution: str
-) -> None:
+def test_parameters_of_a_controller_are_drawn_as_bare_numbers(load, python_file, distribution):
     key = "controller.parameters.upper_slide"
     plan = load(
         f"sample:\n  size: 4\n  parameters:\n    {key}: {{{distribution}}}\n",
@@ -125,7 +110,7 @@ def test_parameters_of_a_controller_are_drawn_as_bare_numbers(
     assert {row["outcome"] for row in rows(plan)} <= {"pass", "fail", "invalid"}
 
 
-def test_a_plan_is_the_same_on_another_machine(load: Load, python_file: str) -> None:
+def test_a_plan_is_the_same_on_another_machine(load, python_file):
     plan = load(f"grid:\n  controller: [threshold, {{python: {python_file}}}]\n")
     sent = pickle.loads(pickle.dumps(plan))
     assert list(programs_of(sent)) == list(programs_of(plan)) != []
@@ -133,9 +118,7 @@ def test_a_plan_is_the_same_on_another_machine(load: Load, python_file: str) -> 
     assert chunk_runner(sent, rig.run_block).run(indices) == chunk_runner(plan, rig.run_block).run(indices)
 
 
-def test_a_worker_without_the_file_of_a_controller_says_so(
-    load: Load, python_file: str, tmp_path: Path
-) -> None:
+def test_a_worker_without_the_file_of_a_controller_says_so(load, python_file, tmp_path):
     plan = load("grid: {rail.friction: [0.1]}\n", f"controller={{python: {python_file}}}")
     (tmp_path / "slip_band.py").write_text("another one\n")
     with pytest.raises(RuntimeError, match=r"the worker does not have .*slip_band\.py as it is here"):

@@ -1,23 +1,16 @@
 """A case of a sweep is judged as its scenario written out is, and one that cannot be judged is a row."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from uictest.judging.evaluation import evaluate_simulated
-from uictest.plans.sweeps import Plan
-from uictest.running.chunked import ChunkRunner
 
-from ..conftest import Load, formula
+from ..conftest import formula
 from .test_case_blocks import written_out
 
-MakeRunner = Callable[[Plan], ChunkRunner]
 SIDES = """\
 schema: uictest/criteria/1
 name: sides
@@ -81,13 +74,13 @@ sample:
 
 
 @pytest.fixture
-def profiles(tmp_path: Path) -> None:
+def profiles(tmp_path):
     """Profiles of criteria beside the sweep: all kinds of bounds, all ways to count wheelsets."""
     for name, text in {"sides": SIDES, "wheels": WHEELS, "never": NEVER}.items():
         (tmp_path / f"{name}.yaml").write_text(text)
 
 
-def slid(parameters: Any, own: Any, rail: Any) -> tuple[Any, Any]:
+def slid(parameters, own, rail):
     """Stops of the formula whose wheelsets slide, some of them above a cut-off only."""
     measures, wheelsets = formula(parameters, own, rail)
     measures["sliding_time"], measures["reached_time"], measures["maximum_deceleration"] = 1.0, 10.0, 0.9
@@ -97,7 +90,7 @@ def slid(parameters: Any, own: Any, rail: Any) -> tuple[Any, Any]:
 
 
 @pytest.mark.usefixtures("profiles")
-def test_a_case_is_judged_as_its_scenario_written_out(load: Load, made_up: MakeRunner) -> None:
+def test_a_case_is_judged_as_its_scenario_written_out(load, made_up):
     plan = load(SWEEP)
     runner = replace(made_up(plan), simulate=slid)
     indices = np.random.default_rng(1).permutation(plan.size)[:60]
@@ -115,10 +108,8 @@ def test_a_case_is_judged_as_its_scenario_written_out(load: Load, made_up: MakeR
     assert outcomes >= {"pass", "fail", "invalid", "skipped"}
 
 
-def test_a_case_that_cannot_be_judged_is_an_error_and_its_neighbours_are_judged(
-    load: Load, made_up: MakeRunner
-) -> None:
-    def without_a_number(parameters: Any, own: Any, rail: Any) -> tuple[Any, Any]:
+def test_a_case_that_cannot_be_judged_is_an_error_and_its_neighbours_are_judged(load, made_up):
+    def without_a_number(parameters, own, rail):
         measures, wheelsets = formula(parameters, own, rail)
         measures["energy_residual"][2] = np.nan
         return measures, wheelsets
@@ -131,7 +122,7 @@ def test_a_case_that_cannot_be_judged_is_an_error_and_its_neighbours_are_judged(
 
 
 @pytest.mark.parametrize(("entry", "key"), [("{}", "criteria.criteria.0"), ("[{}]", "criteria.0.criteria.0")])
-def test_a_case_is_judged_by_its_own_bound(load: Load, made_up: MakeRunner, entry: str, key: str) -> None:
+def test_a_case_is_judged_by_its_own_bound(load, made_up, entry, key):
     own = "{name: own, criteria: [{id: d, layer: requirement, measure: braking_distance, upper: 1 m}]}"
     stop = Path("stop.yaml")
     plan = load()

@@ -1,32 +1,25 @@
 """What sets the manifests of two sweeps apart, in words."""
 
-from __future__ import annotations
-
 import ast
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 import uictest
-from uictest.plans.sweeps import Plan, load_sweep
+from uictest.plans.sweeps import load_sweep
 from uictest.running.chunked import CaseSelection, sweep_manifest
 from uictest.running.chunked.manifest import SOURCES, manifest_differences
 
-Load = Callable[..., Plan]
 PACKAGE = Path(uictest.__file__).parent
 WITHOUT_INFLUENCE = {"report"}
 """Rooms that write what was found."""
 
 
-def manifest(plan: Plan) -> dict[str, Any]:
+def manifest(plan):
     return sweep_manifest(CaseSelection(plan), expression=None, overrides=(), seed=None)
 
 
-def test_a_sweep_has_one_manifest_from_every_working_folder(
-    load: Load, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_sweep_has_one_manifest_from_every_working_folder(load, monkeypatch):
     here = manifest(load())
     Path("below").mkdir()
     for folder, file in (("below", "../study.sweep.yaml"), ("/", str(Path("study.sweep.yaml").absolute()))):
@@ -37,8 +30,8 @@ def test_a_sweep_has_one_manifest_from_every_working_folder(
         monkeypatch.chdir(Path(file).absolute().parent)
 
 
-def test_what_is_computed_from_finished_cases_may_change(load: Load) -> None:
-    def of(text: str) -> dict[str, Any]:
+def test_what_is_computed_from_finished_cases_may_change(load):
+    def of(text):
         Path("again.sweep.yaml").write_text(f"{Path('study.sweep.yaml').read_text()}{text}")
         return manifest(load_sweep(Path("again.sweep.yaml")))
 
@@ -50,7 +43,7 @@ def test_what_is_computed_from_finished_cases_may_change(load: Load) -> None:
     assert list(manifest_differences(plain, of(""))) == ["the cases that the sweep file asks for"]
 
 
-def test_files_of_one_name_in_two_folders_are_told_apart() -> None:
+def test_files_of_one_name_in_two_folders_are_told_apart():
     inputs = {"left/a.csv": "1", "right/a.csv": "2"}
     exchanged = {"left/a.csv": "2", "right/a.csv": "1"}
     assert list(manifest_differences({"inputs": inputs}, {"inputs": exchanged})) == [
@@ -71,11 +64,11 @@ def test_files_of_one_name_in_two_folders_are_told_apart() -> None:
         ("program", "1", "2", "the program itself"),
     ],
 )
-def test_differences_are_named_as_users_know_them(name: str, one: Any, other: Any, message: str) -> None:
+def test_differences_are_named_as_users_know_them(name, one, other, message):
     assert list(manifest_differences({name: one}, {name: other})) == [message]
 
 
-def imported_rooms(path: Path) -> set[str]:
+def imported_rooms(path):
     """Return the rooms and modules of the top level that a module imports."""
     rooms = set()
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
@@ -86,7 +79,7 @@ def imported_rooms(path: Path) -> set[str]:
     return rooms
 
 
-def test_the_digest_of_the_program_covers_what_its_sources_import() -> None:
+def test_the_digest_of_the_program_covers_what_its_sources_import():
     covered = {name.removesuffix(".py") for name in SOURCES}
     modules = [
         path

@@ -1,9 +1,5 @@
 """Chunks on disk: intact or absent, and only those of the same inputs."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pyarrow as pa
 import pytest
 
@@ -14,7 +10,7 @@ MANIFEST = {"schema": "x", "cases": 3, "inputs": {"a.yaml": "1", "b.yaml": "2"},
 
 
 @pytest.fixture
-def store(tmp_path: Path) -> ChunkStore:
+def store(tmp_path):
     """A store with two chunks."""
     store = ChunkStore(tmp_path / "study")
     store.open(MANIFEST, restart=False)
@@ -23,26 +19,28 @@ def store(tmp_path: Path) -> ChunkStore:
     return store
 
 
-def chunk(store: ChunkStore, number: int) -> Path:
+def chunk(store, number):
     return next((store.folder / "chunks").glob(f"{number:06d}-*"))
 
 
-def test_what_is_finished_is_found_again(store: ChunkStore) -> None:
+def test_what_is_finished_is_found_again_and_a_missing_chunk_is_reported(store):
     again = ChunkStore(store.folder)
     again.open(MANIFEST, restart=False)
     assert again.finished() == ({0, 2}, [])
     assert [table.column("index").to_pylist() for table in again.tables([2, 0])] == [[2], [0]]
+    with pytest.raises(MissingChunksError, match="1 chunks are missing: 1"):
+        list(store.tables([0, 1]))
 
 
 @pytest.mark.parametrize("damage", [lambda b: b[:-1], lambda b: b"", lambda b: bytes([b[0] ^ 1]) + b[1:]])
-def test_a_damaged_chunk_is_found_and_removed(store: ChunkStore, damage) -> None:  # type: ignore[no-untyped-def]
+def test_a_damaged_chunk_is_found_and_removed(store, damage):
     path = chunk(store, 2)
     path.write_bytes(damage(path.read_bytes()))
     assert store.finished() == ({0}, [path])
     assert not path.exists()
 
 
-def test_changed_inputs_are_rejected_by_name(store: ChunkStore) -> None:
+def test_changed_inputs_are_rejected_by_name(store):
     changed = {**MANIFEST, "inputs": {"a.yaml": "1", "b.yaml": "3"}, "program": "q"}
     with pytest.raises(ChangedInputsError, match=r"^inputs: b\.yaml; the program itself$"):
         store.open(changed, restart=False)
@@ -52,7 +50,7 @@ def test_changed_inputs_are_rejected_by_name(store: ChunkStore) -> None:
     assert store.manifest() == changed
 
 
-def test_requests_of_the_summary_change_the_manifest_and_keep_the_chunks(tmp_path: Path) -> None:
+def test_requests_of_the_summary_change_the_manifest_and_keep_the_chunks(tmp_path):
     study = ChunkStore(tmp_path / "study")
     before = {"file": "a/b.sweep.yaml", "cases_sha256": "c", "inputs": {"b.sweep.yaml": "1", "x.yaml": "2"}}
     study.open(before, restart=False)
@@ -64,25 +62,14 @@ def test_requests_of_the_summary_change_the_manifest_and_keep_the_chunks(tmp_pat
         study.open({**before, "inputs": {"b.sweep.yaml": "1", "x.yaml": "3"}}, restart=False)
 
 
-def test_inputs_may_change_before_the_first_chunk(tmp_path: Path) -> None:
+def test_inputs_may_change_before_the_first_chunk(tmp_path):
     store = ChunkStore(tmp_path / "study")
     store.open(MANIFEST, restart=False)
     store.open({**MANIFEST, "seed": 7}, restart=False)
     assert store.manifest() == {**MANIFEST, "seed": 7}
 
 
-def test_chunks_without_a_manifest_are_not_trusted(store: ChunkStore) -> None:
-    (store.folder / "manifest.json").write_text("{")
-    store.open(MANIFEST, restart=False)
-    assert store.finished()[0] == set()
-
-
-def test_a_missing_chunk_is_reported(store: ChunkStore) -> None:
-    with pytest.raises(MissingChunksError, match="1 chunks are missing: 1"):
-        list(store.tables([0, 1]))
-
-
-def test_shards_are_merged_and_damaged_chunks_skipped(store: ChunkStore, tmp_path: Path) -> None:
+def test_shards_are_merged_and_damaged_chunks_skipped(store, tmp_path):
     whole = ChunkStore(tmp_path / "whole")
     whole.open(MANIFEST, restart=False)
     damaged = chunk(store, 0)
@@ -95,7 +82,7 @@ def test_shards_are_merged_and_damaged_chunks_skipped(store: ChunkStore, tmp_pat
         whole.merge(other)
 
 
-def test_the_name_of_the_sweep_file_is_no_difference(store: ChunkStore, tmp_path: Path) -> None:
+def test_the_name_of_the_sweep_file_is_no_difference(store, tmp_path):
     elsewhere = ChunkStore(tmp_path / "elsewhere")
     elsewhere.open({**MANIFEST, "file": "../study.sweep.yaml"}, restart=False)
     assert elsewhere.merge(store) == (2, [])
@@ -103,12 +90,15 @@ def test_the_name_of_the_sweep_file_is_no_difference(store: ChunkStore, tmp_path
     assert store.finished()[0] == {0, 2}
 
 
-def test_what_interrupted_writers_left_is_removed(store: ChunkStore) -> None:
+def test_manifests_that_are_none_are_not_trusted_and_partial_files_removed(store):
     (store.folder / "chunks" / ".uictest-0123456789abcdef.partial").touch()
     store.remove_partial_files()
     assert len(list((store.folder / "chunks").iterdir())) == 2
+    (store.folder / "manifest.json").write_text("{")
+    store.open(MANIFEST, restart=False)
+    assert store.finished()[0] == set()
 
 
-def test_a_manifest_that_is_nested_too_deeply_is_none(tmp_path: Path) -> None:
+def test_a_manifest_that_is_nested_too_deeply_is_none(tmp_path):
     (tmp_path / "manifest.json").write_text("[" * 100_000)
     assert ChunkStore(tmp_path).manifest() is None

@@ -1,12 +1,8 @@
 """Sweeps in survey steps: fast where the verdict is clear, in regular steps where a bias could decide it."""
 
-from __future__ import annotations
-
 import io
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -15,7 +11,6 @@ import pytest
 from uictest import rig
 from uictest.plans import library
 from uictest.plans.scenario import ScenarioErrors, load as load_scenarios
-from uictest.plans.sweeps import Plan
 from uictest.plans.sweeps.base_case import in_survey_steps
 from uictest.report import survey_notes
 from uictest.running.chunked import CaseSelection, ChunkRunner, chunk_runner, sweep_manifest
@@ -23,23 +18,22 @@ from uictest.running.chunked.case_blocks import BlockAssembler
 from uictest.running.chunked.manifest import program_digest
 from uictest.running.chunked.table import biases_by_measure, survey_biases, survey_step
 
-from ..conftest import GRID, SCENARIO, Load, formula
+from ..conftest import GRID, SCENARIO, formula
 
 SURVEY = "simulation.time_step=survey"
 IN_FILE = "simulation.time_step: [survey]\n"
 NO_BIAS = dict.fromkeys(biases_by_measure(), 0.0)
 
 
-def rows(content: bytes) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = pq.read_table(io.BytesIO(content)).to_pylist()
-    return found
+def rows(content):
+    return pq.read_table(io.BytesIO(content)).to_pylist()
 
 
 @pytest.fixture
-def survey() -> Callable[..., ChunkRunner]:
+def survey():
     """A runner of a survey whose stops are the formula, with the biases that are given."""
 
-    def runner(plan: Plan, **biases: float) -> ChunkRunner:
+    def runner(plan, **biases):
         regular = ChunkRunner(BlockAssembler(plan), formula, plan, rig.run_block)
         assembler = BlockAssembler(in_survey_steps(plan))
         return replace(regular, assembler=assembler, biases={**NO_BIAS, **biases}, regular=regular)
@@ -48,9 +42,7 @@ def survey() -> Callable[..., ChunkRunner]:
 
 
 @pytest.mark.parametrize(("text", "overrides"), [(GRID, [SURVEY]), (f"{GRID}  {IN_FILE}", [])])
-def test_the_survey_step_is_asked_for_alone_and_varies_nothing(
-    load: Load, text: str, overrides: list[str]
-) -> None:
+def test_the_survey_step_is_asked_for_alone_and_varies_nothing(load, text, overrides):
     plan = load(text, *overrides)
     assert plan.survey
     assert plan.keys == ("rail.friction", "brake.command")
@@ -58,19 +50,20 @@ def test_the_survey_step_is_asked_for_alone_and_varies_nothing(
     assert in_survey_steps(plan).base.scenario.simulation.time_step == 0.001
 
 
-def test_the_command_line_takes_the_survey_of_the_file_back(load: Load) -> None:
+def test_only_the_last_step_of_the_command_line_counts(load):
     plan = load(f"{GRID}  {IN_FILE}", "simulation.time_step=0.25 ms")
     assert not plan.survey
     assert plan.base.scenario.simulation.time_step == 0.00025
+    assert load(GRID, "simulation.time_step=0.25 ms", SURVEY).survey
 
 
 @pytest.mark.parametrize("values", ["survey,0.5 ms", "0.5 ms,survey"])
-def test_survey_is_no_value_among_others(load: Load, values: str) -> None:
+def test_survey_is_no_value_among_others(load, values):
     with pytest.raises(ScenarioErrors, match="'survey' is the time step of a whole sweep"):
         load(GRID, f"simulation.time_step={values}")
 
 
-def test_a_scenario_has_no_survey_step(tmp_path: Path) -> None:
+def test_a_scenario_has_no_survey_step(tmp_path):
     path = tmp_path / "stop.yaml"
     path.write_text(f"{SCENARIO}simulation: {{time_step: survey}}\n")
     with pytest.raises(ScenarioErrors) as caught:
@@ -80,7 +73,7 @@ def test_a_scenario_has_no_survey_step(tmp_path: Path) -> None:
     assert "uictest sweep ... --set simulation.time_step=survey" in error.hint
 
 
-def test_the_bias_is_not_known_beside_another_step(load: Load) -> None:
+def test_the_bias_is_not_known_beside_another_step(load):
     scenario = f"{SCENARIO}simulation: {{time_step: 0.25 ms}}\n"
     load()
     Path("fine.yaml").write_text(scenario)
@@ -95,20 +88,14 @@ def test_the_bias_is_not_known_beside_another_step(load: Load) -> None:
         (f"{GRID}zip: {{simulation.time_step: [0.25 ms, 0.5 ms], seed: [1, 2]}}\n", "simulation.time_step"),
     ],
 )
-def test_no_step_varies_beside_the_survey(load: Load, text: str, key: str) -> None:
+def test_no_step_varies_beside_the_survey(load, text, key):
     in_file = text.replace("grid: {", f"grid: {{{IN_FILE.strip()}, ") if "zip" not in text else text
     in_file = in_file.replace("grid:\n", f"grid:\n  {IN_FILE}")
     with pytest.raises(ScenarioErrors, match=f"'{key}' cannot vary: the survey step is that of all cases"):
         load(in_file)
 
 
-def test_the_last_step_on_the_command_line_counts(load: Load) -> None:
-    assert load(GRID, "simulation.time_step=0.25 ms", SURVEY).survey
-
-
-def test_only_cases_within_their_bias_of_a_limit_are_repeated(
-    load: Load, survey: Callable[..., ChunkRunner]
-) -> None:
+def test_only_cases_within_their_bias_of_a_limit_are_repeated(load, survey):
     """The formula locks a wheelset for 5 (command - 9 friction) s; at most 1 s is accepted."""
     plan = load(GRID, SURVEY, "criteria=uictest-stop")
     found = rows(survey(plan, longest_lock=0.4).run(np.arange(plan.size)))
@@ -118,21 +105,16 @@ def test_only_cases_within_their_bias_of_a_limit_are_repeated(
     assert 0 < sum(near) < len(near)
 
 
-def test_without_a_bias_nothing_is_repeated(load: Load, survey: Callable[..., ChunkRunner]) -> None:
+def test_nothing_is_repeated_without_a_bias_and_everything_for_an_unknown_one(load, survey):
     plan = load(GRID, SURVEY)
     assert {row["time_step_ms"] for row in rows(survey(plan).run(np.arange(plan.size)))} == {1.0}
-
-
-def test_a_measure_of_unknown_bias_is_always_repeated(load: Load, survey: Callable[..., ChunkRunner]) -> None:
     plan = load(GRID, SURVEY, "criteria=uictest-stop")
     known = {name: bias for name, bias in NO_BIAS.items() if name != "longest_lock"}
     runner = replace(survey(plan), biases=known)
     assert {row["time_step_ms"] for row in rows(runner.run(np.arange(plan.size)))} == {0.5}
 
 
-def test_a_value_at_its_limit_is_repeated_where_the_step_moves_it_at_all(
-    load: Load, survey: Callable[..., ChunkRunner]
-) -> None:
+def test_a_value_at_its_limit_is_repeated_where_the_step_moves_it_at_all(load, survey):
     """In the formula nothing saturates: 0 s at a limit of 0 s."""
     plan = load(GRID, SURVEY, "criteria=uictest-rig")
     steps = {row["time_step_ms"] for row in rows(survey(plan).run(np.arange(plan.size)))}
@@ -140,22 +122,20 @@ def test_a_value_at_its_limit_is_repeated_where_the_step_moves_it_at_all(
     assert (steps, moved) == ({1.0}, {0.5})
 
 
-def test_criteria_of_a_series_decide_nothing(load: Load, survey: Callable[..., ChunkRunner]) -> None:
+def test_criteria_of_a_series_decide_nothing(load, survey):
     plan = load(GRID, SURVEY, "criteria=uictest-wsp")
     found = rows(survey(plan).run(np.arange(plan.size)))
     assert {row["time_step_ms"] for row in found} == {1.0}
 
 
-def test_what_the_survey_step_cannot_simulate_is_repeated(
-    load: Load, survey: Callable[..., ChunkRunner]
-) -> None:
+def test_what_the_survey_step_cannot_simulate_is_repeated(load, survey):
     plan = load("grid: {controller.cycle_time: [10 ms, 2.5 ms]}\n", SURVEY)
     found = rows(survey(plan).run(np.arange(2)))
     assert [row["time_step_ms"] for row in found] == [1.0, 0.5]
     assert "error" not in {row["outcome"] for row in found}
 
 
-def test_a_repeated_case_is_that_of_regular_steps_and_another_that_of_the_longer_ones(load: Load) -> None:
+def test_a_repeated_case_is_that_of_regular_steps_and_another_that_of_the_longer_ones(load):
     text = "grid: {rail.friction: [0.05, 0.08], brake.command: [80 %, 100 %], criteria: [uictest-stop]}\n"
     beside = {
         step: rows(chunk_runner(load(text, f"simulation.time_step={step}"), rig.run_block).run(np.arange(4)))
@@ -174,24 +154,23 @@ def test_a_repeated_case_is_that_of_regular_steps_and_another_that_of_the_longer
     assert beside["0.5 ms"] != beside["1 ms"]
 
 
-def test_a_survey_and_a_regular_sweep_have_different_manifests(load: Load) -> None:
-    def manifest(*overrides: str) -> dict[str, Any]:
+def test_a_survey_and_a_regular_sweep_have_different_manifests(load):
+    def manifest(*overrides):
         selection = CaseSelection(load(GRID, *overrides))
         return sweep_manifest(selection, expression=None, overrides=(), seed=None)
 
     assert manifest(SURVEY) == manifest() | {"time_step": "survey"}
 
 
-def test_the_biases_belong_to_what_a_sweep_depends_on(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_biases_belong_to_what_a_sweep_depends_on(monkeypatch):
     before = program_digest.__wrapped__()
     monkeypatch.setattr(library, "table", lambda name: "another table")
     assert program_digest.__wrapped__() != before
 
 
-def test_the_bias_of_every_criterion_of_the_library_is_known(load: Load) -> None:
+def test_the_bias_of_every_criterion_of_the_library_is_known(load):
     plan = load(GRID, SURVEY, "criteria=[uic-541-05-appendix-b,uictest-rig,uictest-stop]")
     survey = survey_step(plan, 2, ["valve_actuations"])
-    assert survey is not None
     judged = {each.measure for profile in plan.base.scenario.judged_by for each in profile.criteria}
     assert judged | {"valve_actuations"} == {each.measure for each in survey.biases}
     assert (survey.time_step, survey.regular_step, survey.repeated) == ("1 ms", "0.5 ms", 2)
@@ -203,16 +182,15 @@ def test_the_bias_of_every_criterion_of_the_library_is_known(load: Load) -> None
     assert survey_step(load(), 0, []) is None
 
 
-def test_a_measure_without_a_bias_is_named(load: Load, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_measure_without_a_bias_is_named(load, monkeypatch):
     known = {name: each for name, each in survey_biases().items() if name != "longest_lock"}
     monkeypatch.setattr("uictest.running.chunked.table.survey_biases", lambda: known)
     survey = survey_step(load(GRID, SURVEY, "criteria=[uictest-stop,uictest-wsp]"), 6, [])
-    assert survey is not None
     assert survey.unknown == ("longest_lock",)
     assert "bias of the survey step: not known of longest_lock" in list(survey_notes(survey, 6))
 
 
-def test_the_bias_is_the_largest_of_any_shipped_case() -> None:
+def test_the_bias_is_the_largest_of_any_shipped_case():
     known = survey_biases()
     assert known["standstill"].bias == 0.0
     assert 0.0 < known["braking_distance"].bias < known["braking_distance"].of_single_stops

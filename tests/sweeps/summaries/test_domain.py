@@ -1,7 +1,5 @@
 """Cases of a sweep outside of what was validated: by column as one by one."""
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 
@@ -13,15 +11,12 @@ from uictest.analysis.summaries import full_cases
 from uictest.analysis.summaries.domain import OUTSIDE, DomainTally
 from uictest.analysis.validation import Domain, Validation, ValidationReference, conditions_of, domains_of
 from uictest.plans.scenario import load as load_scenarios
-from uictest.plans.sweeps import Plan
 from uictest.report import domain_notes
 from uictest.running.campaign import parts_of_cases
 from uictest.running.chunked.table import number_column, text_column
 
-from ..conftest import Load
 
-
-def rows_of(plan: Plan, indices: list[int]) -> pa.Table:
+def rows_of(plan, indices):
     """Return the columns that a chunk has of its cases."""
     settings = plan.settings(np.array(indices))
     columns = {"index": pa.array(indices, pa.int64())}
@@ -32,7 +27,7 @@ def rows_of(plan: Plan, indices: list[int]) -> pa.Table:
     return pa.table(columns)
 
 
-def reference(*stops: tuple[str, ...]) -> ValidationReference:
+def reference(*stops):
     """Return a validation of which every stop is `stop.yaml` with some changes; alike ones make a domain."""
     domains: tuple[Domain, ...] = domains_of(
         [conditions_of(parts_of_cases([case])[case.id])]
@@ -70,18 +65,18 @@ PLANS = {
 
 
 @pytest.mark.parametrize("plan", PLANS.values(), ids=PLANS)
-def test_by_column_is_what_each_case_alone_comes_to(load: Load, plan: str) -> None:
+def test_by_column_is_what_each_case_alone_comes_to(load, plan):
     compare_with_each_alone(load(plan), reference(*STOPS))
 
 
-def test_friction_that_the_condition_gives_is_a_column_like_any_other(load: Load) -> None:
+def test_friction_that_the_condition_gives_is_a_column_like_any_other(load):
     scenario = Path("stop.yaml")
     scenario.write_text(scenario.read_text().replace(", friction: 0.1", ""))
     plan = load(f"{SAMPLE}    rail.condition.friction: {{uniform: [0.05, 0.15]}}\n")
     compare_with_each_alone(plan, reference(("rail.condition.friction=0.1",), ("rail.friction=0.12",)))
 
 
-def test_friction_that_changes_over_time_spans_its_factors(load: Load) -> None:
+def test_friction_that_changes_over_time_spans_its_factors(load):
     scenario = Path("stop.yaml")
     points = "[{time: 0 s, factor: 1}, {time: 5 s, factor: 1.5}]"
     scenario.write_text(
@@ -91,7 +86,7 @@ def test_friction_that_changes_over_time_spans_its_factors(load: Load) -> None:
     compare_with_each_alone(plan, reference(("rail.friction=0.09",)))
 
 
-def compare_with_each_alone(plan: Plan, validated: ValidationReference) -> None:
+def compare_with_each_alone(plan, validated):
     """Compare texts and counts with those of every case alone, over two chunks."""
     indices = list(range(plan.size))
     alone = [
@@ -111,7 +106,7 @@ def compare_with_each_alone(plan: Plan, validated: ValidationReference) -> None:
     assert cases == Counter(key for keys in alone for key in keys)
 
 
-def test_a_condition_spans_the_numbers_of_its_cases(load: Load) -> None:
+def test_a_condition_spans_the_numbers_of_its_cases(load):
     plan = load("grid:\n  initial_speed: [30 km/h, 50 km/h, 70 km/h]\n  rail.friction: [0.1, 0.2]\n")
     tally = DomainTally(plan, reference(("rail.friction=0.1",)))
     for index in range(plan.size):
@@ -127,7 +122,7 @@ def test_a_condition_spans_the_numbers_of_its_cases(load: Load) -> None:
     )
 
 
-def test_a_sweep_inside_of_what_was_validated_says_so(load: Load) -> None:
+def test_a_sweep_inside_of_what_was_validated_says_so(load):
     plan = load("grid:\n  rail.friction: [0.1]\n")
     tally = DomainTally(plan, reference(("rail.friction=0.1",)))
     assert tally.with_column(rows_of(plan, [0]))[OUTSIDE].to_pylist() == [""]

@@ -1,7 +1,5 @@
 """Histograms of a sweep: every case in one bin, whatever the chunks."""
 
-from __future__ import annotations
-
 import numpy as np
 import pyarrow as pa
 import pytest
@@ -16,13 +14,13 @@ rows = st.lists(
 )
 
 
-def table(found: list[tuple[float | None, float | None, str]]) -> pa.Table:
+def table(found):
     a, b, outcome = ([row[place] for row in found] for place in range(3))
     numbers = {"a": pa.array(a, pa.float64()), "b": pa.array(b, pa.float64())}
     return pa.table({**numbers, "outcome": pa.array(outcome, pa.string())})
 
 
-def distribution(*chunks: pa.Table) -> HistogramCounts:
+def distribution(*chunks):
     counts = HistogramCounts(MEASURE)
     for chunk in chunks:
         counts.add_range(chunk)
@@ -34,9 +32,7 @@ def distribution(*chunks: pa.Table) -> HistogramCounts:
 
 
 @given(rows, st.integers(0, 60))
-def test_every_case_with_the_figure_is_counted_once_in_any_parts(
-    found: list[tuple[float | None, float | None, str]], cut: int
-) -> None:
+def test_every_case_with_the_figure_is_counted_once_in_any_parts(found, cut):
     histogram = distribution(table(found[:cut]), table(found[cut:]))
     known = [
         (100.0 * max(x for x in (a, b) if x is not None), o) for a, b, o in found if (a, b) != (None, None)
@@ -52,18 +48,12 @@ def test_every_case_with_the_figure_is_counted_once_in_any_parts(
         assert result.mean == pytest.approx(np.mean([value for value, _ in known]), rel=1e-9, abs=1e-6)
 
 
-def test_a_count_has_a_bin_for_each_whole_number() -> None:
+def test_a_count_has_a_bin_for_each_whole_number_and_one_value_a_span():
     result = distribution(table([(k / 100.0, None, "pass") for k in (2, 5, 5)])).histogram()
     assert result.edges == [1.5, 2.5, 3.5, 4.5, 5.5]
     assert result.counts == {"pass": [1, 0, 0, 2]}
-
-
-def test_one_value_alone_has_a_span() -> None:
     result = distribution(table([(0.123, None, "pass")])).histogram()
     assert result.edges[0] < 12.3 < result.edges[-1]
-
-
-def test_a_figure_asked_for_is_shown_once() -> None:
     names = [
         measure.name for measure in reported_measures(["braking_distance_m", "locked_time_s_3"], "10 km/h")
     ]

@@ -1,7 +1,5 @@
 """Draws of requested ranks against all draws sorted, in memory that does not grow with their number."""
 
-from __future__ import annotations
-
 import tracemalloc
 
 import numpy as np
@@ -17,9 +15,7 @@ numbers = st.lists(
 
 
 @given(numbers, st.integers(0, 12), st.integers(0, 12))
-def test_ranks_are_those_of_all_draws_sorted(
-    chunks: list[list[float]], from_smallest: int, from_largest: int
-) -> None:
+def test_ranks_are_those_of_all_draws_sorted(chunks, from_smallest, from_largest):
     draws = RankedDraws(from_smallest, from_largest)
     for chunk in chunks:
         draws.add(np.array(chunk, float))
@@ -38,7 +34,7 @@ def test_ranks_are_those_of_all_draws_sorted(
 
 @pytest.mark.parametrize("chunks", [1, 6, 60, 4_000])
 @pytest.mark.parametrize("kept", [1, 30, 5_000])
-def test_ranks_of_many_draws(kept: int, chunks: int) -> None:
+def test_ranks_of_many_draws(kept, chunks):
     """So many that values are sorted out on the way: rising, falling and random chunks."""
     values = np.random.default_rng(2).normal(size=12_000)
     values[:4_000].sort()
@@ -51,21 +47,18 @@ def test_ranks_of_many_draws(kept: int, chunks: int) -> None:
     assert [draws.upper(rank) for rank in range(1, kept + 1)] == expected[::-1][:kept].tolist()
 
 
-def test_draws_may_be_added_after_a_rank_was_asked_for() -> None:
+def test_draws_may_be_added_after_a_rank_was_asked_for_that_was_kept():
     smallest = SmallestValues(2)
     smallest.add(np.array([3.0, 1.0, 2.0]))
     assert smallest.of_rank(2) == 2.0
     smallest.add(np.array([0.0, 5.0]))
     assert (smallest.of_rank(1), smallest.of_rank(2)) == (0.0, 1.0)
-
-
-def test_a_rank_that_was_not_kept_is_no_answer() -> None:
     with pytest.raises(IndexError, match="rank 3 of the 2 smallest"):
         SmallestValues(2).of_rank(3)
 
 
-def test_memory_does_not_grow_with_the_draws() -> None:
-    def peak(chunks: int) -> int:
+def test_memory_does_not_grow_with_the_draws():
+    def peak(chunks):
         generator = np.random.default_rng(1)
         tracemalloc.start()
         draws = RankedDraws(30, 30)

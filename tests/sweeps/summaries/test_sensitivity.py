@@ -1,19 +1,11 @@
 """Sobol indices of functions whose indices are known."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
-from uictest.analysis.summaries.sensitivity import (
-    confidence_interval,
-    sobol_sensitivities,
-    uncertainty_note,
-)
+from uictest.analysis.summaries.sensitivity import confidence_interval, sobol_sensitivities, uncertainty_note
 from uictest.plans.sweeps.plan import saltelli_sample
 from uictest.report import SobolIndex, SobolSensitivity, WrittenValue
-
-from ..conftest import Load
 
 TEXT = """\
 grid: {seed: [1, 2]}
@@ -27,16 +19,16 @@ sample:
 """
 
 
-def columns(load: Load) -> tuple[object, dict[str, np.ndarray]]:
+def columns(load):
     plan = load(TEXT)
     settings = plan.settings(np.arange(plan.size))
     return plan, {key: np.array([value.number for value in values]) for key, values in settings.items()}
 
 
-def test_a_sum_has_the_shares_of_its_variances(load: Load) -> None:
+def test_a_sum_has_the_shares_of_its_variances(load):
     plan, x = columns(load)
     # Variances of a uniform variable go with the square of its width: 1 : 4.
-    found, why_not = sobol_sensitivities(plan, "y", 10.0 * x["rail.friction"] + 4.0 * x["brake.command"])  # type: ignore[arg-type]
+    found, why_not = sobol_sensitivities(plan, "y", 10.0 * x["rail.friction"] + 4.0 * x["brake.command"])
     assert not why_not
     assert len(found) == 2 * 3
     for each, expected in zip(found, [0.2, 0.8, 0.0] * 2, strict=True):
@@ -49,15 +41,15 @@ def test_a_sum_has_the_shares_of_its_variances(load: Load) -> None:
     ]
 
 
-def test_a_product_of_centred_variables_acts_only_together(load: Load) -> None:
+def test_a_product_of_centred_variables_acts_only_together(load):
     plan, x = columns(load)
     y = (x["rail.friction"] - 0.1) * (x["brake.command"] - 0.75)
-    found, _ = sobol_sensitivities(plan, "y", y)  # type: ignore[arg-type]
+    found, _ = sobol_sensitivities(plan, "y", y)
     assert [each.first.value for each in found[:2]] == pytest.approx([0.0, 0.0], abs=0.1)
     assert [each.total.value for each in found[:2]] == pytest.approx([1.0, 1.0], abs=0.15)
 
 
-def test_the_interval_of_a_mean_is_that_of_the_normal_distribution() -> None:
+def test_the_interval_of_a_mean_is_that_of_the_normal_distribution():
     """95 % of it lie within 1.96 deviations: mean +- 1.96 s/sqrt(n), here on average over 400 columns."""
     rows = np.random.default_rng(1).normal(size=(400, 400))
     low, high = confidence_interval(lambda drawn: drawn.mean(axis=0), rows, seed=2)
@@ -66,23 +58,23 @@ def test_the_interval_of_a_mean_is_that_of_the_normal_distribution() -> None:
         assert np.mean(distance / deviation) == pytest.approx(1.96, rel=0.04)
 
 
-def test_the_same_values_give_the_same_intervals(load: Load) -> None:
+def test_the_same_values_give_the_same_intervals(load):
     plan, x = columns(load)
     y = np.sin(40.0 * x["rail.friction"]) + x["brake.command"] ** 2
-    assert sobol_sensitivities(plan, "y", y) == sobol_sensitivities(plan, "y", y)  # type: ignore[arg-type]
+    assert sobol_sensitivities(plan, "y", y) == sobol_sensitivities(plan, "y", y)
 
 
-def test_why_there_are_none(load: Load) -> None:
+def test_why_there_are_none(load):
     plan, x = columns(load)
     y = x["rail.friction"].copy()
     y[3] = np.nan
-    assert sobol_sensitivities(plan, "y", y) == ([], f"1 of {y.size} cases have no y")  # type: ignore[arg-type]
-    assert sobol_sensitivities(plan, "y", np.ones(y.size)) == ([], "y is the same in all cases")  # type: ignore[arg-type]
+    assert sobol_sensitivities(plan, "y", y) == ([], f"1 of {y.size} cases have no y")
+    assert sobol_sensitivities(plan, "y", np.ones(y.size)) == ([], "y is the same in all cases")
     assert saltelli_sample(load()) is None
 
 
 @pytest.mark.parametrize(("width", "doubted"), [(0.15, False), (0.75, True)])
-def test_wide_intervals_are_noted(width: float, doubted: bool) -> None:
+def test_wide_intervals_are_noted(width, doubted):
     narrow, index = SobolIndex(0.5, 0.45, 0.55), SobolIndex(0.5, 0.5 - width / 2, 0.5 + width / 2)
     found = [SobolSensitivity("met", {}, "rail.friction", narrow, index)]
     assert bool(uncertainty_note(found)) == doubted

@@ -1,13 +1,8 @@
 """The summary of the rows of a sweep, and the files that hold it."""
 
-from __future__ import annotations
-
 import csv
 import json
-from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -18,22 +13,19 @@ import pytest
 from uictest import rig
 from uictest.analysis.summaries import summarize
 from uictest.analysis.summaries.trends import MOST_VALUES
-from uictest.plans.sweeps import Plan
-from uictest.report import SweepResult, map_lines, write_sweep_result
+from uictest.report import map_lines, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document, sweep_document
 from uictest.running.chunked import CaseSelection, ChunkRunner, ChunkStore
 from uictest.running.chunked.case_blocks import BlockAssembler
 
-from ..conftest import GRID, SCENARIO, Load, formula
-
-MakeRunner = Callable[[Plan], ChunkRunner]
+from ..conftest import GRID, SCENARIO, formula
 
 
 @pytest.fixture
-def finished(load: Load, made_up: MakeRunner, tmp_path: Path) -> Callable[..., tuple[SweepResult, Path]]:
+def finished(load, made_up, tmp_path):
     """The findings of a finished sweep and the folder they are written to."""
 
-    def finish(text: str = GRID, scenario: str = "stop.yaml") -> tuple[SweepResult, Path]:
+    def finish(text=GRID, scenario="stop.yaml"):
         selection = CaseSelection(load(text, scenario=scenario))
         store = ChunkStore(tmp_path / "out")
         store.open({}, restart=True)
@@ -48,7 +40,7 @@ def finished(load: Load, made_up: MakeRunner, tmp_path: Path) -> Callable[..., t
     return finish
 
 
-def unstopped(parameters: Any, own: Any, rail: Any) -> Any:
+def unstopped(parameters, own, rail):
     """Stops of the formula, of which those on the slipperiest rail are not over when the simulation ends."""
     measures, wheelsets = formula(parameters, own, rail)
     running = rail[:, 1, 0] < 0.09
@@ -58,9 +50,7 @@ def unstopped(parameters: Any, own: Any, rail: Any) -> Any:
     return measures, wheelsets
 
 
-def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(
-    load: Load, tmp_path: Path
-) -> None:
+def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(load, tmp_path):
     selection = CaseSelection(load(GRID.replace("100 %]", "100 %]\n  simulation.maximum_duration: [60 s]")))
     store = ChunkStore(tmp_path / "out")
     store.open({}, restart=True)
@@ -79,16 +69,16 @@ def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(
     assert "the simulation ended after 60 s at 7.2 km/h" in result.missed[0].reason
 
 
-def read_document(folder: Path) -> Any:
+def read_document(folder):
     return json.loads((folder / "sweep.json").read_text())
 
 
-def table(path: Path) -> list[list[str]]:
+def table(path):
     with path.open(newline="") as file:
         return list(csv.reader(file))
 
 
-def test_counts_by_parameter(finished: Callable[..., tuple[SweepResult, Path]]) -> None:
+def test_the_files_of_a_summary_hold_its_counts_maps_and_parameters(finished):
     result, folder = finished()
     assert result.cases == 6
     rates = table(folder / "rates.csv")
@@ -96,64 +86,16 @@ def test_counts_by_parameter(finished: Callable[..., tuple[SweepResult, Path]]) 
     # Wheels lock where command - 9 friction exceeds 0.2.
     assert by_friction == {"0.08": ("2", "1"), "0.10": ("2", "2"), "0.12": ("2", "2")}
     assert [case.id for case in result.missed] == ["study[friction=0.08,command=100]"]
-
-
-def test_the_result_holds_the_parameters_of_the_base_and_says_which_are_varied(
-    finished: Callable[..., tuple[SweepResult, Path]],
-) -> None:
-    document = read_document(finished()[1])
+    document = read_document(folder)
     assert document["varied"] == ["rail.friction", "brake.command"]
     base = {role: document["parts"][part_id] for role, part_id in document["base"].items()}
     assert base["controller"]["name"] == "threshold"
     (friction,) = (each for each in base["scenario.rail"]["parameters"] if each["key"] == "rail.friction")
     assert (friction["value"], friction["library_value"]) == (0.1, 0.3)
-
-
-def test_rows_of_a_zip_that_share_a_value_are_counted_together(
-    finished: Callable[..., tuple[SweepResult, Path]],
-) -> None:
-    _, folder = finished("zip:\n  rail.friction: [0.08, 0.10, 0.12]\n  brake.command: [80 %, 100 %, 80 %]\n")
-    rates = [row[1:3] for row in table(folder / "rates.csv") if row[0] == "brake.command"]
-    assert rates == [["80 %", "2"], ["100 %", "1"]]
-    assert [row[0] for row in table(folder / "map-met.csv")[1:]] == ["0.08", "0.10", "0.12"]
-    assert table(folder / "map-met.csv")[0][1:] == ["80 %", "100 %"]
-
-
-def test_trends_of_a_figure_along_each_parameter(finished: Callable[..., tuple[SweepResult, Path]]) -> None:
-    _, folder = finished()
-    cases = pq.read_table(folder / "summary.parquet").to_pylist()
-    trends = {tuple(row[:3]): row[3:] for row in table(folder / "trends.csv")}
-    for key, value in {
-        (key, case[f"parameters.{key}"]) for case in cases for key in ("rail.friction", "brake.command")
-    }:
-        own = [case["braking_distance_m"] for case in cases if case[f"parameters.{key}"] == value]
-        unit, count, *numbers = trends[key, value, "braking distance"]
-        assert (unit, count) == ("m", str(len(own)))
-        expected = [min(own), sum(own) / len(own), max(own)]
-        assert [float(number) for number in numbers] == pytest.approx(expected)
-
-
-def test_figures_name_the_columns_that_they_are_of(
-    finished: Callable[..., tuple[SweepResult, Path]],
-) -> None:
-    _, folder = finished()
-    found = read_document(folder)
     columns = set(pq.read_schema(folder / "summary.parquet").names)
-    figures = [*found["distributions"], *found["trends"]]
+    figures = [*document["distributions"], *document["trends"]]
     assert {len(each["columns"]) for each in figures} == {1, 4}
     assert all(columns.issuperset(each["columns"]) for each in figures)
-
-
-def test_a_parameter_of_too_many_values_has_no_trend(
-    finished: Callable[..., tuple[SweepResult, Path]],
-) -> None:
-    many = ", ".join(str(round(0.05 + k * 1e-4, 4)) for k in range(MOST_VALUES + 1))
-    _, folder = finished(GRID.replace("[0.08, 0.10, 0.12]", f"[{many}]"))
-    assert {row[0] for row in table(folder / "trends.csv")[1:]} == {"brake.command"}
-
-
-def test_maps(finished: Callable[..., tuple[SweepResult, Path]]) -> None:
-    result, folder = finished()
     assert table(folder / "map-met.csv") == [
         ["rail.friction \\ brake.command", "80 %", "100 %"],
         ["0.08", "1.0", "0.0"],
@@ -168,9 +110,60 @@ def test_maps(finished: Callable[..., tuple[SweepResult, Path]]) -> None:
     ]
 
 
-def test_a_large_map_is_shown_coarser_and_written_whole(
-    finished: Callable[..., tuple[SweepResult, Path]],
-) -> None:
+def test_one_row_per_case_one_testcase_per_value_and_the_document_comes_back(finished):
+    result, folder = finished()
+    binary = pd.read_parquet(folder / "summary.parquet")
+    text = pd.read_csv(folder / "summary.csv", dtype={"parameters.rail.friction": str})
+    assert len(binary) == len(text) == 6
+    assert text["id"].tolist() == binary["id"].tolist()
+    assert text["braking_distance_m"].tolist() == binary["braking_distance_m"].tolist()
+    assert text["parameters.rail.friction"].tolist() == binary["parameters.rail.friction"].tolist()
+    assert text["initial_adhesion_g"].isna().all()
+    suite = ElementTree.parse(folder / "junit.xml").getroot()[0]
+    assert (suite.get("tests"), suite.get("failures")) == ("3", "1")
+    assert [case.get("name") for case in suite] == [
+        f"study[rail.friction={mu}]" for mu in ("0.08", "0.10", "0.12")
+    ]
+    assert "1 of 2 cases did not meet their expectation" in (suite[0][0].text or "")
+    assert {name for case in suite for name in case.attrib} == {"classname", "name"}  # no `file`, for Jenkins
+    read_back = read_sweep_document(read_document(folder))
+    assert sweep_document(read_back) == read_document(folder)
+    assert replace(read_back, maps=()) == replace(result, maps=())
+    document = read_document(folder)
+    others = dict.fromkeys(("invalid", "inconclusive", "error", "skipped"), 0)
+    assert document["outcomes"] == {"pass": 5, "fail": 1, **others}
+    assert document["maps"][0]["means"][0] == [1.0, 0.0]
+
+
+def test_rows_of_a_zip_that_share_a_value_are_counted_together(finished):
+    _, folder = finished("zip:\n  rail.friction: [0.08, 0.10, 0.12]\n  brake.command: [80 %, 100 %, 80 %]\n")
+    rates = [row[1:3] for row in table(folder / "rates.csv") if row[0] == "brake.command"]
+    assert rates == [["80 %", "2"], ["100 %", "1"]]
+    assert [row[0] for row in table(folder / "map-met.csv")[1:]] == ["0.08", "0.10", "0.12"]
+    assert table(folder / "map-met.csv")[0][1:] == ["80 %", "100 %"]
+
+
+def test_trends_of_a_figure_along_each_parameter(finished):
+    _, folder = finished()
+    cases = pq.read_table(folder / "summary.parquet").to_pylist()
+    trends = {tuple(row[:3]): row[3:] for row in table(folder / "trends.csv")}
+    for key, value in {
+        (key, case[f"parameters.{key}"]) for case in cases for key in ("rail.friction", "brake.command")
+    }:
+        own = [case["braking_distance_m"] for case in cases if case[f"parameters.{key}"] == value]
+        unit, count, *numbers = trends[key, value, "braking distance"]
+        assert (unit, count) == ("m", str(len(own)))
+        expected = [min(own), sum(own) / len(own), max(own)]
+        assert [float(number) for number in numbers] == pytest.approx(expected)
+
+
+def test_a_parameter_of_too_many_values_has_no_trend(finished):
+    many = ", ".join(str(round(0.05 + k * 1e-4, 4)) for k in range(MOST_VALUES + 1))
+    _, folder = finished(GRID.replace("[0.08, 0.10, 0.12]", f"[{many}]"))
+    assert {row[0] for row in table(folder / "trends.csv")[1:]} == {"brake.command"}
+
+
+def test_a_large_map_is_shown_coarser_and_written_whole(finished):
     result, folder = finished(
         "ranges:\n  rail.friction: {first: 0.05, last: 0.15, count: 60}\n"
         "  brake.command: {first: 70 %, last: 100 %, step: 30 %}\n"
@@ -179,9 +172,7 @@ def test_a_large_map_is_shown_coarser_and_written_whole(
     assert len(table(folder / "map-met.csv")) == 1 + 60
 
 
-def test_drawn_parameters_are_counted_in_intervals(
-    finished: Callable[..., tuple[SweepResult, Path]],
-) -> None:
+def test_drawn_parameters_are_counted_in_intervals(finished):
     result, _ = finished(
         "sample:\n  method: sobol\n  size: 64\n  parameters:\n    rail.friction: {uniform: [0.05, 0.15]}\n"
         "    rig.topology: {choice: [one-caliper, four-caliper]}\n"
@@ -192,18 +183,7 @@ def test_drawn_parameters_are_counted_in_intervals(
     assert [count.cases for count in result.rates["rig.topology"]] == [32, 32]
 
 
-def test_one_row_per_case_in_both_summaries(finished: Callable[..., tuple[SweepResult, Path]]) -> None:
-    _, folder = finished()
-    binary = pd.read_parquet(folder / "summary.parquet")
-    text = pd.read_csv(folder / "summary.csv", dtype={"parameters.rail.friction": str})
-    assert len(binary) == len(text) == 6
-    assert text["id"].tolist() == binary["id"].tolist()
-    assert text["braking_distance_m"].tolist() == binary["braking_distance_m"].tolist()
-    assert text["parameters.rail.friction"].tolist() == binary["parameters.rail.friction"].tolist()
-    assert text["initial_adhesion_g"].isna().all()
-
-
-def test_text_of_a_user_is_no_formula_in_the_summary(load: Load, made_up: MakeRunner, tmp_path: Path) -> None:
+def test_text_of_a_user_is_no_formula_in_the_summary(load, made_up, tmp_path):
     import pyarrow as pa
 
     from uictest.analysis.summaries.worst import without_formulas
@@ -215,22 +195,7 @@ def test_text_of_a_user_is_no_formula_in_the_summary(load: Load, made_up: MakeRu
     ]
 
 
-def test_junit_has_one_testcase_per_value_of_the_first_parameter(
-    finished: Callable[..., tuple[SweepResult, Path]],
-) -> None:
-    _, folder = finished()
-    suite = ElementTree.parse(folder / "junit.xml").getroot()[0]
-    assert (suite.get("tests"), suite.get("failures")) == ("3", "1")
-    assert [case.get("name") for case in suite] == [
-        f"study[rail.friction={mu}]" for mu in ("0.08", "0.10", "0.12")
-    ]
-    assert "1 of 2 cases did not meet their expectation" in (suite[0][0].text or "")
-    assert {name for case in suite for name in case.attrib} == {"classname", "name"}  # no `file`, for Jenkins
-
-
-def test_the_requirements_of_the_scenario_are_those_of_every_testcase(
-    finished: Callable[..., tuple[SweepResult, Path]], tmp_path: Path
-) -> None:
+def test_the_requirements_of_the_scenario_are_those_of_every_testcase(finished, tmp_path):
     _, folder = finished()
     assert not (folder / "junit-properties.xml").exists()
     scenario = SCENARIO + "requirements: [BR-1, BR-2]\ntest_case: WSP-TC-7\n"
@@ -248,31 +213,10 @@ def test_the_requirements_of_the_scenario_are_those_of_every_testcase(
     for testcase in with_properties.findall("testcase"):
         assert [
             (each.get("name"), each.get("value")) for each in testcase.findall("properties/property")
-        ] == [
-            ("polarion-testcase-id", "WSP-TC-7"),
-            ("test_key", "WSP-TC-7"),
-            ("requirements", "BR-1,BR-2"),
-        ]
+        ] == [("polarion-testcase-id", "WSP-TC-7"), ("test_key", "WSP-TC-7"), ("requirements", "BR-1,BR-2")]
 
 
-def test_the_document_can_be_read_back(finished: Callable[..., tuple[SweepResult, Path]]) -> None:
-    result, folder = finished()
-    read_back = read_sweep_document(read_document(folder))
-    assert sweep_document(read_back) == read_document(folder)
-    assert replace(read_back, maps=()) == replace(result, maps=())
-    document = read_document(folder)
-    assert document["outcomes"] == {
-        "pass": 5,
-        "fail": 1,
-        "invalid": 0,
-        "inconclusive": 0,
-        "error": 0,
-        "skipped": 0,
-    }
-    assert document["maps"][0]["means"][0] == [1.0, 0.0]
-
-
-def test_sensitivities_of_a_saltelli_sample(finished: Callable[..., tuple[SweepResult, Path]]) -> None:
+def test_sensitivities_of_a_saltelli_sample(finished):
     result, folder = finished(
         "sample:\n  method: saltelli\n  size: 64\n  parameters:\n    rail.friction: {uniform: [0.08, 0.12]}\n"
         "    brake.command: {uniform: [80 %, 100 %]}\n"

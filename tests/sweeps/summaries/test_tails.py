@@ -1,12 +1,8 @@
 """Quantiles and K_dry of sweeps whose decelerations are a formula: 9.81 m/s2 times the friction."""
 
-from __future__ import annotations
-
 import csv
 import json
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -15,9 +11,9 @@ import yaml
 
 from uictest import rig
 from uictest.analysis.summaries import summarize
-from uictest.plans.sweeps import Plan, load_sweep
+from uictest.plans.sweeps import load_sweep
 from uictest.plans.sweeps.nominal import drawn_ranges, nominal_plan
-from uictest.report import SweepResult, titled_lines, write_sweep_result
+from uictest.report import titled_lines, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document
 from uictest.report.sweep.tail_tables import tail_tables
 from uictest.running.chunked import CaseSelection, ChunkRunner, ChunkStore, select_cases
@@ -25,7 +21,6 @@ from uictest.running.chunked.case_blocks import BlockAssembler
 
 from ..conftest import HEAD, formula
 
-LoadDry = Callable[..., Plan]
 DRY = (
     "schema: uictest/scenario/1\nname: stop\ninitial_speed: 30 km/h\nrail: {condition: dry, friction: 0.12}\n"
 )
@@ -35,19 +30,19 @@ FINENESS = 1e-12
 
 
 @pytest.fixture
-def load_dry(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> LoadDry:
+def load_dry(tmp_path, monkeypatch):
     """The plan of a sweep on dry rail whose file says the given text after its head."""
     monkeypatch.chdir(tmp_path)
     Path("stop.yaml").write_text(DRY)
 
-    def write_and_load(text: str) -> Plan:
+    def write_and_load(text):
         Path("study.sweep.yaml").write_text(HEAD + text)
         return load_sweep(Path("study.sweep.yaml"))
 
     return write_and_load
 
 
-def slippery_stops_unfinished(parameters: Any, own: Any, rail: Any) -> Any:
+def slippery_stops_unfinished(parameters, own, rail):
     """Stops of the formula, of which those below a friction of 0.103 do not end."""
     measures, wheelsets = formula(parameters, own, rail)
     running = rail[:, 1, 0] < 0.103
@@ -56,7 +51,7 @@ def slippery_stops_unfinished(parameters: Any, own: Any, rail: Any) -> Any:
     return measures, wheelsets
 
 
-def finish(plan: Plan, simulate: Any = formula, only: str | None = None) -> tuple[SweepResult, Path]:
+def finish(plan, simulate=formula, only=None):
     selection = select_cases(plan, only) if only else CaseSelection(plan)
     store = ChunkStore(Path("out"))
     store.open({}, restart=True)
@@ -68,15 +63,15 @@ def finish(plan: Plan, simulate: Any = formula, only: str | None = None) -> tupl
     return result, store.folder
 
 
-def tail_lines(result: SweepResult) -> list[str]:
+def tail_lines(result):
     return list(titled_lines(tail_tables(result), None))
 
 
-def draws_of(folder: Path, column: str) -> list[float]:
+def draws_of(folder, column):
     return sorted(pd.read_parquet(folder / "summary.parquet")[column].tolist())
 
 
-def test_bounds_are_draws_of_the_summary(load_dry: LoadDry) -> None:
+def test_bounds_are_draws_of_the_summary(load_dry):
     text = "quantiles: {measure: mean_deceleration, levels: [10 %, 50 %, 90 %]}\n"
     result, folder = finish(load_dry(SAMPLE % 100 + text))
     values = draws_of(folder, "mean_deceleration_mps2")
@@ -92,7 +87,7 @@ def test_bounds_are_draws_of_the_summary(load_dry: LoadDry) -> None:
     assert all(each.is_supported for each in table.quantiles)
 
 
-def test_a_side_may_be_stated(load_dry: LoadDry) -> None:
+def test_a_side_may_be_stated(load_dry):
     text = "quantiles: [{measure: braking_distance_m, levels: [50 %], side: upper, confidence: 99 %}]\n"
     result, folder = finish(load_dry(SAMPLE % 100 + text))
     ((quantile,),) = (table.quantiles for table in result.quantiles)
@@ -100,7 +95,7 @@ def test_a_side_may_be_stated(load_dry: LoadDry) -> None:
     assert (quantile.lower, quantile.upper) == (None, draws_of(folder, "braking_distance_m")[63 - 1])
 
 
-def test_what_the_sample_does_not_support_is_refused(load_dry: LoadDry) -> None:
+def test_what_the_sample_does_not_support_is_refused(load_dry):
     text = "quantiles: {measure: mean_deceleration, levels: [1 %, 5 %]}\n"
     result, folder = finish(load_dry(SAMPLE % 298 + text))
     first, second = result.quantiles[0].quantiles
@@ -112,7 +107,7 @@ def test_what_the_sample_does_not_support_is_refused(load_dry: LoadDry) -> None:
     assert (rows[0]["lower"], rows[0]["note"]) == ("", "needs 299 draws, has 298")
 
 
-def test_k_dry_is_the_bound_over_the_nominal(load_dry: LoadDry) -> None:
+def test_k_dry_is_the_bound_over_the_nominal_in_a_file_of_its_own(load_dry):
     result, folder = finish(load_dry(SAMPLE % 300 + K_DRY))
     values = draws_of(folder, "developed_deceleration_mps2")
     (table,) = result.k_dry
@@ -125,12 +120,20 @@ def test_k_dry_is_the_bound_over_the_nominal(load_dry: LoadDry) -> None:
     assert [level.draws_needed for level in table.levels[:5]] == [5, 29, 299, 2_995, 29_956]
     assert [round(1.0 - level.shortfall, 9) for level in table.levels[:4]] == [0.5, 0.9, 0.99, 0.999]
     assert len(table.levels) == 10
+    content = yaml.safe_load((folder / "k_dry.yaml").read_text())
+    assert (content["schema"], content["kind"]) == ("uictest/result/2", "k-dry")
+    (table,) = content["tables"]
+    assert (table["nominal_mps2"], table["draws"], table["confidence"]) == (1.4715, 300, "95 %")
+    assert table["levels"][2]["k_dry"] == result.k_dry[0].levels[2].k_dry
+    last = table["levels"][9]
+    assert (last["probability"], last["k_dry"]) == ("99.9999999 %", None)
+    assert last["note"] == "needs 2995732273 draws, has 300"
 
 
-def test_draws_in_which_a_wheelset_slides_are_counted(load_dry: LoadDry) -> None:
+def test_draws_in_which_a_wheelset_slides_are_counted(load_dry):
     """Whatever makes the rail slippery: here its friction, under the name of dry rail."""
 
-    def sliding_below(parameters: Any, own: Any, rail: Any) -> Any:
+    def sliding_below(parameters, own, rail):
         measures, wheelsets = formula(parameters, own, rail)
         wheelsets["sliding_duration"][:, 2] = np.where(rail[:, 1, 0] < 0.12, 1.5, 0.5)
         return measures, wheelsets
@@ -147,26 +150,14 @@ def test_draws_in_which_a_wheelset_slides_are_counted(load_dry: LoadDry) -> None
     assert clean.sliding == 0
 
 
-def test_k_dry_goes_to_a_file_of_its_own(load_dry: LoadDry) -> None:
-    result, folder = finish(load_dry(SAMPLE % 300 + K_DRY))
-    content = yaml.safe_load((folder / "k_dry.yaml").read_text())
-    assert (content["schema"], content["kind"]) == ("uictest/result/2", "k-dry")
-    (table,) = content["tables"]
-    assert (table["nominal_mps2"], table["draws"], table["confidence"]) == (1.4715, 300, "95 %")
-    assert table["levels"][2]["k_dry"] == result.k_dry[0].levels[2].k_dry
-    last = table["levels"][9]
-    assert (last["probability"], last["k_dry"]) == ("99.9999999 %", None)
-    assert last["note"] == "needs 2995732273 draws, has 300"
-
-
-def test_the_result_can_be_read_back(load_dry: LoadDry) -> None:
+def test_the_result_can_be_read_back(load_dry):
     text = "quantiles: {measure: mean_deceleration, levels: [10 %]}\n"
     result, folder = finish(load_dry(SAMPLE % 300 + K_DRY + text))
     read_back = read_sweep_document(json.loads((folder / "sweep.json").read_text()))
     assert (read_back.quantiles, read_back.k_dry) == (result.quantiles, result.k_dry)
 
 
-def test_draws_without_a_value_count_as_the_worst(load_dry: LoadDry) -> None:
+def test_draws_without_a_value_count_as_the_worst(load_dry):
     text = "quantiles: {measure: mean_deceleration, levels: [1 %, 10 %, 50 %, 90 %]}\n"
     result, folder = finish(load_dry(SAMPLE % 400 + K_DRY + text), slippery_stops_unfinished)
     table = result.quantiles[0]
@@ -191,7 +182,7 @@ def test_draws_without_a_value_count_as_the_worst(load_dry: LoadDry) -> None:
     assert result.k_dry[0].levels[2].k_dry is None
 
 
-def test_a_stop_that_does_not_end_has_no_value_of_any_measure(load_dry: LoadDry) -> None:
+def test_a_stop_that_does_not_end_has_no_value_of_any_measure(load_dry):
     text = "quantiles: {measure: air_consumed, levels: [50 %]}\n"
     result, folder = finish(load_dry(SAMPLE % 400 + text), slippery_stops_unfinished)
     rows = pd.read_parquet(folder / "summary.parquet")
@@ -199,7 +190,7 @@ def test_a_stop_that_does_not_end_has_no_value_of_any_measure(load_dry: LoadDry)
     assert result.quantiles[0].sample.without_value == rows["braking_distance_m"].isna().sum() > 0
 
 
-def test_each_combination_of_listed_values_has_its_own(load_dry: LoadDry) -> None:
+def test_each_combination_of_listed_values_has_its_own(load_dry):
     grid = "grid: {initial_speed: [20 km/h, 30 km/h]}\n"
     text = "quantiles: {measure: braking_distance, levels: [50 %]}\n"
     result, folder = finish(load_dry(SAMPLE % 100 + grid + K_DRY + text))
@@ -212,18 +203,15 @@ def test_each_combination_of_listed_values_has_its_own(load_dry: LoadDry) -> Non
     assert result.k_dry[0].levels == result.k_dry[1].levels
 
 
-def test_a_value_that_all_cases_share_is_no_circumstance(load_dry: LoadDry) -> None:
+def test_neither_a_selection_of_draws_is_a_sample_nor_a_shared_value_a_circumstance(load_dry):
     result, _ = finish(load_dry(SAMPLE % 100 + "grid: {criteria: [uictest-stop]}\n" + K_DRY))
     assert [dict(table.circumstances) for table in result.k_dry] == [{}]
-
-
-def test_a_selection_of_draws_is_no_sample(load_dry: LoadDry) -> None:
     result, _ = finish(load_dry(SAMPLE % 100 + K_DRY), only="sample=1")
     assert (result.quantiles, result.k_dry) == ((), ())
     assert "no quantiles and no K_dry: only 11 of 100 cases selected" in result.notes
 
 
-def test_the_nominal_case_has_the_values_of_the_scenario(load_dry: LoadDry) -> None:
+def test_the_nominal_case_has_the_values_of_the_scenario(load_dry):
     text = SAMPLE % 100 + "grid: {initial_speed: [20 km/h, 30 km/h]}\nk_dry: {}\n"
     plan = load_dry(text.replace("}}}", "}, vehicle.wheelsets.2.brake_force: {uniform: [90 %, 95 %]}}}"))
     nominal = nominal_plan(plan)

@@ -1,7 +1,5 @@
 """Trends of a sweep: the same cases at every value."""
 
-from __future__ import annotations
-
 import numpy as np
 import pyarrow as pa
 
@@ -9,12 +7,12 @@ from uictest.analysis.summaries.histograms import ReportedMeasure
 from uictest.analysis.summaries.tally import bins_of_plan
 from uictest.analysis.summaries.trends import TrendSums
 
-from ..conftest import GRID, Load
+from ..conftest import GRID
 
 MEASURE = ReportedMeasure("initial adhesion", "g", ("adhesion",))
 
 
-def test_a_mean_is_that_of_the_combinations_that_have_the_measure_at_every_value(load: Load) -> None:
+def test_a_mean_is_that_of_the_combinations_that_have_the_measure_at_every_value(load):
     plan = load(GRID)
     first, second = plan.groups
     assert (first.size, second.size) == (3, 2)
@@ -36,7 +34,7 @@ def test_a_mean_is_that_of_the_combinations_that_have_the_measure_at_every_value
     assert (over_second.cases, over_second.mean) == ([1, 1], [0.09, 0.09])
 
 
-def test_a_value_at_which_no_case_has_the_measure_takes_no_other_away(load: Load) -> None:
+def test_a_value_at_which_no_case_has_the_measure_takes_no_other_away(load):
     plan = load(GRID)
     adhesion = np.array([np.nan, np.nan, 0.07, 0.08, 0.09, 0.10])
     rows = pa.table({"index": np.arange(6), "adhesion": adhesion})

@@ -1,7 +1,5 @@
 """Which cases of a sweep are worth looking at, and that they are the cases of its rows."""
 
-from __future__ import annotations
-
 import io
 
 import numpy as np
@@ -15,15 +13,13 @@ from uictest.analysis.summaries.worst import MOST, WorstCases, full_cases
 from uictest.running.campaign import RecordingRequest, run_cases
 from uictest.running.chunked.chunk import chunk_runner
 
-from ..conftest import Load
-
 margins = st.one_of(st.none(), st.floats(-2.0, 2.0))
 rows = st.lists(
     st.tuples(st.booleans(), margins, st.sampled_from(["pass", "fail", "error", "skipped"])), max_size=40
 )
 
 
-def table(found: list[tuple[bool, float | None, str]], first: int = 0) -> pa.Table:
+def table(found, first=0):
     met, margin, outcome = zip(*found, strict=True) if found else ((), (), ())
     columns = {
         "index": pa.array(range(first, first + len(found)), pa.int64()),
@@ -35,9 +31,7 @@ def table(found: list[tuple[bool, float | None, str]], first: int = 0) -> pa.Tab
 
 
 @given(rows, st.integers(0, 40))
-def test_those_not_met_come_first_then_the_narrowest(
-    found: list[tuple[bool, float | None, str]], cut: int
-) -> None:
+def test_those_not_met_come_first_then_the_narrowest(found, cut):
     worst = WorstCases()
     worst.add(table(found[:cut]))
     worst.add(table(found[cut:], min(cut, len(found))))
@@ -49,7 +43,7 @@ def test_those_not_met_come_first_then_the_narrowest(
     assert worst.indices() == [place for _, _, place in sorted(seen)][:MOST]
 
 
-def test_a_case_examined_alone_has_the_figures_of_its_row(load: Load) -> None:
+def test_a_case_examined_alone_has_the_figures_of_its_row(load):
     """Bit for bit: the scalar rig and the lanes, with the noise of the same case."""
     plan = load("grid:\n  rail.friction: [0.06, 0.15]\n  controller.slip_threshold: [0.5 m/s, 0.9 m/s]\n")
     runner = chunk_runner(plan, rig.run_block)
@@ -67,6 +61,6 @@ def test_a_case_examined_alone_has_the_figures_of_its_row(load: Load) -> None:
 
 
 @pytest.mark.parametrize("column", ["narrowest_margin", "narrowest_criterion"])
-def test_rows_name_the_narrowest_margin(load: Load, column: str) -> None:
+def test_rows_name_the_narrowest_margin(load, column):
     rows = pq.read_table(io.BytesIO(chunk_runner(load(), rig.run_block).run(np.arange(2))))
     assert all(value is not None for value in rows.column(column).to_pylist())
