@@ -1,10 +1,8 @@
 """Stops, wheelsets, criteria and scenarios to judge, each with a sound default and what a test changes."""
 
-from collections.abc import Callable
 from importlib import resources
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 import yaml
@@ -22,24 +20,24 @@ settings.register_profile("untimed", deadline=None)
 settings.load_profile("untimed")
 
 
-def _criterion(measure: str = "braking_distance", **fields: Any) -> Criterion:
+def _criterion(measure="braking_distance", **fields):
     return Criterion.model_validate({"id": "tested", "layer": "validity", "measure": measure, **fields})
 
 
-def _profile(*criteria: Criterion) -> Criteria:
+def _profile(*criteria):
     return Criteria(name="tested", criteria=criteria)
 
 
-def _written(name: str, folder: str = "criteria") -> Any:
+def _written(name, folder="criteria"):
     file = resources.files("uictest.plans.library") / folder / f"{name}.yaml"
     return yaml.safe_load(file.read_text("utf-8"))
 
 
-def _shipped(name: str) -> Criteria:
+def _shipped(name):
     return Criteria.model_validate(_written(name))
 
 
-def _scenario(*profiles: Criteria, condition: str = "dry", **changes: Any) -> Any:
+def _scenario(*profiles, condition="dry", **changes):
     settings = {
         "wsp": "active",
         "position": "R",
@@ -65,7 +63,7 @@ def _scenario(*profiles: Criteria, condition: str = "dry", **changes: Any) -> An
     )
 
 
-def _case(scenario: Any) -> Any:
+def _case(scenario):
     return SimpleNamespace(
         id="slip-120[friction=0.10]",
         scenario=scenario,
@@ -75,30 +73,30 @@ def _case(scenario: Any) -> Any:
 
 
 @pytest.fixture(scope="session")
-def criterion() -> Callable[..., Criterion]:
+def criterion():
     return _criterion
 
 
 @pytest.fixture(scope="session")
-def profile() -> Callable[..., Criteria]:
+def profile():
     return _profile
 
 
 @pytest.fixture(scope="session")
-def shipped() -> Callable[[str], Criteria]:
+def shipped():
     return _shipped
 
 
 @pytest.fixture(scope="session")
-def written() -> Callable[[str], Any]:
+def written():
     return _written
 
 
 @pytest.fixture(scope="session")
-def scenario() -> Callable[..., Any]:
+def scenario():
     return _scenario
 
 
 @pytest.fixture(scope="session")
-def case() -> Callable[[Any], Any]:
+def case():
     return _case

@@ -1,7 +1,5 @@
 """Conditions of a stop that a criterion requires."""
 
-from __future__ import annotations
-
 import pytest
 
 from uictest.plans import scenario, scenario as scenarios
@@ -18,8 +16,6 @@ CONDITIONS = scenarios.TestConditions("soap", "active", "R", 1.0, 0.0, "one-cali
         ({"rail_condition_other_than": ("dry", "soap")}, ["rail is soap, the criterion is for any other"]),
     ],
 )
-def test_a_criterion_names_the_rails_it_is_for_or_not_for(
-    required: dict[str, tuple[str, ...]], unmet: list[str]
-) -> None:
+def test_a_criterion_names_the_rails_it_is_for_or_not_for(required, unmet):
     applies = scenario.Applicability(**required)
     assert [str(each) for each in scenarios.unmet_conditions(applies, CONDITIONS, None)] == unmet

@@ -15,7 +15,7 @@ def slip_test(shipped, scenario, case):
 
 def test_a_case_is_judged_and_its_figures_are_in_the_units_of_the_interface(
     slip_test, sliding_stop, wheelsets
-) -> None:
+):
     records = wheelsets(
         0.9, 0.9, 0.9, 0.9, valve_actuations=11, maximum_clamping_force=41e3, air_vented=0.01185
     )
@@ -37,7 +37,7 @@ def test_a_case_is_judged_and_its_figures_are_in_the_units_of_the_interface(
 
 def test_the_figure_takes_the_first_phase_that_the_criterion_defines(
     criterion, profile, scenario, case, sliding_stop, wheelsets
-) -> None:
+):
     speed = [30.0, 29.0, *[20.0] * 9]
     phase = {"first_phase_duration": {"value": "1 s", "range": ["1 s", "2 s"]}}
     slippery = profile(criterion("initial_adhesion", upper="0.2 g", definition=phase))
@@ -46,12 +46,14 @@ def test_the_figure_takes_the_first_phase_that_the_criterion_defines(
     assert result.criteria[0].value == result.measures["initial_adhesion_g"]
 
 
-def test_a_stop_that_is_not_slippery_enough_is_invalid_and_says_why(
-    slip_test, sliding_stop, wheelsets
-) -> None:
+def test_a_stop_that_is_not_slippery_enough_is_invalid_and_a_figure_never_reached_is_nan(
+    slip_test, sliding_stop, wheelsets, stop
+):
     result = evaluate(slip_test, sliding_stop(0.09 * G), wheelsets(0.9, 0.9, 0.9, 0.9))
     assert (result.outcome, result.met) == ("invalid", False)
     assert result.reason == "initial-adhesion: 0.09 g misses < 0.08 g by 0.01 g"
+    figures = evaluate(slip_test, stop(), wheelsets(0.0)).measures
+    assert math.isnan(figures["initial_adhesion_g"])
 
 
 @pytest.mark.parametrize(
@@ -60,12 +62,7 @@ def test_a_stop_that_is_not_slippery_enough_is_invalid_and_says_why(
         ({}, (0.1, 0.1, 0.1, 0.1), "pass", ""),
         ({"energy_residual": -0.002}, (0.1,), "invalid", "energy-balance"),
         ({"air_residual": np.nan}, (0.1,), "invalid", "air-balance: nan never keeps < 1e-09"),
-        (
-            {"air_energy_residual": -1e-9},
-            (0.1,),
-            "invalid",
-            "air-energy-balance: 1e-09 misses < 1e-09",
-        ),
+        ({"air_energy_residual": -1e-9}, (0.1,), "invalid", "air-energy-balance: 1e-09 misses < 1e-09"),
         (
             {"stopped": 0.0, "end_speed": 3.0},
             (0.1,),
@@ -76,7 +73,7 @@ def test_a_stop_that_is_not_slippery_enough_is_invalid_and_says_why(
 )
 def test_our_own_profile_judges_any_stop(
     shipped, scenario, case, stop, wheelsets, changes, slides, outcome, what
-) -> None:
+):
     profiles = shipped("uictest-stop"), shipped("uictest-rig")
     result = evaluate(case(scenario(*profiles)), stop(**changes), wheelsets(*slides))
     assert result.outcome == outcome
@@ -89,7 +86,7 @@ def test_our_own_profile_judges_any_stop(
 )
 def test_a_check_of_the_rig_makes_a_stop_invalid_and_decides_nothing_else(
     shipped, scenario, case, stop, wheelsets, monkeypatch, misfit, statuses, outcome
-) -> None:
+):
     """What is not known leaves the outcome alone; without any other criterion there is no judgement."""
     monkeypatch.setattr("uictest.plans.scenario.misfits", lambda scenario: ["the lever ratio is 3"])
     stopped = stop(compensation_misfit=misfit)
@@ -103,7 +100,7 @@ def test_a_check_of_the_rig_makes_a_stop_invalid_and_decides_nothing_else(
     assert alone.outcome == ("invalid" if outcome == "invalid" else "skipped")
 
 
-def test_a_wheelset_that_stands_still_too_long_fails(shipped, scenario, case, stop, wheelsets) -> None:
+def test_a_wheelset_that_stands_still_too_long_fails(shipped, scenario, case, stop, wheelsets):
     records = wheelsets(1.0, 1.0, 1.0, 1.0, longest_lock=[0.2, 0.0, 6.5, 0.1])
     result = evaluate(case(scenario(shipped("uictest-stop"))), stop(), records)
     assert result.outcome == "fail"
@@ -111,7 +108,7 @@ def test_a_wheelset_that_stands_still_too_long_fails(shipped, scenario, case, st
     assert result.reason == f"locked-wheels: {kept}: 0.2, 0, 6.5, 0.1 s"
 
 
-def test_a_crashed_simulation_is_an_error_with_its_reason(slip_test) -> None:
+def test_a_crashed_simulation_is_an_error_with_its_reason(slip_test):
     result = error_result(slip_test, "diverged at 3.2 s", duration=0.1)
     assert (result.outcome, result.met, result.reason) == ("error", False, "diverged at 3.2 s")
     assert result.measures is None
@@ -135,13 +132,8 @@ def test_a_crashed_simulation_is_an_error_with_its_reason(slip_test) -> None:
         ("error", "fail", False),
     ],
 )
-def test_an_expectation_is_met_by_its_own_outcome(outcome: str, expect: str, met: bool) -> None:
+def test_an_expectation_is_met_by_its_own_outcome(outcome, expect, met):
     assert CaseResult("a", "a.yaml", {}, expect, outcome).met is met
-
-
-def test_a_figure_never_reached_is_nan(slip_test, stop, wheelsets) -> None:
-    figures = evaluate(slip_test, stop(), wheelsets(0.0)).measures
-    assert math.isnan(figures["initial_adhesion_g"])
 
 
 @pytest.fixture
@@ -149,12 +141,16 @@ def sound_test(shipped, scenario, case):
     return case(scenario(shipped("uictest-stop"), condition="dry"))
 
 
-def test_a_stop_with_finite_measures_is_judged(sound_test, stop, wheelsets) -> None:
+def test_a_stop_with_finite_measures_is_judged_and_a_wheelset_without_is_an_error_and_named(
+    sound_test, stop, wheelsets
+):
     # The minimum deceleration is NaN where the stop ended before the brake was developed.
     undeveloped = stop(minimum_deceleration=math.nan)
     result = evaluate_simulated(sound_test, undeveloped, wheelsets(0.0, 0.0, 0.0, 0.0))
-
     assert result.outcome == "pass"
+    result = evaluate_simulated(sound_test, stop(), wheelsets(0.0, math.nan, 0.0, 0.0))
+    assert result.outcome == "error"
+    assert "no finite maximum_slide_2" in result.reason
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
@@ -162,25 +158,15 @@ def test_a_stop_with_finite_measures_is_judged(sound_test, stop, wheelsets) -> N
     "name", ["air_residual", "air_energy_residual", "energy_residual", "air_consumed", "end_distance"]
 )
 def test_a_measure_of_the_stop_that_is_no_number_is_an_error_not_a_verdict(
-    sound_test, stop, wheelsets, name: str, value: float
-) -> None:
+    sound_test, stop, wheelsets, name, value
+):
     result = evaluate_simulated(sound_test, stop(**{name: value}), wheelsets(0.0, 0.0, 0.0, 0.0), 2.5)
-
     assert (result.outcome, result.criteria, result.duration) == ("error", (), 2.5)
     assert f"no finite {name}" in result.reason
 
 
-def test_a_measure_of_a_wheelset_that_is_no_number_is_an_error_and_named(sound_test, stop, wheelsets) -> None:
-    result = evaluate_simulated(sound_test, stop(), wheelsets(0.0, math.nan, 0.0, 0.0))
-
-    assert result.outcome == "error"
-    assert "no finite maximum_slide_2" in result.reason
-
-
-def test_a_stop_that_takes_no_air_has_no_balances_of_the_air(sound_test, stop, wheelsets) -> None:
+def test_a_stop_that_takes_no_air_has_no_balances_of_the_air(sound_test, stop, wheelsets):
     measures = stop(air_consumed=0.0, air_residual=math.nan, air_energy_residual=math.nan, end_time=0.086)
-
     result = evaluate_simulated(sound_test, measures, wheelsets(0.0, 0.0, 0.0, 0.0))
-
     assert result.outcome == "error"
     assert "ended after 0.086 s, before the brake took any air" in result.reason

@@ -1,7 +1,6 @@
 """What is decided of a stop that was not observed as a whole: only what the rest cannot change."""
 
 import math
-from typing import Any
 
 import pytest
 from hypothesis import given, strategies as st
@@ -26,7 +25,7 @@ seconds = st.lists(st.floats(0.0, 10.0), min_size=4, max_size=4)
 def verdict_of(profile, scenario, wheelsets):
     """Judge a stop by one criterion."""
 
-    def judged(criterion: Any, measures: Any, records: Any = None, coverage: Coverage | None = None) -> Any:
+    def judged(criterion, measures, records=None, coverage=None):
         records = wheelsets(0.1, 0.1, 0.1, 0.1) if records is None else records
         (verdict,) = judge(scenario(profile(criterion)), measures, records, coverage=coverage)
         return verdict
@@ -38,7 +37,7 @@ def verdict_of(profile, scenario, wheelsets):
 def locked(criterion, stop, wheelsets, verdict_of):
     """Judge the times that the wheelsets are locked."""
 
-    def judged(times: list[float], running: bool = False, coverage: Any = None, **fields: Any) -> Any:
+    def judged(times, running=False, coverage=None, **fields):
         bounded = criterion("locked_time", **fields)
         records = wheelsets(0.0, 0.0, 0.0, 0.0, locked_time=times)
         return verdict_of(bounded, stop(**(RUNNING if running else {})), records, coverage)
@@ -46,7 +45,7 @@ def locked(criterion, stop, wheelsets, verdict_of):
     return judged
 
 
-def test_an_upper_bound_on_what_can_only_grow_is_open_until_it_is_exceeded(locked) -> None:
+def test_an_upper_bound_on_what_can_only_grow_is_open_until_it_is_exceeded(locked):
     kept = locked([0.0, 0.0, 0.4, 0.0], running=True, upper="1 s", wheelsets="all")
     assert (kept.status, kept.value, kept.margin) == ("inconclusive", None, None)
     assert kept.reason == f"4 of 4 wheelsets must be within the limit of 1 s: 0, 0, 0.4, 0 s so far; {ENDED}"
@@ -59,7 +58,7 @@ def test_an_upper_bound_on_what_can_only_grow_is_open_until_it_is_exceeded(locke
 
 def test_a_lower_bound_on_what_can_only_grow_passes_once_it_is_reached(
     criterion, stop, wheelsets, verdict_of
-) -> None:
+):
     cutoff = {"low_speed_cutoff": {"value": "30 km/h", "range": ["10 km/h", "60 km/h"]}}
     slide = criterion(
         "maximum_slide_above_cutoff", lower="35 %", wheelsets={"at_least": "half"}, definition=cutoff
@@ -95,14 +94,14 @@ def test_a_lower_bound_on_what_can_only_grow_passes_once_it_is_reached(
     ],
 )
 def test_before_standstill_a_measure_is_judged_by_what_it_can_still_become(
-    criterion, stop, verdict_of, name: str, bound: dict[str, Any], fields: dict[str, Any], verdict: str
-) -> None:
+    criterion, stop, verdict_of, name, bound, fields, verdict
+):
     assert verdict_of(criterion(name, **bound), stop(**RUNNING, **fields)).status == verdict
 
 
 def test_a_first_phase_that_is_over_is_final_and_one_that_is_not_is_open(
     criterion, sliding_stop, stop, verdict_of
-) -> None:
+):
     phase = {"first_phase_duration": {"value": "3 s", "range": ["2 s", "5 s"]}}
     slippery = criterion("initial_adhesion", upper="0.08 g", definition=phase)
     assert verdict_of(slippery, sliding_stop(**RUNNING)).status == "pass"
@@ -118,9 +117,7 @@ def test_a_first_phase_that_is_over_is_final_and_one_that_is_not_is_open(
 
 
 @given(seconds, seconds, st.floats(0.0, 12.0), st.integers(1, 4), st.booleans())
-def test_what_is_decided_early_is_decided_as_the_whole_stop_is(
-    locked, so_far: list[float], more: list[float], bound: float, needed: int, upper: bool
-) -> None:
+def test_what_is_decided_early_is_decided_as_the_whole_stop_is(locked, so_far, more, bound, needed, upper):
     fields = {"upper" if upper else "lower": f"{bound:.6f} s", "wheelsets": {"at_least": needed}}
     early = locked(so_far, running=True, **fields)
     whole = locked([a + b for a, b in zip(so_far, more, strict=True)], **fields)
@@ -130,9 +127,7 @@ def test_what_is_decided_early_is_decided_as_the_whole_stop_is(
 @given(
     seconds, st.lists(st.booleans(), min_size=4, max_size=4), seconds, st.floats(0.0, 12.0), st.integers(1, 4)
 )
-def test_a_wheelset_that_is_not_known_counts_either_way(
-    locked, known: list[float], lacking: list[bool], other: list[float], bound: float, needed: int
-) -> None:
+def test_a_wheelset_that_is_not_known_counts_either_way(locked, known, lacking, other, bound, needed):
     fields = {"upper": f"{bound:.6f} s", "wheelsets": {"at_least": needed}}
     coverage = Coverage({"locked_time": tuple(NOWHERE if lacks else None for lacks in lacking)})
     early = locked(known, coverage=coverage, **fields)
@@ -142,7 +137,7 @@ def test_a_wheelset_that_is_not_known_counts_either_way(
         assert early.status != "inconclusive"
 
 
-def test_three_known_wheelsets_can_decide_for_four(locked) -> None:
+def test_three_known_wheelsets_can_decide_for_four_and_a_gap_leaves_what_was_seen_besides_it(locked):
     coverage = Coverage({"locked_time": (None, NOWHERE, None, None)})
     half = {"upper": "1 s", "wheelsets": {"at_least": "half"}}
     found = locked([0.0, math.nan, 0.2, 5.0], coverage=coverage, **half)
@@ -151,18 +146,13 @@ def test_three_known_wheelsets_can_decide_for_four(locked) -> None:
     assert found.reason == f"{count}: 0, -, 0.2, 5 s so far; not recorded: wheel_speed_2"
     every = locked([0.0, math.nan, 0.2, 0.3], coverage=coverage, upper="1 s", wheelsets="all")
     assert every.status == "inconclusive"
-
-
-def test_a_gap_leaves_what_was_seen_besides_it(locked) -> None:
     coverage = Coverage({"locked_time": (None, GAP, None, None)})
     every = {"upper": "1 s", "wheelsets": "all", "coverage": coverage}
     assert locked([0.0, 2.0, 0.0, 0.0], **every).status == "fail"
     assert locked([0.0, 0.5, 0.0, 0.0], **every).status == "inconclusive"
 
 
-def test_checks_of_the_rig_say_nothing_about_a_recorded_stop(
-    shipped, scenario, case, stop, wheelsets
-) -> None:
+def test_checks_of_the_rig_say_nothing_about_a_recorded_stop(shipped, scenario, case, stop, wheelsets):
     measures = stop(energy_residual=math.nan, air_residual=math.nan, air_energy_residual=math.nan)
     records = wheelsets(0.1, 0.1, 0.1, 0.1)
     profile = shipped("uictest-stop")
@@ -175,9 +165,7 @@ def test_checks_of_the_rig_say_nothing_about_a_recorded_stop(
     assert {v.status for v in named.criteria} == {"not_applicable"}
 
 
-def test_without_the_initial_speed_a_criterion_that_asks_for_one_is_open(
-    shipped, scenario, stop, wheelsets
-) -> None:
+def test_without_the_initial_speed_a_criterion_that_asks_for_one_is_open(shipped, scenario, stop, wheelsets):
     coverage = Coverage({}, "the record begins after the brake command: no initial speed")
     measures = stop(initial_speed=90 * KMH, braking_distance=470.0)
     dry, wet = (

@@ -1,7 +1,5 @@
 """The criteria files: what is shipped, and what a file may not say."""
 
-from typing import Any
-
 import jsonschema
 import pytest
 from pydantic import ValidationError
@@ -12,7 +10,7 @@ from uictest.plans.scenario.yaml.model import quantities_in
 SHIPPED = ("uic-541-05-appendix-b", "uictest-stop")
 
 
-def test_appendix_b_is_its_three_limits_and_nothing_else(shipped) -> None:
+def test_appendix_b_is_its_three_limits_and_nothing_else(shipped):
     limits = {
         c.id: (c.measure, c.lower and c.lower.text, c.upper and c.upper.text, c.layer)
         for c in shipped("uic-541-05-appendix-b").criteria
@@ -25,14 +23,14 @@ def test_appendix_b_is_its_three_limits_and_nothing_else(shipped) -> None:
 
 
 @pytest.mark.parametrize("name", SHIPPED)
-def test_every_shipped_number_names_a_described_source(shipped, name: str) -> None:
+def test_every_shipped_number_names_a_described_source(shipped, name):
     profile = shipped(name)
     found = list(quantities_in(profile))
     assert found
     assert all(quantity.source in profile.sources for _, quantity in found)
 
 
-def test_only_the_quoted_limits_are_marked_as_stated(shipped) -> None:
+def test_only_the_quoted_limits_are_marked_as_stated(shipped):
     profile = shipped("uic-541-05-appendix-b")
     stated = {q.text for _, q in quantities_in(profile) if profile.sources[q.source].mark == "stated"}
     assert stated == {"0.08 g", "35 %", "440 m", "490 m", "120 km/h"}
@@ -40,20 +38,20 @@ def test_only_the_quoted_limits_are_marked_as_stated(shipped) -> None:
 
 
 @pytest.mark.parametrize("name", SHIPPED)
-def test_a_profile_comes_back_from_its_own_form(shipped, name: str) -> None:
+def test_a_profile_comes_back_from_its_own_form(shipped, name):
     profile = shipped(name)
     assert Criteria.model_validate(profile.model_dump(by_alias=True)) == profile
 
 
 @pytest.mark.parametrize("name", SHIPPED)
-def test_an_editor_that_knows_the_schema_accepts_what_is_shipped(written, name: str) -> None:
+def test_an_editor_that_knows_the_schema_accepts_what_is_shipped(written, name):
     jsonschema.validate(written(name), Criteria.model_json_schema())
 
 
 PHASE = {"first_phase_duration": {"value": "3 s", "range": ["2 s", "5 s"]}}
 
 
-def cutoff(value: str = "30 km/h", first: str = "10 km/h", last: str = "60 km/h") -> dict[str, Any]:
+def cutoff(value="30 km/h", first="10 km/h", last="60 km/h"):
     return {"low_speed_cutoff": {"value": value, "range": [first, last]}}
 
 
@@ -103,13 +101,13 @@ SLIDE = {"measure": "maximum_slide_above_cutoff", "lower": "35 %", "wheelsets": 
         ({"measure": "braking_time", "upper": "9 s", "source": "nowhere"}, "unknown source 'nowhere'"),
     ],
 )
-def test_what_makes_no_criterion_is_refused(fields: dict[str, Any], message: str) -> None:
+def test_what_makes_no_criterion_is_refused(fields, message):
     whole = {"id": "tested", "layer": "validity", **fields}
     with pytest.raises(ValidationError, match=message.replace("(", r"\(")):
         Criteria.model_validate({"name": "mine", "criteria": [whole]})
 
 
-def test_a_mistyped_measure_is_answered_with_the_nearest() -> None:
+def test_a_mistyped_measure_is_answered_with_the_nearest():
     wrong = {"id": "a", "layer": "validity", "measure": "braking_distanc", "upper": "490 m"}
     with pytest.raises(ValidationError) as caught:
         Criteria.model_validate({"criteria": [wrong]})
@@ -118,18 +116,11 @@ def test_a_mistyped_measure_is_answered_with_the_nearest() -> None:
     assert error["loc"] == ("criteria", 0, "measure")
 
 
-def test_two_criteria_of_a_profile_cannot_share_a_name() -> None:
+def test_a_profile_of_another_kind_without_criteria_or_with_two_of_a_name_is_refused():
     one = {"id": "same", "layer": "validity", "measure": "standstill", "lower": 1}
     with pytest.raises(ValidationError, match="a second criterion is called 'same'"):
         Criteria.model_validate({"criteria": [one, one]})
-
-
-def test_a_file_of_another_kind_is_no_profile() -> None:
-    one = {"id": "same", "layer": "validity", "measure": "standstill", "lower": 1}
     with pytest.raises(ValidationError, match="uictest/criteria/1"):
         Criteria.model_validate({"schema": "uictest/rail/1", "criteria": [one]})
-
-
-def test_a_profile_without_criteria_is_refused() -> None:
     with pytest.raises(ValidationError, match="the profile has no criterion"):
         Criteria.model_validate({"criteria": []})

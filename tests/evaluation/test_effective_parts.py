@@ -1,23 +1,15 @@
 """Every number that a case is run with: whose it is, and whether the library has another."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import pytest
 
-from uictest.judging.evaluation import EffectivePart, Parameter, parts_document
+from uictest.judging.evaluation import parts_document
 from uictest.judging.evaluation.effective_parts import EffectiveParts
-from uictest.plans.scenario import Case, load
-
-Cases = Callable[..., list[Case]]
-Parts = dict[str, EffectivePart]
+from uictest.plans.scenario import load
 
 
 @pytest.fixture
-def cases(tmp_path: Path) -> Cases:
-    def write_and_load(text: str, *overrides: str) -> list[Case]:
+def cases(tmp_path):
+    def write_and_load(text, *overrides):
         path = tmp_path / "stop.yaml"
         path.write_text(f"schema: uictest/scenario/1\nname: stop\ninitial_speed: 80 km/h\n{text}")
         return load([path], overrides)
@@ -25,20 +17,20 @@ def cases(tmp_path: Path) -> Cases:
     return write_and_load
 
 
-def of(case: Case) -> Parts:
+def of(case):
     return EffectiveParts().of(case.scenario)
 
 
-def changed(parts: Parts) -> dict[str, tuple[str, str]]:
+def changed(parts):
     found = (each for part in parts.values() for each in part.changed)
     return {each.key: (each.written, each.library_written) for each in found}
 
 
-def parameters(parts: Parts) -> dict[str, Parameter]:
+def parameters(parts):
     return {each.key: each for part in parts.values() for each in part.parameters}
 
 
-def test_an_inline_controller_differs_from_the_library_in_what_it_names(cases: Cases) -> None:
+def test_an_inline_controller_differs_from_the_library_in_what_it_names_and_not_in_units(cases):
     (case,) = cases("controller: {extends: threshold, slip_threshold: 3 km/h}\n")
     parts = of(case)
     assert (parts["controller"].name, parts["controller"].based_on) == ("threshold", "threshold")
@@ -55,14 +47,11 @@ def test_an_inline_controller_differs_from_the_library_in_what_it_names(cases: C
         "library_value": 0.9993,
         "library_written": "0.9993 m/s",
     }
-
-
-def test_the_same_number_in_another_unit_does_not_differ(cases: Cases) -> None:
     (case,) = cases("controller: {extends: threshold, slip_threshold: 3.59748 km/h}\n")
     assert changed(of(case)) == {}
 
 
-def test_values_of_the_matrix_and_of_the_command_line_are_among_them(cases: Cases) -> None:
+def test_values_of_the_matrix_and_of_the_command_line_are_among_them(cases):
     text = "matrix: {controller.hold_limit: [1 s, 2 s]}\n"
     first, second = cases(text, "vehicle.body.mass=40 t", "rig.compensation=none")
     common = {"vehicle.body.mass": ("40 t", "32370 kg"), "rig.compensation": ("none", "thermal")}
@@ -70,7 +59,7 @@ def test_values_of_the_matrix_and_of_the_command_line_are_among_them(cases: Case
     assert changed(of(second)) == common
 
 
-def test_a_friction_of_the_scenario_stands_in_place_of_the_conditions(cases: Cases) -> None:
+def test_a_friction_or_cleaning_of_the_scenario_stands_in_place_of_the_conditions(cases):
     (wet,) = cases("rail: {condition: wet}\n")
     (slippery,) = cases("rail: {condition: wet, friction: 0.10}\n")
     assert parameters(of(wet))["rail.condition.friction"].value == 0.30
@@ -78,9 +67,6 @@ def test_a_friction_of_the_scenario_stands_in_place_of_the_conditions(cases: Cas
     assert "rail.condition.friction" not in parameters(of(slippery))
     assert changed(of(slippery)) == {"rail.friction": ("0.10", "0.30")}
     assert of(slippery)["rail"].removed == ()
-
-
-def test_a_cleaning_of_the_scenario_stands_in_place_of_the_conditions(cases: Cases) -> None:
     own = "{energy: 9 kJ/m, recovered_friction: 0.28, reach: 0.5 m, carry_over: 0.5}"
     (shipped,) = cases("rail: {condition: wet-cleaning}\n")
     (given,) = cases(f"rail: {{condition: wet-cleaning, cleaning: {own}}}\n")
@@ -92,7 +78,7 @@ def test_a_cleaning_of_the_scenario_stands_in_place_of_the_conditions(cases: Cas
     assert parameters(of(alone))["rail.cleaning.carry_over"].value == 0.5
 
 
-def test_the_mark_says_whose_number_it_is(cases: Cases) -> None:
+def test_the_mark_says_whose_number_it_is(cases):
     (case,) = cases("rail: {gradient: 0 permille}\nvehicle: manchester-benchmark\n")
     found = parameters(of(case))
     marks = {key: found[key].mark for key in ("rail.gradient", "brake.command", "vehicle.body.mass")}
@@ -102,7 +88,7 @@ def test_the_mark_says_whose_number_it_is(cases: Cases) -> None:
     assert "Iwnicki 1998" in of(case)["vehicle"].sources[source]
 
 
-def test_criteria_that_were_left_out_or_added_are_told(cases: Cases) -> None:
+def test_criteria_that_were_left_out_or_added_are_told(cases):
     only = "{id: short, layer: requirement, measure: braking_distance, upper: 400 m}"
     (case,) = cases(f"criteria: {{extends: uictest-stop, criteria: [{only}]}}\n")
     profile = of(case)["criteria.0"]
@@ -110,7 +96,7 @@ def test_criteria_that_were_left_out_or_added_are_told(cases: Cases) -> None:
     assert changed({"criteria.0": profile})["criteria.short.upper"] == ("400 m", "")
 
 
-def test_every_number_of_every_part_is_there(cases: Cases) -> None:
+def test_every_number_of_every_part_is_there(cases):
     from uictest.plans.scenario.part_keys import PART_KEYS
 
     (case,) = cases("")
@@ -120,14 +106,19 @@ def test_every_number_of_every_part_is_there(cases: Cases) -> None:
     assert parts["criteria.0"].name == "uictest-stop"
 
 
-def test_a_part_that_cases_share_is_computed_once(cases: Cases) -> None:
+def test_the_id_is_that_of_the_content_and_a_shared_part_is_computed_once(cases):
     effective = EffectiveParts()
     first, second = (effective.of(case.scenario) for case in cases("matrix: {seed: [1, 2]}\n"))
     assert all(first[role] is second[role] for role in first if first[role].name)
     assert first["scenario"].id != second["scenario"].id
+    (one,), (same,) = cases("title: A\n"), cases("title: B\n")
+    (other,) = cases("controller: {extends: threshold, hold_limit: 3 s}\n")
+    assert [part.id for part in of(one).values()] == [part.id for part in of(same).values()]
+    differing = {role for role in of(one) if of(one)[role].id != of(other)[role].id}
+    assert differing == {"controller"}
 
 
-def test_nothing_of_the_rig_is_said_of_a_recorded_stop(cases: Cases) -> None:
+def test_nothing_of_the_rig_is_said_of_a_recorded_stop(cases):
     (case,) = cases("rail: {condition: wet, friction: 0.10}\nrig: {wsp: bypassed}\n")
     parts = EffectiveParts().of_recorded(case.scenario)
     assert list(parts) == ["conditions", "measures", "criteria.0"]
@@ -139,11 +130,3 @@ def test_nothing_of_the_rig_is_said_of_a_recorded_stop(cases: Cases) -> None:
         "rail.gradient": "0 permille",
         "rig.wsp": "bypassed",
     }
-
-
-def test_the_id_is_that_of_the_content(cases: Cases) -> None:
-    (one,), (same,) = cases("title: A\n"), cases("title: B\n")
-    (other,) = cases("controller: {extends: threshold, hold_limit: 3 s}\n")
-    assert [part.id for part in of(one).values()] == [part.id for part in of(same).values()]
-    differing = {role for role in of(one) if of(one)[role].id != of(other)[role].id}
-    assert differing == {"controller"}

@@ -22,16 +22,16 @@ LETTERS = {"p": "pass", "f": "fail", "i": "invalid", "u": "inconclusive", "s": "
 DISTANCE = Bounds(440.0, 490.0)
 
 
-def at_least(share: float) -> OutcomeRule:
+def at_least(share):
     return OutcomeRule("at_least", share)
 
 
-def stops(letters: str) -> list[RepeatedStop]:
-    return [RepeatedStop(seed, LETTERS[letter], f"why {seed}") for seed, letter in enumerate(letters)]  # type: ignore[arg-type]
+def stops(letters):
+    return [RepeatedStop(seed, LETTERS[letter], f"why {seed}") for seed, letter in enumerate(letters)]
 
 
-def outcome(letters: str, expect: str, rule: OutcomeRule) -> str:
-    return outcome_over_stops(stops(letters), expect, rule, ("pass", ""))[0]  # type: ignore[arg-type]
+def outcome(letters, expect, rule):
+    return outcome_over_stops(stops(letters), expect, rule, ("pass", ""))[0]
 
 
 @pytest.mark.parametrize(
@@ -61,7 +61,7 @@ def outcome(letters: str, expect: str, rule: OutcomeRule) -> str:
         ("ffe", "fail", "error"),
     ],
 )
-def test_all_stops_must_come_out_as_expected(letters: str, expect: str, came_out: str) -> None:
+def test_all_stops_must_come_out_as_expected(letters, expect, came_out):
     assert outcome(letters, expect, ALL) == came_out
     # The order of the seeds says nothing.
     assert outcome(letters[::-1], expect, ALL) == came_out
@@ -84,13 +84,11 @@ def test_all_stops_must_come_out_as_expected(letters: str, expect: str, came_out
         ("ppp", "pass", 1.0, "pass"),
     ],
 )
-def test_a_share_of_the_stops_must_come_out_as_expected(
-    letters: str, expect: str, share: float, came_out: str
-) -> None:
+def test_a_share_of_the_stops_must_come_out_as_expected(letters, expect, share, came_out):
     assert outcome(letters, expect, at_least(share)) == came_out
 
 
-def test_the_median_takes_the_outcome_of_its_verdicts_but_an_error_stays_one() -> None:
+def test_the_median_takes_the_outcome_of_its_verdicts_but_an_error_stays_one():
     assert outcome_over_stops(stops("fff"), "pass", MEDIAN, ("pass", "")) == ("pass", "")
     assert outcome_over_stops(stops("pep"), "pass", MEDIAN, ("pass", "")) == (
         "error",
@@ -98,7 +96,7 @@ def test_the_median_takes_the_outcome_of_its_verdicts_but_an_error_stays_one() -
     )
 
 
-def test_the_reason_names_the_stops() -> None:
+def test_the_reason_names_the_stops():
     reason = outcome_over_stops(stops("fpfpfffi"), "pass", ALL, ("pass", ""))[1]
     assert reason == (
         "fail in 5 of 8 stops (seeds 0, 2, 4..6), with seed 0: why 0;"
@@ -112,7 +110,7 @@ def test_the_reason_names_the_stops() -> None:
     expect=st.sampled_from(("pass", "fail", "invalid", "skipped")),
     share=st.floats(0.01, 1.0),
 )
-def test_as_expected_if_and_only_if_enough_stops_are(letters: str, expect: str, share: float) -> None:
+def test_as_expected_if_and_only_if_enough_stops_are(letters, expect, share):
     counts = Counter(LETTERS[letter] for letter in letters)
     came_out = outcome(letters, expect, at_least(share))
     assert (came_out == expect) == (counts[expect] >= share * len(letters) - 1e-9)
@@ -121,30 +119,30 @@ def test_as_expected_if_and_only_if_enough_stops_are(letters: str, expect: str, 
 
 
 @given(letters=st.text("pfius", min_size=1, max_size=12), data=st.data())
-def test_the_order_of_the_stops_does_not_matter(letters: str, data: st.DataObject) -> None:
+def test_the_order_of_the_stops_does_not_matter(letters, data):
     shuffled = "".join(data.draw(st.permutations(letters)))
     rule = at_least(data.draw(st.floats(0.01, 1.0)))
     assert outcome(letters, "pass", rule) == outcome(shuffled, "pass", rule)
 
 
-def test_nine_of_ten_are_ninety_per_cent_whatever_binary_makes_of_it() -> None:
+def test_nine_of_ten_are_ninety_per_cent_whatever_binary_makes_of_it():
     for stops_needed in range(1, 101):
         assert OutcomeRule("at_least", stops_needed / 100).needed(100) == stops_needed
     assert OutcomeRule("at_least", 0.1 + 0.2).needed(10) == 3
 
 
-def decided(value: float | None, status: str = "") -> Decision:
+def decided(value, status=""):
     if status:
-        return Decision(status, value, "made up")  # type: ignore[arg-type]
+        return Decision(status, value, "made up")
     assert value is not None
     return Decision("pass" if DISTANCE.hold(value) else "fail", value, "")
 
 
-def together(decisions: list[Decision], rule: OutcomeRule) -> Decision:
+def together(decisions, rule):
     return decision_over_stops(decisions, DISTANCE, "m", rule)
 
 
-def test_a_criterion_has_the_median_and_is_judged_by_the_rule() -> None:
+def test_a_criterion_has_the_median_and_is_judged_by_the_rule():
     values = [450.0, 460.0, 495.0]
     decisions = [decided(value) for value in values]
     assert [together(decisions, rule).status for rule in (ALL, MEDIAN, at_least(0.6), at_least(0.7))] == [
@@ -157,7 +155,7 @@ def test_a_criterion_has_the_median_and_is_judged_by_the_rule() -> None:
     assert together(decisions, MEDIAN).reason.startswith("2 of 3 stops pass: median")
 
 
-def test_stops_that_a_criterion_does_not_apply_to_do_not_count() -> None:
+def test_stops_that_a_criterion_does_not_apply_to_do_not_count():
     skipped = decided(None, "not_applicable")
     both = together([decided(450.0), skipped, decided(460.0)], ALL)
     assert (both.status, both.value) == ("pass", 455.0)
@@ -165,7 +163,7 @@ def test_stops_that_a_criterion_does_not_apply_to_do_not_count() -> None:
     assert together([skipped, skipped], ALL) == skipped
 
 
-def test_where_all_stops_agree_so_does_the_median() -> None:
+def test_where_all_stops_agree_so_does_the_median():
     """Two stops too short and two too long have a median inside the limits, and still all fail."""
     decisions = [decided(value) for value in (400.0, 410.0, 520.0, 530.0)]
     assert together(decisions, MEDIAN).value == 465.0
@@ -183,9 +181,7 @@ def test_where_all_stops_agree_so_does_the_median() -> None:
         ([450.0], 2, "inconclusive"),
     ],
 )
-def test_a_stop_without_a_value_may_have_any_value_in_the_median(
-    known: list[float], unknown: int, status: str
-) -> None:
+def test_a_stop_without_a_value_may_have_any_value_in_the_median(known, unknown, status):
     decisions = [*map(decided, known), *[decided(None, "inconclusive")] * unknown]
     assert together(decisions, MEDIAN).status == status
     assert together(decisions, MEDIAN).reason.endswith("; made up")
@@ -196,9 +192,7 @@ def test_a_stop_without_a_value_may_have_any_value_in_the_median(
     unknown=st.integers(0, 4),
     fillings=st.lists(st.floats(-1e6, 1e6), min_size=4, max_size=4),
 )
-def test_a_decided_median_stays_whatever_the_unknown_values_are(
-    values: list[float], unknown: int, fillings: list[float]
-) -> None:
+def test_a_decided_median_stays_whatever_the_unknown_values_are(values, unknown, fillings):
     decisions = [*map(decided, values), *[decided(None, "inconclusive")] * unknown]
     verdict = together(decisions, MEDIAN)
     filled = [*values, *fillings[:unknown]]
@@ -216,15 +210,13 @@ def test_a_decided_median_stays_whatever_the_unknown_values_are(
         (["pass", "fail", "inconclusive"], 0.6, "inconclusive"),
     ],
 )
-def test_inconclusive_stops_decide_only_where_they_could_make_up_the_number(
-    statuses: list[str], share: float, status: str
-) -> None:
+def test_inconclusive_stops_decide_only_where_they_could_make_up_the_number(statuses, share, status):
     value = {"pass": 450.0, "fail": 500.0, "inconclusive": None}
     decisions = [decided(value[each], each) for each in statuses]
     assert together(decisions, at_least(share)).status == status
 
 
-def test_counts_and_range_over_stops() -> None:
+def test_counts_and_range_over_stops():
     counts = over_stops([decided(450.0), decided(495.0), decided(None, "not_applicable")])
     assert (counts.passed, counts.failed, counts.not_applicable, counts.stops) == (1, 1, 1, 3)
     assert (counts.lowest, counts.highest) == (450.0, 495.0)
@@ -242,5 +234,5 @@ def test_counts_and_range_over_stops() -> None:
         (list(range(0, 20, 2)), "seeds 0, 2, 4, 6, 8, 10 and 4 more"),
     ],
 )
-def test_seeds_for_a_reader(seeds: list[int], text: str) -> None:
+def test_seeds_for_a_reader(seeds, text):
     assert seeds_text(seeds) == text

@@ -1,7 +1,5 @@
 """Readings of a criterion stand beside its verdict, never decide it, and let it turn where they differ."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace
@@ -43,9 +41,7 @@ def over_readings(verdict):
     return next(each for each in verdict.sensitivity if each.definition == READINGS)
 
 
-def test_three_readings_stand_side_by_side_and_the_first_decides(
-    minimum_slide, sliding_stop, wheelsets
-) -> None:
+def test_three_readings_stand_side_by_side_and_the_first_decides(minimum_slide, sliding_stop, wheelsets):
     verdict = minimum_slide(sliding_stop(share=0.5), wheelsets(0.6, 0.6, 0.05, 0.05))
     assert [each.id for each in verdict.readings] == NAMES
     assert [each.decides for each in verdict.readings] == [True, False, False]
@@ -69,7 +65,7 @@ def test_three_readings_stand_side_by_side_and_the_first_decides(
 )
 def test_the_verdict_turns_exactly_where_the_readings_disagree(
     minimum_slide, sliding_stop, wheelsets, share, slides, status, statuses
-) -> None:
+):
     verdict = minimum_slide(sliding_stop(share=share), wheelsets(*slides))
     assert verdict.status == status
     assert [each.status for each in verdict.readings] == statuses
@@ -79,14 +75,30 @@ def test_the_verdict_turns_exactly_where_the_readings_disagree(
     assert str(over_readings(verdict)) == f"readings: {listed}"
 
 
-def test_a_reading_that_disagrees_leaves_no_margin(shipped, scenario, case, sliding_stop, wheelsets) -> None:
+def test_a_reading_that_disagrees_leaves_no_margin_and_is_written_and_read_back(
+    shipped, scenario, case, sliding_stop, wheelsets
+):
     slip_test = case(scenario(shipped("uic-541-05-appendix-b"), condition="wet"))
     result = evaluate(slip_test, sliding_stop(), wheelsets(0.2, 0.2, 0.2, 0.2))
     assert result.outcome == "pass"
     assert narrowest_margin(result) == (0.0, "minimum-slide")
+    result = replace(evaluate(slip_test, sliding_stop(), wheelsets(0.2, 0.2, 0.2, 0.2)), parts={})
+    document = json.loads(json.dumps(result_document([result])))
+    criteria = {each["id"]: each for each in document["cases"][0]["criteria"]}
+    readings = criteria["minimum-slide"]["readings"]
+    assert [(each["id"], each["verdict"]) for each in readings] == [
+        ("half-at-once", "pass"),
+        ("each-wheelset", "pass"),
+        ("depth", "fail"),
+    ]
+    turning = [each for each in criteria["minimum-slide"]["sensitivity"] if each["flips"]]
+    assert [each["definition"] for each in turning] == ["readings"]
+    assert "readings" not in criteria["initial-adhesion"]
+    (read,) = results_of(document)
+    assert read.criteria == result.criteria
 
 
-def test_every_reading_says_at_which_speeds_it_looks(minimum_slide, sliding_stop, wheelsets) -> None:
+def test_every_reading_says_at_which_speeds_it_looks(minimum_slide, sliding_stop, wheelsets):
     for share in (0.1, 0.5):
         verdict = minimum_slide(sliding_stop(share=share), wheelsets(0.6, 0.6, 0.05, 0.05))
         at_once, each_wheelset, depth = (each.reason for each in verdict.readings)
@@ -95,7 +107,7 @@ def test_every_reading_says_at_which_speeds_it_looks(minimum_slide, sliding_stop
         assert "above 30 km/h" in depth
 
 
-def test_definitions_of_every_reading_run_through_their_range(minimum_slide, sliding_stop, wheelsets) -> None:
+def test_definitions_of_every_reading_run_through_their_range(minimum_slide, sliding_stop, wheelsets):
     """Half at once slides below 90 and 95 % of the speed only."""
     table = slow_times(0.5)
     table[27] = 0.0
@@ -113,9 +125,7 @@ def test_definitions_of_every_reading_run_through_their_range(minimum_slide, sli
 
 
 @pytest.mark.parametrize("initial", [60.0, 45.0])
-def test_a_stop_from_sixty_or_below_is_not_applicable(
-    criterion, profile, scenario, stop, wheelsets, initial: float
-) -> None:
+def test_a_stop_from_sixty_or_below_is_not_applicable(criterion, profile, scenario, stop, wheelsets, initial):
     """Also where the observation ends early: nothing that follows would give it a share."""
     for running in ({}, {"stopped": 0.0, "end_speed": 5.0}):
         records = stop(initial_speed=initial * KMH, **running), wheelsets(0.5, 0.5, 0.5, 0.5)
@@ -123,9 +133,7 @@ def test_a_stop_from_sixty_or_below_is_not_applicable(
         assert verdict.status == "not_applicable"
 
 
-def test_a_stop_that_never_came_down_to_sixty_is_inconclusive(
-    criterion, profile, scenario, stop, wheelsets
-) -> None:
+def test_a_stop_that_never_came_down_to_sixty_is_inconclusive(criterion, profile, scenario, stop, wheelsets):
     """Whatever it showed until then; once it came down, the rest of the stop does not matter."""
     reached = stop().reached_time.copy()
     reached[:6] = math.nan
@@ -140,7 +148,7 @@ def test_a_stop_that_never_came_down_to_sixty_is_inconclusive(
 
 def test_a_recorded_stop_without_all_wheel_speeds_is_inconclusive_and_lists_its_readings(
     minimum_slide, sliding_stop, wheelsets
-) -> None:
+):
     gap = MissingData("not recorded: wheel_speed_3", bounded=False)
     lacking = dict.fromkeys(("sliding_share", "maximum_slide_above_cutoff"), (gap,) * 4)
     lacking["sliding_share"] = (gap,)
@@ -152,14 +160,14 @@ def test_a_recorded_stop_without_all_wheel_speeds_is_inconclusive_and_lists_its_
 
 
 @pytest.mark.parametrize("nan", [math.nan, math.inf])
-def test_no_reading_passes_on_what_is_no_number(minimum_slide, sliding_stop, wheelsets, nan: float) -> None:
+def test_no_reading_passes_on_what_is_no_number(minimum_slide, sliding_stop, wheelsets, nan):
     records = wheelsets(nan, nan, nan, nan, slow_time=nan)
     verdict = minimum_slide(sliding_stop(half_slow_time=nan), records)
     assert verdict.status != "pass"
     assert {each.status for each in verdict.readings}.isdisjoint({"pass"})
 
 
-def test_repeated_stops_are_read_together(shipped, scenario, case, sliding_stop, wheelsets) -> None:
+def test_repeated_stops_are_read_together(shipped, scenario, case, sliding_stop, wheelsets):
     resolved = scenario(shipped("uic-541-05-appendix-b"), condition="wet")
     resolved.outcome_of_repeats = "all"
     together = case(resolved)
@@ -177,24 +185,6 @@ def test_repeated_stops_are_read_together(shipped, scenario, case, sliding_stop,
     ]
     assert over_readings(verdict).flips
     assert verdict.reason.endswith("against > 35 % (from the brake command to 60 km/h)")
-
-
-def test_readings_are_written_and_read_back(shipped, scenario, case, sliding_stop, wheelsets) -> None:
-    slip_test = case(scenario(shipped("uic-541-05-appendix-b"), condition="wet"))
-    result = replace(evaluate(slip_test, sliding_stop(), wheelsets(0.2, 0.2, 0.2, 0.2)), parts={})
-    document = json.loads(json.dumps(result_document([result])))
-    criteria = {each["id"]: each for each in document["cases"][0]["criteria"]}
-    readings = criteria["minimum-slide"]["readings"]
-    assert [(each["id"], each["verdict"]) for each in readings] == [
-        ("half-at-once", "pass"),
-        ("each-wheelset", "pass"),
-        ("depth", "fail"),
-    ]
-    turning = [each for each in criteria["minimum-slide"]["sensitivity"] if each["flips"]]
-    assert [each["definition"] for each in turning] == ["readings"]
-    assert "readings" not in criteria["initial-adhesion"]
-    (read,) = results_of(document)
-    assert read.criteria == result.criteria
 
 
 def _share_of(criterion):

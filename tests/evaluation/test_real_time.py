@@ -1,54 +1,35 @@
 """Stops that were paced by the clock: a missed deadline makes them invalid, whatever their criteria say."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import pytest
 
 from uictest.controllers import ResponseTimes
-from uictest.judging.evaluation import (
-    CaseResult,
-    cases_document,
-    evaluate_simulated,
-    result_document,
-    results_of,
-)
+from uictest.judging.evaluation import cases_document, evaluate_simulated, result_document, results_of
 
 IN_TIME = ResponseTimes(1770, 0.01, 0, 0.0012, 700, 0.0003)
 LATE = replace(IN_TIME, missed_deadlines=3, longest_answer_s=0.0314)
 
-Evaluate = Callable[[ResponseTimes | None], CaseResult]
-
 
 @pytest.fixture
-def evaluate(
-    stop: Callable[..., Any],
-    wheelsets: Callable[..., Any],
-    case: Callable[..., Any],
-    scenario: Callable[..., Any],
-    profile: Callable[..., Any],
-    criterion: Callable[..., Any],
-) -> Callable[..., CaseResult]:
+def evaluate(stop, wheelsets, case, scenario, profile, criterion):
     """Judge a stop of 465 m by one requirement on its distance."""
 
-    def judged(times: ResponseTimes | None, limit: str = "500 m") -> CaseResult:
+    def judged(times, limit="500 m"):
         judged_as = case(scenario(profile(criterion(layer="requirement", upper=limit))))
         return evaluate_simulated(judged_as, stop(), wheelsets(), response_times=times)
 
     return judged
 
 
-def test_a_stop_without_a_missed_deadline_is_judged_as_any_other(evaluate: Evaluate) -> None:
+def test_a_stop_without_a_missed_deadline_is_judged_as_any_other(evaluate):
     with_clock, without = cases_document([replace(evaluate(IN_TIME), response_times=None), evaluate(None)])
     assert with_clock == without
     assert with_clock["outcome"] == "pass"
 
 
-def test_a_missed_deadline_makes_a_stop_invalid_and_says_how_late(evaluate: Evaluate) -> None:
+def test_a_missed_deadline_makes_a_stop_invalid_before_a_failed_requirement_and_says_how_late(evaluate):
     result = evaluate(LATE)
     assert result.outcome == "invalid"
     assert result.reason == (
@@ -56,14 +37,11 @@ def test_a_missed_deadline_makes_a_stop_invalid_and_says_how_late(evaluate: Eval
         " (cycle 700)"
     )
     assert (result.criteria[-1].value, result.criteria[-1].upper) == (3.0, 0.0)
-
-
-def test_a_missed_deadline_comes_before_a_failed_requirement(evaluate: Callable[..., CaseResult]) -> None:
     assert evaluate(None, "400 m").outcome == "fail"
     assert evaluate(LATE, "400 m").outcome == "invalid"
 
 
-def test_the_document_has_response_times_in_real_time_only(evaluate: Evaluate) -> None:
+def test_the_document_has_response_times_in_real_time_only_and_they_are_read_back(evaluate):
     with_clock, without = cases_document([evaluate(LATE), evaluate(None)])
     assert with_clock["response_times"] == {
         "answers": 1770,
@@ -74,9 +52,6 @@ def test_the_document_has_response_times_in_real_time_only(evaluate: Evaluate) -
         "start_jitter_s": 0.0003,
     }
     assert set(with_clock) - set(without) == {"response_times"}
-
-
-def test_response_times_are_read_back(evaluate: Evaluate) -> None:
     result = evaluate(LATE)
     document = json.loads(json.dumps(result_document([result])))
     assert results_of(document)[0].response_times == LATE

@@ -31,7 +31,7 @@ def repeated(criterion, profile, scenario, case, stop, wheelsets):
     return judged
 
 
-def test_a_verdict_that_turns_is_shown_as_such(repeated) -> None:
+def test_a_verdict_that_turns_is_shown_as_such_and_under_the_median_as_well(repeated):
     result = repeated([450.0, 500.0, 470.0])
     assert (result.outcome, result.met) == ("invalid", False)
     (verdict,) = result.criteria
@@ -41,31 +41,29 @@ def test_a_verdict_that_turns_is_shown_as_such(repeated) -> None:
     assert verdict.definition["bound"] == "440 .. 490 m"
     assert [stop.seed for stop in result.repeats.stops] == [5, 6, 7]
     assert [stop.outcome for stop in result.repeats.stops] == ["pass", "invalid", "pass"]
-
-
-def test_the_same_stops_under_the_median(repeated) -> None:
     result = repeated([450.0, 500.0, 470.0], MEDIAN)
     assert (result.outcome, result.reason) == ("pass", "")
     assert not result.criteria[0].firm
-
-
-def test_a_check_of_the_rig_fails_under_the_median_where_it_fails_in_one_stop(repeated) -> None:
-    """The figures of a stop whose rig is wrong are in every median."""
+    # The figures of a stop whose rig is wrong are in every median.
     result = repeated([450.0, 500.0, 470.0], MEDIAN, layer="rig")
     assert (result.outcome, result.criteria[0].status) == ("invalid", "fail")
     assert "seed 6: " in result.criteria[0].reason
 
 
-def test_measures_are_medians_over_the_stops(repeated) -> None:
+def test_measures_are_medians_over_the_stops_and_one_stop_is_judged_as_a_case_with_one(repeated):
     result = repeated([450.0, 480.0, 470.0, 460.0])
     assert result.measures["braking_distance_m"] == 465.0
     assert [wheelset["maximum_slide"] for wheelset in result.wheelsets] == pytest.approx(
         [0.65, 0.2, 0.3, 0.4]
     )
     assert result.duration == 6.0
+    # The same value, margin, status and definitions; what is added are the counts.
+    (verdict,) = repeated([450.0]).criteria
+    assert (verdict.value, verdict.margin, verdict.status) == (450.0, 10.0, "pass")
+    assert verdict.firm
 
 
-def test_an_error_in_one_stop_makes_the_case_one_and_keeps_the_others(repeated) -> None:
+def test_an_error_in_one_stop_makes_the_case_one_and_keeps_the_others(repeated):
     for rule in (ALL, MEDIAN):
         result = repeated([450.0, None, 470.0], rule)
         assert result.outcome == "error"
@@ -76,29 +74,19 @@ def test_an_error_in_one_stop_makes_the_case_one_and_keeps_the_others(repeated) 
     assert (nothing.outcome, nothing.criteria, nothing.measures, nothing.wheelsets) == ("error", (), None, ())
 
 
-def test_an_expected_invalid_needs_every_stop_to_be_so(repeated) -> None:
+def test_an_expected_invalid_needs_every_stop_and_a_share_is_stated_in_the_scenario(repeated):
     assert repeated([500.0, 510.0], expect="invalid").met
     assert repeated([500.0, 450.0], expect="invalid").outcome == "pass"
     assert not repeated([500.0, 450.0], expect="invalid").met
-
-
-def test_a_share_is_stated_in_the_scenario(repeated) -> None:
     rule = ShareOfStops.model_validate({"at_least": "60 %"})
     result = repeated([450.0, 500.0, 470.0], rule)
     assert (result.outcome, result.repeats.rule, result.repeats.required_share) == ("pass", "at_least", 0.6)
     assert repeated([450.0, 500.0, 510.0], rule).outcome == "invalid"
 
 
-def test_one_stop_is_judged_as_a_case_with_one_stop(repeated) -> None:
-    """The same value, margin, status and definitions; what is added are the counts."""
-    (verdict,) = repeated([450.0]).criteria
-    assert (verdict.value, verdict.margin, verdict.status) == (450.0, 10.0, "pass")
-    assert verdict.firm
-
-
 def test_definitions_run_through_their_range_in_all_stops_at_once(
     criterion, profile, scenario, case, sliding_stop, wheelsets
-) -> None:
+):
     """One stop brakes hard for a second (its mean over T s is 0.08 g at T = 3), the other from the fourth
     second on (at T = 4.5): both keep 0.08 g from 3 to 4.5 s only.
     """

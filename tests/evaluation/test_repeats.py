@@ -26,21 +26,20 @@ numbers = st.floats(-1e6, 1e6)
 
 
 @given(values=st.lists(numbers, min_size=1, max_size=20))
-def test_median_and_quartiles_are_those_of_numpy(values: list[float]) -> None:
+def test_median_and_quartiles_are_those_of_numpy(values):
     spread = spread_of(values)
-    assert spread is not None
     own = [spread.lowest, spread.lower_quartile, spread.median, spread.upper_quartile, spread.highest]
     assert own == pytest.approx(list(np.percentile(values, [0, 25, 50, 75, 100])), rel=1e-9, abs=1e-6)
     assert spread.count == len(values)
 
 
 @given(values=st.lists(numbers, min_size=1, max_size=9), data=st.data())
-def test_neither_order_nor_missing_values_matter(values: list[float], data: st.DataObject) -> None:
+def test_neither_order_nor_missing_values_matter(values, data):
     shuffled = data.draw(st.permutations([*values, math.nan, math.nan]))
     assert spread_of(shuffled) == spread_of(values)
 
 
-def test_without_any_number_there_is_no_spread_and_the_median_is_none() -> None:
+def test_without_any_number_there_is_no_spread_and_the_median_is_none():
     assert spread_of([math.nan, math.nan]) is None
     medians = column_medians(
         [{"a": 1.0, "b": math.nan}, {"a": 4.0, "b": math.nan}, {"a": 2.0, "b": math.nan}]
@@ -50,11 +49,11 @@ def test_without_any_number_there_is_no_spread_and_the_median_is_none() -> None:
     assert column_medians([]) == {}
 
 
-def stop(seed: int, outcome: str, distance: float = 460.0) -> RepeatedStop:
+def stop(seed, outcome, distance=460.0):
     measures = dict.fromkeys(STOP_COLUMNS, 1.0) | {"braking_distance_m": distance}
     wheelsets = (dict.fromkeys(WHEELSET_COLUMNS, float(seed)),) * 4
     verdict = Verdict("distance", "validity", distance, "m", None, 490.0, 490.0 - distance, "pass", "")
-    return RepeatedStop(seed, outcome, "", (verdict,), measures, wheelsets)  # type: ignore[arg-type]
+    return RepeatedStop(seed, outcome, "", (verdict,), measures, wheelsets)
 
 
 REPEATS = Repeats(
@@ -62,19 +61,19 @@ REPEATS = Repeats(
 )
 
 
-def test_shares_count_the_stops() -> None:
+def test_shares_count_the_stops():
     assert REPEATS.passed == 1
     assert REPEATS.share == pytest.approx(1 / 3)
     low, high = REPEATS.interval
     assert low < 1 / 3 < high
     assert REPEATS.turns
     assert REPEATS.seeds("fail") == [8]
-    assert [REPEATS.as_expected(expect) for expect in ("pass", "fail", "invalid")] == [1, 1, 0]  # type: ignore[arg-type]
+    assert [REPEATS.as_expected(expect) for expect in ("pass", "fail", "invalid")] == [1, 1, 0]
     assert REPEATS.values("braking_distance_m") == [460.0, 470.0]
     assert REPEATS.values("locked_time_s", wheelset=4) == [7.0, 8.0]
 
 
-def test_stops_none_of_which_was_judged_have_no_share() -> None:
+def test_stops_none_of_which_was_judged_have_no_share():
     skipped = Repeats("all", (stop(1, "skipped"), stop(2, "skipped")))
     assert (skipped.passed, skipped.none_judged) == (0, True)
     assert all(map(math.isnan, (skipped.share, *skipped.interval)))
@@ -87,17 +86,17 @@ def test_stops_none_of_which_was_judged_have_no_share() -> None:
     assert (one_judged.share, one_judged.none_judged) == (0.0, False)
 
 
-def result(repeats: Repeats | None) -> CaseResult:
+def result(repeats):
     counts = OverStops(passed=1, failed=1, lowest=460.0, highest=470.0)
     verdict = Verdict(
         "distance", "validity", 465.0, "m", None, 490.0, 25.0, "pass", "", {"clause": "B"}, over_stops=counts
     )
     first = stop(7, "pass")
     own = ("case", "a.yaml", {}, "pass", "error", "made up", (verdict,), first.measures, first.wheelsets)
-    return CaseResult(*own, repeats=repeats)  # type: ignore[arg-type]
+    return CaseResult(*own, repeats=repeats)
 
 
-def test_results_come_back_from_their_document_with_all_stops() -> None:
+def test_results_come_back_from_their_document_with_all_stops():
     before = result(REPEATS)
     text = to_json(result_document([before]))
     assert results_of(json.loads(text)) == [before]
@@ -107,15 +106,12 @@ def test_results_come_back_from_their_document_with_all_stops() -> None:
     assert written["interval"] == list(REPEATS.interval)
 
 
-def test_a_case_with_one_stop_has_nothing_of_repeats_in_its_document() -> None:
+def test_a_case_with_one_stop_has_nothing_of_repeats_and_what_is_read_back_is_checked():
     single = replace(result(None), criteria=stop(0, "pass").criteria)
     text = to_json(result_document([single]))
     assert "repeats" not in text
     assert "over_stops" not in text
     assert results_of(json.loads(text)) == [single]
-
-
-def test_what_is_read_back_is_checked() -> None:
     document = result_document([result(REPEATS)])
     repeats = document["cases"][0]["repeats"]
     for broken in ({"rule": "most"}, {"stops": []}, {"stops": [{"seed": 1, "outcome": "pass"}]}, {"more": 1}):
@@ -124,14 +120,11 @@ def test_what_is_read_back_is_checked() -> None:
             results_of(document)
 
 
-def test_a_verdict_that_turns_from_stop_to_stop_is_not_firm() -> None:
+def test_a_verdict_that_turns_is_not_firm_and_the_first_stop_is_drawn():
     (verdict,) = result(REPEATS).criteria
     assert not verdict.firm
     assert replace(verdict, over_stops=OverStops(passed=2, lowest=460.0, highest=470.0)).firm
     assert replace(verdict, over_stops=None).firm
-
-
-def test_the_drawn_stop_is_the_first_with_the_definitions_of_the_case() -> None:
     drawn = result(REPEATS).drawn_stop
     assert (drawn.outcome, drawn.repeats) == ("pass", None)
     (verdict,) = drawn.criteria

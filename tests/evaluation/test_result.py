@@ -1,7 +1,5 @@
 """The outcome of a case, and its narrowest margin on a scale that all criteria share."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import product
 from typing import Any
@@ -25,7 +23,7 @@ FLIPPING = Sensitivity(
 )
 
 
-def verdict(**changes: Any) -> Verdict:
+def verdict(**changes):
     content: dict[str, Any] = {
         "id": "distance",
         "layer": "requirement",
@@ -41,25 +39,16 @@ def verdict(**changes: Any) -> Verdict:
     return Verdict(**(content | changes))
 
 
-def result(*criteria: Verdict) -> CaseResult:
+def result(*criteria):
     return CaseResult("stop", "stop.yaml", {}, "pass", "pass", criteria=criteria)
 
 
-def test_a_margin_counts_over_its_bound() -> None:
+def test_a_margin_counts_over_its_bound_and_a_passed_one_that_hangs_on_a_definition_has_none():
     assert relative_margin(verdict()) == pytest.approx(0.1)
     assert relative_margin(verdict(margin=-25.0, status="fail")) == pytest.approx(-0.05)
-
-
-def test_a_verdict_that_hangs_on_a_definition_has_no_margin() -> None:
     assert relative_margin(verdict(sensitivity=(FLIPPING,))) == 0.0
-
-
-def test_a_missed_bound_counts_over_it_also_where_the_verdict_hangs_on_a_definition() -> None:
     missed = verdict(margin=-25.0, status="fail", sensitivity=(FLIPPING,))
     assert relative_margin(missed) == pytest.approx(-0.05)
-
-
-def test_what_only_says_yes_or_no_has_none() -> None:
     standstill = verdict(id="standstill", unit="1", value=1.0, lower=1.0, upper=None, margin=0.0)
     assert relative_margin(standstill) is None
     assert relative_margin(verdict(margin=None, status="not_applicable")) is None
@@ -67,7 +56,7 @@ def test_what_only_says_yes_or_no_has_none() -> None:
     assert relative_margin(missed) == -1.0
 
 
-def test_the_narrowest_of_several_is_named() -> None:
+def test_the_narrowest_of_several_is_named():
     close = verdict(id="slide", unit="%", value=34.0, upper=35.0, margin=1.0)
     assert narrowest_margin(result(verdict(), close)) == (pytest.approx(1.0 / 35.0), "slide")
     assert narrowest_margin(result()) == (None, "")
@@ -77,12 +66,12 @@ OPEN, OPEN_TEST = "requirement-inconclusive: because", "validity-inconclusive: b
 FAILED = "requirement-fail: because"
 
 
-def judged(layer: str, status: str) -> Verdict:
+def judged(layer, status):
     return Verdict(f"{layer}-{status}", layer, None, "m", None, 1.0, None, status, "because")
 
 
-def _turning(first: str, last: str) -> Sensitivity:
-    intervals = VerdictInterval(10.0, 30.0, first), VerdictInterval(40.0, 60.0, last)  # type: ignore[arg-type]
+def _turning(first, last):
+    intervals = VerdictInterval(10.0, 30.0, first), VerdictInterval(40.0, 60.0, last)
     return Sensitivity("low_speed_cutoff", "km/h", 10.0, 60.0, intervals)
 
 
@@ -107,19 +96,19 @@ def _turning(first: str, last: str) -> Sensitivity:
         ([("rig", "inconclusive"), ("requirement", "pass")], "pass", ""),
     ],
 )
-def test_validity_comes_before_requirements(verdicts, outcome: str, reason: str) -> None:
+def test_validity_comes_before_requirements(verdicts, outcome, reason):
     assert outcome_of(judged(*one) for one in verdicts) == (outcome, reason)
 
 
 @pytest.mark.parametrize("layer", ["validity", "requirement"])
-def test_nothing_passes_while_a_criterion_could_not_be_judged(layer: str) -> None:
+def test_nothing_passes_while_a_criterion_could_not_be_judged(layer):
     kinds = product(("validity", "requirement"), ("pass", "fail", "not_applicable", "inconclusive"))
     for others in product(list(kinds), repeat=2):
         verdicts = [judged(layer, "inconclusive"), *(judged(*each) for each in others)]
         assert outcome_of(verdicts)[0] in ("fail", "invalid", "inconclusive")
 
 
-def test_the_order_of_the_criteria_does_not_matter() -> None:
+def test_the_order_of_the_criteria_does_not_matter():
     kinds = list(product(("validity", "requirement"), ("pass", "fail", "not_applicable", "inconclusive")))
     for one, other in product(kinds, kinds):
         assert outcome_of([judged(*one), judged(*other)])[0] == outcome_of([judged(*other), judged(*one)])[0]
@@ -135,7 +124,7 @@ def test_the_order_of_the_criteria_does_not_matter() -> None:
         (replace(judged("validity", "pass"), sensitivity=(_turning("pass", "pass"),)), True),
     ],
 )
-def test_a_strict_case_is_met_only_if_every_verdict_is_settled(verdict: Verdict, settled: bool) -> None:
+def test_a_strict_case_is_met_only_if_every_verdict_is_settled(verdict, settled):
     case = CaseResult("a", "a.yaml", {}, "pass", "pass", criteria=(verdict,))
     assert (case.met, case.unsettled) == (True, ())
     strict = replace(case, strict=True)

@@ -45,15 +45,12 @@ def moved(profile, scenario):
     return judged
 
 
-def test_a_verdict_that_holds_over_the_whole_range_is_one_stretch(
+def test_where_the_verdict_flips_is_located_and_one_that_holds_is_one_stretch(
     adhesion, moved, sliding_stop, wheelsets
-) -> None:
+):
     steady = moved(adhesion, sliding_stop(0.07 * G), wheelsets(0.5))
     assert not steady.flips
     assert str(steady) == "first_phase_duration 1.5 .. 5.5 s: pass throughout"
-
-
-def test_where_the_verdict_flips_is_located(adhesion, moved, sliding_stop, wheelsets) -> None:
     # 0.07 g for two seconds, then 0.09 g: the mean reaches 0.08 g after four.
     falls = np.array([0.07, 0.07, *[0.09] * 8]) * G
     measures = sliding_stop(speed_after_sliding=33.0 - np.cumsum([0.0, *falls]))
@@ -65,7 +62,7 @@ def test_where_the_verdict_flips_is_located(adhesion, moved, sliding_stop, wheel
     assert str(found) == "first_phase_duration 1.5 .. 5.5 s: pass 1.5 .. 4, fail 4 .. 5.5"
 
 
-def test_a_record_too_short_for_part_of_the_range_shows(adhesion, moved, sliding_stop, wheelsets) -> None:
+def test_a_record_too_short_for_part_of_the_range_shows(adhesion, moved, sliding_stop, wheelsets):
     speed = 33.0 - 0.07 * G * np.arange(11.0)
     speed[5:] = np.nan
     found = moved(adhesion, sliding_stop(speed_after_sliding=speed), wheelsets(0.5))
@@ -73,9 +70,7 @@ def test_a_record_too_short_for_part_of_the_range_shows(adhesion, moved, sliding
     assert found.intervals[0].last == pytest.approx(4.0, abs=1e-5)
 
 
-def test_both_bounds_crossed_within_a_second_are_both_found(
-    criterion, moved, sliding_stop, wheelsets
-) -> None:
+def test_both_bounds_crossed_within_a_second_are_both_found(criterion, moved, sliding_stop, wheelsets):
     phase = {"first_phase_duration": {"value": "1 s", "range": ["1 s", "2 s"]}}
     narrow = criterion("initial_adhesion", lower="1.5 m/s2", upper="1.6 m/s2", definition=phase)
     measures = sliding_stop(speed_after_sliding=[30.0, 29.0, 26.0, *[25.0] * 8])
@@ -83,7 +78,7 @@ def test_both_bounds_crossed_within_a_second_are_both_found(
     assert [interval.status for interval in found.intervals] == ["fail", "pass", "fail"]
 
 
-def test_a_definition_in_classes_is_tried_in_each_of_them(slide, moved, stop, wheelsets) -> None:
+def test_a_definition_in_classes_is_tried_in_each_of_them(slide, moved, stop, wheelsets):
     records = wheelsets(0.9, 0.9, 0.1, 0.1)
     records.maximum_slide_above[0, 5:] = 0.2
     found = moved(slide, stop(), records)
@@ -92,8 +87,8 @@ def test_a_definition_in_classes_is_tried_in_each_of_them(slide, moved, stop, wh
 
 @given(speeds, st.floats(1.5, 5.5))
 def test_the_intervals_agree_with_deciding_at_any_duration(
-    adhesion, moved, sliding_stop, wheelsets, speed, duration: float
-) -> None:
+    adhesion, moved, sliding_stop, wheelsets, speed, duration
+):
     measures = sliding_stop(speed_after_sliding=speed)
     found = moved(adhesion, measures, wheelsets(0.5))
     direct = decide(
@@ -107,9 +102,7 @@ def test_the_intervals_agree_with_deciding_at_any_duration(
 
 
 @given(st.lists(st.floats(0.0, 1.0), min_size=84, max_size=84), st.integers(1, 6))
-def test_the_intervals_agree_with_deciding_at_any_cutoff(
-    slide, moved, stop, wheelsets, slides, k: int
-) -> None:
+def test_the_intervals_agree_with_deciding_at_any_cutoff(slide, moved, stop, wheelsets, slides, k):
     records = wheelsets(0.0, 0.0, 0.0, 0.0)
     records.maximum_slide_above = np.reshape(slides, (4, 21))
     found = moved(slide, stop(), records)
@@ -119,6 +112,6 @@ def test_the_intervals_agree_with_deciding_at_any_cutoff(
     assert [s.status for s in found.intervals if s.first <= 10 * k <= s.last] == [direct]
 
 
-def test_a_range_of_one_value_is_decided_there() -> None:
+def test_a_range_of_one_value_is_decided_there():
     only = sensitivity("first_phase_duration", "s", 3.0, 3.0, None, lambda at: Decision("pass", at, ""))
     assert [(s.first, s.last) for s in only.intervals] == [(3.0, 3.0)]

@@ -1,5 +1,4 @@
 import math
-from typing import Any
 
 import pytest
 from pydantic import ConfigDict, TypeAdapter
@@ -41,7 +40,7 @@ SLIDE = Sensitivity(
 STEADY = Sensitivity("first_phase_duration", "s", 2.0, 5.0, (VerdictInterval(2.0, 5.0, "pass"),))
 
 
-def verdict(**changes: object) -> Verdict:
+def verdict(**changes):
     fields = {
         "id": "minimum-slide",
         "layer": "validity",
@@ -56,34 +55,33 @@ def verdict(**changes: object) -> Verdict:
     return Verdict(**{**fields, "sensitivity": (SLIDE, STEADY), **changes})
 
 
-def form_of(verdict: Verdict) -> dict[str, Any]:
+def form_of(verdict):
     return to_json_form(VERDICTS, [verdict])[0]
 
 
-def read_back(form: dict[str, Any]) -> Verdict:
+def read_back(form):
     return from_json_form(VERDICTS, [form])[0]
 
 
-def test_the_json_form_has_the_fields_of_the_interface_and_comes_back() -> None:
+def test_the_json_form_has_the_fields_of_the_interface_and_comes_back_also_in_its_first_version():
     form = form_of(verdict())
     assert list(form) == [*FIELDS, "requirements"]
     assert read_back(form) == verdict()
-
-
-def test_a_result_of_the_first_version_can_still_be_read() -> None:
-    form = form_of(verdict())
     del form["measure"], form["definitions"]
     assert read_back(form) == verdict(measure="", definitions=())
-
-
-def test_a_definition_is_found_by_its_name() -> None:
-    assert verdict().defined("low_speed_cutoff") == 30 / 3.6
-    assert verdict().defined("first_phase_duration") is None
-
-
-def test_nan_and_infinity_become_null() -> None:
     form = form_of(verdict(value=math.inf, margin=math.nan))
     assert (form["value"], form["margin"]) == (None, None)
+
+
+def test_a_verdict_knows_its_definitions_and_whether_it_flips_and_cannot_be_changed():
+    assert verdict().defined("low_speed_cutoff") == 30 / 3.6
+    assert verdict().defined("first_phase_duration") is None
+    assert [entry["flips"] for entry in form_of(verdict())["sensitivity"]] == [True, False]
+    assert not verdict().firm
+    assert verdict(sensitivity=(STEADY,)).firm
+    assert verdict(sensitivity=()).firm
+    with pytest.raises(AttributeError):
+        verdict().status = "fail"
 
 
 @pytest.mark.parametrize(
@@ -95,18 +93,6 @@ def test_nan_and_infinity_become_null() -> None:
         ({"sensitivity": [{"definition": "low_speed_cutoff"}]}, "sensitivity.0.unit: Field required"),
     ],
 )
-def test_a_verdict_of_another_form_is_refused(changes: dict[str, object], message: str) -> None:
+def test_a_verdict_of_another_form_is_refused(changes, message):
     with pytest.raises(ValueError, match=message):
         read_back(form_of(verdict()) | changes)
-
-
-def test_a_sensitivity_says_whether_it_flips() -> None:
-    assert [entry["flips"] for entry in form_of(verdict())["sensitivity"]] == [True, False]
-    assert not verdict().firm
-    assert verdict(sensitivity=(STEADY,)).firm
-    assert verdict(sensitivity=()).firm
-
-
-def test_a_verdict_cannot_be_changed() -> None:
-    with pytest.raises(AttributeError):
-        verdict().status = "fail"

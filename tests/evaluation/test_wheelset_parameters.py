@@ -1,12 +1,10 @@
 """What single wheelsets have of their own is among the effective parameters."""
 
-from pathlib import Path
-
 from uictest.judging.evaluation.effective_parts import EffectiveParts
 from uictest.plans.scenario import load
 
 
-def test_own_values_are_listed_with_their_marks_and_nothing_else_is(tmp_path: Path) -> None:
+def test_own_values_are_listed_with_their_marks_and_nothing_else_is(tmp_path):
     path = tmp_path / "stop.yaml"
     path.write_text(
         "schema: uictest/scenario/1\nname: stop\ninitial_speed: 80 km/h\nvehicle: intercity-180\n"

@@ -1,8 +1,6 @@
 """Series made of stops whose results are written down, and files in a folder of their own."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,11 +18,11 @@ PAIR = "dry: dry.yaml\nwet: wet.yaml\n"
 
 
 @pytest.fixture
-def write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Write:
+def write(tmp_path, monkeypatch):
     """Write a file into the working folder, which holds dry.yaml and wet.yaml."""
     monkeypatch.chdir(tmp_path)
 
-    def to(name: str, text: str) -> Path:
+    def to(name, text):
         path = Path(name)
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, "utf-8")
@@ -37,10 +35,10 @@ def write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Write:
 
 
 @pytest.fixture
-def load(write: Write) -> Callable[..., list[series_plans.Series]]:
+def load(write):
     """The series of a file that says this besides its schema and name."""
 
-    def read(text: str = PAIR, *overrides: str, seed: int | None = None) -> list[series_plans.Series]:
+    def read(text=PAIR, *overrides, seed=None):
         return series_plans.load_series(
             write("campaign.series.yaml", SERIES.format(text=text)), overrides, seed
         )
@@ -48,7 +46,7 @@ def load(write: Write) -> Callable[..., list[series_plans.Series]]:
     return read
 
 
-def columns(distance: float, speed_kmh: float = 120.0, **changes: float) -> dict[str, float]:
+def columns(distance, speed_kmh=120.0, **changes):
     """The columns of a stop with this braking distance; its deceleration distance is 60 m shorter."""
     own = {
         "braking_distance_m": distance,
@@ -59,19 +57,13 @@ def columns(distance: float, speed_kmh: float = 120.0, **changes: float) -> dict
 
 
 @pytest.fixture
-def judge() -> Callable[..., series.SeriesResult]:
+def judge():
     """Judge a series whose stops have these distances (m), outcomes and verdicts, dry ones first.
 
     A list of distances makes a repeated case. Stops with the WSP bypassed have `bypassed`, if there is one.
     """
 
-    def judged(
-        planned: series_plans.Series,
-        distances: Sequence[float | list[float]],
-        outcomes: Mapping[float, str] | None = None,
-        bypassed: float | None = None,
-        **changes: float,
-    ) -> series.SeriesResult:
+    def judged(planned, distances, outcomes=None, bypassed=None, **changes):
         cases = []
         tested = [stop for stop in planned.stops if stop.role != "bypassed"]
         without = [stop for stop in planned.stops if stop.role == "bypassed" and bypassed is not None]
@@ -96,13 +88,7 @@ def judge() -> Callable[..., series.SeriesResult]:
     return judged
 
 
-def _stop(
-    seed: int,
-    distance: float,
-    speed: float,
-    outcome: str,
-    changes: Mapping[str, float],
-) -> RepeatedStop:
+def _stop(seed, distance, speed, outcome, changes):
     wheelsets = (dict.fromkeys(WHEELSET_COLUMNS, 0.0),) * 4
     reason = "" if outcome == "pass" else f"because it is {outcome}"
-    return RepeatedStop(seed, outcome, reason, (), columns(distance, speed, **changes), wheelsets)  # type: ignore[arg-type]
+    return RepeatedStop(seed, outcome, reason, (), columns(distance, speed, **changes), wheelsets)

@@ -1,8 +1,5 @@
 """What a series file may say, and what is refused."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -10,24 +7,25 @@ import pytest
 from uictest.plans import series
 from uictest.plans.scenario import LONGEST, ScenarioErrors
 
-Load = Callable[..., list[series.Series]]
-Write = Callable[[str, str], Path]
 PAIR = "dry: dry.yaml\nwet: wet.yaml\n"
 
+SHIPPED = sorted((Path(__file__).parents[2] / "scenarios").glob("*.series.yaml"))
 
-def ids(planned: series.Series) -> list[tuple[str, str]]:
+
+def ids(planned):
     return [(stop.role, stop.case.id.removeprefix(f"{planned.id}.")) for stop in planned.stops]
 
 
-def test_the_least_that_a_series_says(load: Load) -> None:
+def test_the_least_that_a_series_says_and_the_criteria_it_is_judged_by(load):
     (planned,) = load()
     assert planned.id == "campaign"
     assert ids(planned) == [("dry", "dry"), ("wet", "wet")]
     assert [profile.name for profile in planned.criteria] == ["uictest-wsp"]
     assert (planned.file.valid_stops, planned.file.confidence) == (0.8, 0.95)
+    assert [each.name for each in planned.stops[1].case.scenario.criteria] == ["uictest-stop", "uictest-wsp"]
 
 
-def test_values_of_an_entry_make_stops_whose_ids_name_them(load: Load) -> None:
+def test_values_of_an_entry_make_stops_whose_ids_name_them(load):
     text = (
         "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: [0.07, 0.09], brake.command: 100 %}}\n"
     )
@@ -39,7 +37,7 @@ def test_values_of_an_entry_make_stops_whose_ids_name_them(load: Load) -> None:
     assert [float(stop.case.scenario.rail.friction or 0) for stop in planned.stops[1:]] == [0.07, 0.09]
 
 
-def test_what_is_set_for_all_gives_way_to_an_entry_and_that_to_the_command_line(load: Load) -> None:
+def test_what_is_set_for_all_gives_way_to_an_entry_and_that_to_the_command_line(load):
     text = "repeat: 5\nset: {seed: 7}\ndry: {scenario: dry.yaml, repeat: 1, set: {seed: 8}}\nwet: wet.yaml\n"
     (planned,) = load(text)
     assert [(stop.case.scenario.repeat, stop.case.scenario.seed) for stop in planned.stops] == [
@@ -53,20 +51,23 @@ def test_what_is_set_for_all_gives_way_to_an_entry_and_that_to_the_command_line(
     ]
 
 
-def test_what_a_scenario_expects_of_itself_has_no_part_in_a_series(load: Load) -> None:
+def test_what_a_scenario_expects_of_itself_has_no_part_in_a_series(load):
     wet = Path("wet.yaml")
     wet.write_text(f"{wet.read_text('utf-8')}expect: invalid\n", "utf-8")
     (planned,) = load()
     assert [stop.case.scenario.expect for stop in planned.stops] == ["pass", "pass"]
 
 
-def test_one_value_of_the_command_line_is_for_all_stops(load: Load) -> None:
+def test_one_value_of_the_command_line_is_for_all_stops_also_in_place_of_an_axis(load):
     (planned,) = load(PAIR, "controller=slip-band")
     assert planned.id == "campaign"
     assert {stop.case.scenario.controller.name for stop in planned.stops} == {"slip-band"}
+    (planned,) = load(f"{PAIR}matrix: {{controller: [threshold, slip-band]}}\n", "controller=slip-band")
+    assert planned.id == "campaign"
+    assert planned.stops[1].case.scenario.controller.name == "slip-band"
 
 
-def test_several_values_make_a_series_each_as_those_under_matrix_do(load: Load) -> None:
+def test_several_values_make_a_series_each_as_those_under_matrix_do(load):
     for planned in (
         load(PAIR, "controller=threshold,slip-band"),
         load(f"{PAIR}matrix: {{controller: [threshold, slip-band]}}\n"),
@@ -82,21 +83,15 @@ def test_several_values_make_a_series_each_as_those_under_matrix_do(load: Load) 
         assert [each.stops[1].case.scenario.controller.name for each in planned] == ["threshold", "slip-band"]
 
 
-def test_the_command_line_takes_the_place_of_an_axis_of_the_file(load: Load) -> None:
-    (planned,) = load(f"{PAIR}matrix: {{controller: [threshold, slip-band]}}\n", "controller=slip-band")
-    assert planned.id == "campaign"
-    assert planned.stops[1].case.scenario.controller.name == "slip-band"
-
-
-def test_two_speeds_have_a_dry_stop_each(load: Load) -> None:
+def test_two_speeds_have_a_dry_stop_each_and_stops_that_differ_are_run(load):
     speeds = "set: {initial_speed: [80 km/h, 120 km/h]}"
     (planned,) = load(f"dry: {{scenario: dry.yaml, {speeds}}}\nwet: {{scenario: wet.yaml, {speeds}}}\n")
     assert [round(stop.speed * 3.6) for stop in planned.stops] == [80, 120, 80, 120]
-
-
-def test_stops_are_judged_by_the_criteria_of_their_scenario_and_those_of_the_series(load: Load) -> None:
-    (planned,) = load()
-    assert [each.name for each in planned.stops[1].case.scenario.criteria] == ["uictest-stop", "uictest-wsp"]
+    (planned,) = load(
+        "dry: dry.yaml\n"
+        "wet: {scenario: wet.yaml, repeat: 3, set: {seed: [0, 3], rail.friction: [0.08, 0.09]}}\n"
+    )
+    assert len(planned.stops) == 5
 
 
 @pytest.mark.parametrize(
@@ -117,11 +112,7 @@ def test_stops_are_judged_by_the_criteria_of_their_scenario_and_those_of_the_ser
             4,
             "differ in 'brake.command'",
         ),
-        (
-            "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {vehicle: crh380a}}\n",
-            4,
-            "differ in 'vehicle'",
-        ),
+        ("dry: dry.yaml\nwet: {scenario: wet.yaml, set: {vehicle: crh380a}}\n", 4, "differ in 'vehicle'"),
         (f"{PAIR}criteria: uictest-wps\n", 5, "no criteria 'uictest-wps' in the library"),
         (f"{PAIR}criteria: [uictest-wsp, uictest-wsp]\n", 5, "is in profile 'uictest-wsp' as well"),
         (f"{PAIR}valid_stops: 120 %\n", 5, "out of range"),
@@ -140,7 +131,7 @@ def test_stops_are_judged_by_the_criteria_of_their_scenario_and_those_of_the_ser
         ),
     ],
 )
-def test_what_makes_no_series_is_refused_at_its_place(load: Load, text: str, line: int, message: str) -> None:
+def test_what_makes_no_series_is_refused_at_its_place(load, text, line, message):
     with pytest.raises(ScenarioErrors) as caught:
         load(text)
     shown = [each for each in caught.value.diagnostics if message in each.message]
@@ -159,7 +150,7 @@ def test_what_makes_no_series_is_refused_at_its_place(load: Load, text: str, lin
         ),
     ],
 )
-def test_a_file_of_another_kind_is_refused(write: Write, text: str, message: str, hint: str) -> None:
+def test_a_file_of_another_kind_is_refused(write, text, message, hint):
     with pytest.raises(ScenarioErrors) as caught:
         series.load_series(write("x.series.yaml", text))
     (diagnostic,) = caught.value.diagnostics
@@ -174,13 +165,13 @@ criteria:
 """
 
 
-def test_the_id_of_a_stop_names_the_series_and_has_room_for_so_many_characters(write: Write) -> None:
+def test_the_id_of_a_stop_names_the_series_and_has_room_for_so_many_characters(write):
     """That of a stop with the WSP bypassed, which is longer by a word, is cut."""
     write("by-k-wet.yaml", BY_K_WET)
     wet = f"wet-{'w' * 90}"
     write("wet.yaml", Path("wet.yaml").read_text("utf-8").replace("name: wet", f"name: {wet}"))
 
-    def ids_of(name: str) -> list[str]:
+    def ids_of(name):
         head = f"schema: uictest/series/1\nname: {name}\ncriteria: by-k-wet.yaml\n"
         stops = "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: [0.08, 0.09]}}\n"
         (planned,) = series.load_series(write("x.series.yaml", head + stops))
@@ -195,7 +186,7 @@ def test_the_id_of_a_stop_names_the_series_and_has_room_for_so_many_characters(w
         ids_of(f"{name}s")
 
 
-def test_a_criterion_in_both_profiles_is_refused(load: Load, write: Write) -> None:
+def test_a_criterion_in_both_profiles_is_refused(load, write):
     own = """schema: uictest/criteria/1
 name: own
 criteria:
@@ -208,7 +199,7 @@ criteria:
         load(f"{PAIR}criteria: own.yaml\n")
 
 
-def test_the_schema_accepts_what_is_accepted(write: Write) -> None:
+def test_the_schema_accepts_what_is_accepted(write):
     jsonschema = pytest.importorskip("jsonschema")
     schema = series.series_schema()
     jsonschema.Draft7Validator.check_schema(schema)
@@ -228,9 +219,7 @@ def test_the_schema_accepts_what_is_accepted(write: Write) -> None:
             jsonschema.validate(head | document, schema)
 
 
-def test_a_profile_of_the_series_is_not_taken_for_another_one_of_the_same_name(
-    load: Load, write: Write
-) -> None:
+def test_a_profile_of_the_series_is_not_taken_for_another_one_of_the_same_name(load, write):
     profile = (
         "schema: uictest/criteria/1\nname: own\ncriteria:\n"
         "  - {{id: length, layer: requirement, measure: braking_distance, upper: {upper}}}\n"
@@ -252,27 +241,19 @@ def test_a_profile_of_the_series_is_not_taken_for_another_one_of_the_same_name(
         "[{scenario: wet.yaml, repeat: 3}, {scenario: again.yaml, set: {seed: 2}}]",
     ],
 )
-def test_a_stop_that_is_run_twice_is_refused(load: Load, write: Write, wet: str) -> None:
+def test_a_stop_that_is_run_twice_is_refused(load, write, wet):
     write("again.yaml", Path("wet.yaml").read_text("utf-8").replace("name: wet", "name: again"))
     with pytest.raises(ScenarioErrors, match="again with seed"):
         load(f"dry: dry.yaml\nwet: {wet}\n")
 
 
-def test_stops_that_differ_in_seed_or_conditions_are_run(load: Load) -> None:
-    (planned,) = load(
-        "dry: dry.yaml\n"
-        "wet: {scenario: wet.yaml, repeat: 3, set: {seed: [0, 3], rail.friction: [0.08, 0.09]}}\n"
-    )
-    assert len(planned.stops) == 5
-
-
-def test_the_reference_is_a_stop_on_dry_rail(load: Load) -> None:
+def test_the_reference_is_a_stop_on_dry_rail(load):
     with pytest.raises(ScenarioErrors, match=r"the rail of 'campaign\.wet' is 'wet'"):
         load("dry: wet.yaml\nwet: dry.yaml\n")
 
 
 @pytest.mark.parametrize("role", ["dry", "wet"])
-def test_a_recording_is_one_stop(load: Load, write: Write, role: str) -> None:
+def test_a_recording_is_one_stop(load, write, role):
     write("a.csv", "")
     write("b.csv", "")
     dry = "a.csv, a.csv" if role == "dry" else "a.csv"
@@ -280,3 +261,9 @@ def test_a_recording_is_one_stop(load: Load, write: Write, role: str) -> None:
     entry = "{role}: {{scenario: {role}.yaml, recordings: [{files}]}}\n"
     with pytest.raises(ScenarioErrors, match=r"'a\.csv' is named twice"):
         load(entry.format(role="dry", files=dry) + entry.format(role="wet", files=wet))
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.name)
+def test_shipped_series_are_called_like_their_files(path):
+    (planned,) = series.load_series(path)
+    assert f"{planned.id}.series.yaml" == path.name

@@ -1,22 +1,14 @@
 """Series judged from results that are written down: what counts, what decides, and how sure it is."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from uictest import report
 from uictest.judging import evaluation, series
-from uictest.plans import series as series_plans
 from uictest.plans.scenario.yaml import parse_quantity
 
-Load = Callable[..., list[series_plans.Series]]
-Judge = Callable[..., series.SeriesResult]
-Write = Callable[[str, str], Path]
 THREE = (
     "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: [0.07, 0.08, 0.09]}}\ncriteria: own.yaml\n"
 )
@@ -30,18 +22,18 @@ criteria:
 
 
 @pytest.fixture
-def planned(load: Load, write: Write) -> series_plans.Series:
+def planned(load, write):
     """One dry stop and three wet ones, judged by three criteria."""
     write("own.yaml", OWN)
     (one,) = load(THREE)
     return one
 
 
-def verdicts(result: series.SeriesResult) -> dict[str, series.SeriesVerdict]:
+def verdicts(result):
     return {each.verdict.id: each for each in result.criteria}
 
 
-def test_a_series_that_keeps_everything_passes(planned: series_plans.Series, judge: Judge) -> None:
+def test_a_series_that_keeps_everything_passes_and_a_miss_says_how_much_is_missing(planned, judge):
     result = judge(planned, [460.0, 500.0, 520.0, 540.0])
     assert (result.outcome, result.met) == ("pass", True)
     k_wet = verdicts(result)["k-wet"]
@@ -49,17 +41,17 @@ def test_a_series_that_keeps_everything_passes(planned: series_plans.Series, jud
     assert k_wet.verdict.value == pytest.approx(100.0 / 115.0)
     assert k_wet.verdict.margin == pytest.approx(100.0 / 115.0 - 0.8)
     assert k_wet.speed_kmh == 120.0
-
-
-def test_a_miss_says_what_was_found_what_is_demanded_and_how_much_is_missing(
-    planned: series_plans.Series, judge: Judge
-) -> None:
     # Deceleration distances 600, 640 and 680 m against 400 m.
     k_wet = verdicts(judge(planned, [460.0, 660.0, 700.0, 740.0]))["k-wet"].verdict
     assert (k_wet.status, k_wet.reason) == ("fail", "0.625 from 120 km/h misses >= 0.8 by 0.175")
+    certain = judge(planned, [460.0, 519.0, 520.0, 521.0])
+    uncertain = judge(planned, [460.0, 480.0, 520.0, 560.0])
+    assert verdicts(certain)["k-wet"].confident is True
+    assert verdicts(uncertain)["k-wet"].confident is False
+    assert uncertain.outcome == "pass"
 
 
-def test_one_stop_from_each_speed_has_a_speed_that_decides(load: Load, judge: Judge, write: Write) -> None:
+def test_one_stop_from_each_speed_has_a_speed_that_decides(load, judge, write):
     write("own.yaml", OWN)
     speeds = "set: {initial_speed: [80 km/h, 120 km/h]}"
     dry, wet = (f"{{scenario: {role}.yaml, {speeds}}}" for role in ("dry", "wet"))
@@ -69,7 +61,7 @@ def test_one_stop_from_each_speed_has_a_speed_that_decides(load: Load, judge: Ju
     assert (k_wet.verdict.value, k_wet.speed_kmh) == (pytest.approx(0.8), 120.0)
 
 
-def test_a_share_of_a_dry_figure_of_zero_names_the_dry_stops(load: Load, judge: Judge, write: Write) -> None:
+def test_a_share_of_a_dry_figure_of_zero_names_the_dry_stops(load, judge, write):
     share = "{id: locks, layer: requirement, scope: series, measure: worst_locked_time,"
     write(
         "own.yaml",
@@ -80,35 +72,23 @@ def test_a_share_of_a_dry_figure_of_zero_names_the_dry_stops(load: Load, judge: 
     assert (locks.status, locks.reason) == ("inconclusive", "the dry stops have no such number, or zero")
 
 
-def test_a_verdict_whose_interval_crosses_the_bound_is_not_certain(
-    planned: series_plans.Series, judge: Judge
-) -> None:
-    certain = judge(planned, [460.0, 519.0, 520.0, 521.0])
-    uncertain = judge(planned, [460.0, 480.0, 520.0, 560.0])
-    assert verdicts(certain)["k-wet"].confident is True
-    assert verdicts(uncertain)["k-wet"].confident is False
-    assert uncertain.outcome == "pass"
-
-
-def test_every_wet_stop_must_keep_a_criterion_of_stops(planned: series_plans.Series, judge: Judge) -> None:
+def test_every_wet_stop_must_keep_a_criterion_of_stops_and_passes_only_within_its_share(planned, judge):
     result = judge(planned, [460.0, 500.0, 520.0, 600.0])
     each = verdicts(result)["each"]
     assert (each.verdict.status, each.kept, each.stops) == ("fail", 2, 3)
     # The worst stop decides: 600 m is 130.43 % of 460 m.
     assert each.verdict.value == pytest.approx(100.0 * 600.0 / 460.0)
     assert each.of_dry_stop
-
-
-def test_a_stop_beyond_its_share_of_the_dry_stop_does_not_pass(
-    planned: series_plans.Series, judge: Judge
-) -> None:
     result = judge(planned, [460.0, 500.0, 600.0, 610.0])
     share = verdicts(result)["passing"]
     assert share.verdict.value == pytest.approx(100.0 / 3.0)
     assert share.verdict.status == "fail"
+    result = judge(planned, [460.0, 500.0, 520.0, 540.0], {500.0: "fail"})
+    assert result.speeds[0].wet.counted == 3
+    assert verdicts(result)["passing"].verdict.value == pytest.approx(200.0 / 3.0)
 
 
-def test_invalid_stops_do_not_count_and_are_named(planned: series_plans.Series, judge: Judge) -> None:
+def test_invalid_stops_do_not_count_and_are_named(planned, judge):
     # The invalid stop of 2000 m would spoil every figure.
     planned = _with_valid_share(planned, "60 %")
     result = judge(planned, [460.0, 500.0, 520.0, 2000.0], {2000.0: "invalid"})
@@ -121,53 +101,31 @@ def test_invalid_stops_do_not_count_and_are_named(planned: series_plans.Series, 
 
 
 @pytest.mark.parametrize("outcome", ["invalid", "inconclusive", "skipped"])
-def test_too_few_stops_that_count_decide_nothing(
-    planned: series_plans.Series, judge: Judge, outcome: str
-) -> None:
+def test_too_few_stops_that_count_decide_nothing(planned, judge, outcome):
     result = judge(planned, [460.0, 500.0, 520.0, 540.0], {540.0: outcome})
     assert result.outcome == "inconclusive"
     assert {each.verdict.status for each in result.criteria} == {"inconclusive"}
     assert "2 of 3 wet stops from 120 km/h count, 80 % must" in result.reason
 
 
-def test_without_a_dry_stop_that_counts_nothing_is_decided(
-    planned: series_plans.Series, judge: Judge
-) -> None:
+def test_without_a_dry_stop_that_counts_nothing_is_decided_and_one_that_failed_to_run_is_an_error(
+    planned, judge
+):
     result = judge(planned, [460.0, 500.0, 520.0, 540.0], {460.0: "invalid"})
     assert result.outcome == "inconclusive"
     assert "none of 1 dry stops from 120 km/h counts" in result.reason
-
-
-def test_a_stop_that_failed_to_run_is_an_error(planned: series_plans.Series, judge: Judge) -> None:
     assert judge(planned, [460.0, 500.0, 520.0, 540.0], {500.0: "error"}).outcome == "error"
 
 
-def test_a_criterion_of_stops_with_a_bound_of_its_own_is_judged_by_their_verdicts(
-    load: Load, judge: Judge, write: Write
-) -> None:
+def test_a_criterion_of_stops_is_judged_by_the_verdicts_of_those_that_count(load, judge, write):
     over = _locks(load, judge, write, {})
     assert (over.verdict.status, over.verdict.value, over.kept, over.stops) == ("fail", 2.5, 2, 3)
-
-
-def test_the_verdict_of_a_stop_that_does_not_count_decides_nothing(
-    load: Load, judge: Judge, write: Write
-) -> None:
     over = _locks(load, judge, write, {2.5: "invalid"})
     assert (over.verdict.status, over.verdict.value, over.kept, over.stops) == ("pass", 0.5, 2, 2)
-
-
-def test_a_criterion_of_which_a_stop_leaves_open_whether_it_is_kept_is_open(
-    load: Load, judge: Judge, write: Write
-) -> None:
-    """The stop counts, as it fails by something else."""
+    # The stop counts, as it fails by something else.
     over = _locks(load, judge, write, {2.5: "fail"}, {2.5: "inconclusive"})
     assert (over.verdict.status, over.kept, over.stops) == ("inconclusive", 2, 3)
     assert over.verdict.reason == "2 of 3 stops keep it"
-
-
-def test_stops_that_a_criterion_is_not_for_neither_keep_nor_miss_it(
-    load: Load, judge: Judge, write: Write
-) -> None:
     one = _locks(load, judge, write, {2.5: "pass"}, {2.5: "not_applicable"})
     assert (one.verdict.status, one.kept, one.stops) == ("pass", 2, 2)
     none = _locks(load, judge, write, {2.5: "pass"}, dict.fromkeys((0.0, 0.5, 2.5), "not_applicable"))
@@ -175,13 +133,7 @@ def test_stops_that_a_criterion_is_not_for_neither_keep_nor_miss_it(
     assert none.verdict.reason == "it applies to none of the stops that count"
 
 
-def _locks(
-    load: Load,
-    judge: Judge,
-    write: Write,
-    outcomes: dict[float, evaluation.Outcome],
-    statuses: dict[float, evaluation.Status] | None = None,
-) -> series.SeriesVerdict:
+def _locks(load, judge, write, outcomes, statuses=None):
     """The verdict over a dry and two wet stops whose wheels lock for 0, 0.5 and 2.5 s."""
     criterion = "{id: locks, layer: requirement, measure: longest_lock, wheelsets: all, upper: 1 s}"
     write("own.yaml", f"schema: uictest/criteria/1\nname: own\ncriteria: [{criterion}]\n")
@@ -200,17 +152,16 @@ def _locks(
     return over
 
 
-def test_a_failed_requirement_of_a_stop_counts_and_lowers_the_share(
-    planned: series_plans.Series, judge: Judge
-) -> None:
-    result = judge(planned, [460.0, 500.0, 520.0, 540.0], {500.0: "fail"})
-    assert result.speeds[0].wet.counted == 3
-    assert verdicts(result)["passing"].verdict.value == pytest.approx(200.0 / 3.0)
-
-
-def test_a_stop_from_another_speed_does_not_count(load: Load, judge: Judge, write: Write) -> None:
+def test_every_repeat_is_a_stop_and_the_dry_stop_the_mean_of_those_that_count(load, judge, write):
     write("own.yaml", OWN)
     (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
+    distances = [500.0, 505.0, 510.0, 515.0, 520.0, 525.0]
+    result = judge(planned, [[459.0, 461.0], distances])
+    estimate = result.measures["median_braking_distance"].estimate
+    assert (estimate.value, estimate.low, estimate.high, estimate.stops) == (512.5, 500.0, 525.0, 6)
+    assert result.speeds[0].dry == series.StopCounts(2, 2)
+    result = judge(planned, [[450.0, 470.0, 900.0], [552.0]], {900.0: "invalid"})
+    assert verdicts(result)["each"].verdict.value == pytest.approx(100.0 * 552.0 / 460.0)
     dry, wet = (each.case for each in judge(planned, [460.0, 500.0]).cases)
     measures = dict(wet.measures or {}) | {"mean_deceleration_mps2": (115.0 / 3.6) ** 2 / 1000.0}
     slower = evaluation.CaseResult(wet.id, "x", {}, "pass", "pass", measures=measures)
@@ -220,31 +171,13 @@ def test_a_stop_from_another_speed_does_not_count(load: Load, judge: Judge, writ
     assert result.not_counted[0].reason == "initial speed is 115 km/h, nominal 120 +- 3 km/h"
 
 
-def test_every_repeat_is_a_stop(load: Load, judge: Judge, write: Write) -> None:
-    write("own.yaml", OWN)
-    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
-    distances = [500.0, 505.0, 510.0, 515.0, 520.0, 525.0]
-    result = judge(planned, [[459.0, 461.0], distances])
-    estimate = result.measures["median_braking_distance"].estimate
-    assert estimate is not None
-    assert (estimate.value, estimate.low, estimate.high, estimate.stops) == (512.5, 500.0, 525.0, 6)
-    assert result.speeds[0].dry == series.StopCounts(2, 2)
-
-
-def test_the_dry_stop_is_the_mean_of_those_that_count(load: Load, judge: Judge, write: Write) -> None:
-    write("own.yaml", OWN)
-    (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
-    result = judge(planned, [[450.0, 470.0, 900.0], [552.0]], {900.0: "invalid"})
-    assert verdicts(result)["each"].verdict.value == pytest.approx(100.0 * 552.0 / 460.0)
-
-
-def test_a_verdict_names_the_requirements_of_its_criterion(load: Load, judge: Judge, write: Write) -> None:
+def test_a_verdict_names_the_requirements_of_its_criterion(load, judge, write):
     write("own.yaml", OWN.replace("lower: 0.80}", "lower: 0.80, requirements: [BR-WSP-12]}"))
     (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
     assert verdicts(judge(planned, [460.0, 500.0]))["k-wet"].verdict.requirements == ("BR-WSP-12",)
 
 
-def test_a_series_keeps_the_requirements_and_the_test_case_of_its_file(load: Load, judge: Judge) -> None:
+def test_a_series_keeps_the_requirements_and_the_test_case_of_its_file(load, judge):
     (planned,) = load("dry: dry.yaml\nwet: wet.yaml\nrequirements: [BR-9, BR-1]\ntest_case: WSP-TC-7\n")
     document = json.loads(json.dumps(series.series_document([judge(planned, [460.0, 500.0])])))
     (read,) = series.series_results_of(document)
@@ -252,22 +185,20 @@ def test_a_series_keeps_the_requirements_and_the_test_case_of_its_file(load: Loa
     assert document["series"][0]["requirements"] == ["BR-9", "BR-1"]
 
 
-def test_without_requirements_the_document_does_not_speak_of_them(
-    planned: series_plans.Series, judge: Judge
-) -> None:
+def test_without_requirements_the_document_does_not_speak_of_them(planned, judge):
     (form,) = series.series_document([judge(planned, [460.0, 500.0, 520.0, 540.0])])["series"]
     assert not {"requirements", "test_case"} & form.keys()
     assert not any("requirements" in each["verdict"] for each in form["criteria"])
 
 
-def test_expected_failures_are_met(load: Load, judge: Judge, write: Write) -> None:
+def test_expected_failures_are_met(load, judge, write):
     write("own.yaml", OWN)
     (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\nexpect: fail\n")
     assert judge(planned, [460.0, 900.0]).met
     assert not judge(planned, [460.0, 500.0]).met
 
 
-def test_a_series_is_judged_again_from_its_document(planned: series_plans.Series, judge: Judge) -> None:
+def test_a_series_is_judged_again_from_its_document(planned, judge):
     result = judge(_with_valid_share(planned, "60 %"), [460.0, 500.0, 520.0, 540.0], {540.0: "invalid"})
     document = json.loads(json.dumps(series.series_document([result])))
     (read,) = series.series_results_of(document)
@@ -276,9 +207,7 @@ def test_a_series_is_judged_again_from_its_document(planned: series_plans.Series
     assert json.dumps(series.series_document([again])) == json.dumps(document)
 
 
-def test_cases_of_another_series_are_not_judged(
-    planned: series_plans.Series, load: Load, judge: Judge
-) -> None:
+def test_cases_of_another_series_are_not_judged(planned, load, judge):
     result = judge(planned, [460.0, 500.0, 520.0, 540.0])
     (other,) = load("dry: dry.yaml\nwet: wet.yaml\n")
     with pytest.raises(ValueError, match="has no case"):
@@ -305,16 +234,14 @@ def test_cases_of_another_series_are_not_judged(
         (lambda document: document["cases"][0].update(outcome=3), "series.cases.0.outcome"),
     ],
 )
-def test_a_document_that_is_none_is_refused(
-    planned: series_plans.Series, judge: Judge, spoil: Callable[[dict[str, object]], object], message: str
-) -> None:
+def test_a_document_that_is_none_is_refused(planned, judge, spoil, message):
     document = json.loads(json.dumps(series.series_document([judge(planned, [460.0, 500.0, 520.0, 540.0])])))
     spoil(document)
     with pytest.raises(ValueError, match=message):
         series.series_results_of(document)
 
 
-def _with_valid_share(planned: series_plans.Series, text: str) -> series_plans.Series:
+def _with_valid_share(planned, text):
     share = parse_quantity(text, "share")
     return replace(planned, file=planned.file.model_copy(update={"valid_stops": share}))
 
@@ -323,7 +250,7 @@ TWO_SPEEDS = "{role}: {{scenario: {role}.yaml, set: {{initial_speed: [80 km/h, 1
 
 
 @pytest.fixture
-def two_speeds(load: Load, write: Write) -> series_plans.Series:
+def two_speeds(load, write):
     """Dry and wet stops from two speeds, the wet ones repeated, by a bound above and one below."""
     own = "  - {{id: {id}, layer: requirement, scope: series, measure: median_braking_distance, {bound}}}\n"
     bounds = ("upper: 130 % of the dry stop", "lower: 105 % of the dry stop")
@@ -336,27 +263,21 @@ def two_speeds(load: Load, write: Write) -> series_plans.Series:
     return one
 
 
-def test_every_bound_is_judged_at_the_speed_nearest_to_missing_it(
-    two_speeds: series_plans.Series, judge: Judge
-) -> None:
+def test_every_bound_is_judged_at_the_speed_nearest_to_missing_it(two_speeds, judge):
     result = verdicts(judge(two_speeds, [200.0, 400.0, [202.0] * 7, [500.0] * 7]))
     assert (result["long"].verdict.status, result["long"].speed_kmh) == ("pass", 120.0)
     assert (result["short"].verdict.status, result["short"].speed_kmh) == ("fail", 80.0)
     assert result["short"].verdict.value == pytest.approx(101.0)
 
 
-def test_a_verdict_is_as_certain_as_that_of_its_least_certain_speed(
-    two_speeds: series_plans.Series, judge: Judge
-) -> None:
+def test_a_verdict_is_as_certain_as_that_of_its_least_certain_speed(two_speeds, judge):
     # From 80 km/h the median is 115 % but may lie at 140 %; that from 120 km/h is 125 % for certain.
     scattered = [214.0, 216.0, 218.0, 230.0, 270.0, 275.0, 280.0]
     long = verdicts(judge(two_speeds, [200.0, 400.0, scattered, [500.0] * 7]))["long"]
     assert (long.verdict.status, long.speed_kmh, long.confident) == ("pass", 120.0, False)
 
 
-def test_one_speed_that_misses_for_certain_makes_a_miss_certain(
-    two_speeds: series_plans.Series, judge: Judge
-) -> None:
+def test_one_speed_that_misses_for_certain_makes_a_miss_certain(two_speeds, judge):
     scattered = [240.0, 242.0, 244.0, 280.0, 282.0, 284.0, 286.0]
     long = verdicts(judge(two_speeds, [200.0, 400.0, scattered, [540.0] * 7]))["long"]
     assert (long.verdict.status, long.speed_kmh, long.confident) == ("fail", 80.0, True)
@@ -383,7 +304,7 @@ criteria:
 """
 
 
-def test_stops_on_different_rails_are_judged_apart(write: Write, load: Load, judge: Judge) -> None:
+def test_stops_on_different_rails_are_judged_apart(write, load, judge):
     write("rails.yaml", RAILS)
     (planned,) = load(BOTH_RAILS)
     result = judge(planned, [460.0, 500.0, 510.0, 900.0, 910.0], {900.0: "fail", 910.0: "fail"}, 480.0)
@@ -399,9 +320,7 @@ def test_stops_on_different_rails_are_judged_apart(write: Write, load: Load, jud
     assert result.measures["stopping_distance_extension"].estimate is None
 
 
-def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(
-    write: Write, load: Load, judge: Judge
-) -> None:
+def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(write, load, judge):
     write("rails.yaml", RAILS)
     (planned,) = load(BOTH_RAILS)
     assert [stop.role for stop in planned.stops] == ["dry", *["wet"] * 4, *["bypassed"] * 2]
@@ -421,15 +340,12 @@ def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(
     assert read == better
 
 
-def test_a_criterion_that_no_wet_stop_is_for_decides_nothing(write: Write, load: Load, judge: Judge) -> None:
+def test_a_criterion_that_no_wet_stop_is_for_decides_nothing_and_no_judgement_is_not_met(write, load, judge):
     write("rails.yaml", RAILS)
     (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: rails.yaml\n")
     assert [stop.role for stop in planned.stops] == ["dry", "wet"]
     k_wet = judge(planned, [460.0, 500.0]).criteria[0].verdict
     assert (k_wet.status, k_wet.reason) == ("not_applicable", "it applies to none of the wet stops")
-
-
-def test_a_series_that_nothing_judged_is_not_met(write: Write, load: Load, judge: Judge) -> None:
     write("rails.yaml", "\n".join(RAILS.splitlines()[:4]))
     (planned,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: rails.yaml\n")
     result = judge(planned, [460.0, 500.0])

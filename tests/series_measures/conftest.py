@@ -1,24 +1,15 @@
 """Stops of a series, made by hand."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 import pytest
 
 from uictest.core.series_measures import CountedStop, SpeedStops
 
-MakeStop = Callable[..., CountedStop]
-MakeSpeed = Callable[..., SpeedStops]
-
 
 @pytest.fixture
-def make_stop() -> MakeStop:
+def make_stop():
     """A stop with a braking distance, a deceleration distance 60 m shorter, and whatever else is given."""
 
-    def make(
-        distance: float = 460.0, *, passed: bool = True, locked: float = 0.0, **columns: float
-    ) -> CountedStop:
+    def make(distance=460.0, *, passed=True, locked=0.0, **columns):
         measures = {"braking_distance_m": distance, "deceleration_distance_m": distance - 60.0} | columns
         wheelsets = tuple({"locked_time_s": time} for time in (0.0, locked, 0.0, 0.0))
         return CountedStop(measures, wheelsets, passed)
@@ -27,10 +18,10 @@ def make_stop() -> MakeStop:
 
 
 @pytest.fixture
-def make_speed(make_stop: MakeStop) -> MakeSpeed:
+def make_speed(make_stop):
     """Dry and wet stops by their braking distances."""
 
-    def make(dry: list[float], wet: list[float], speed: float = 120.0 / 3.6) -> SpeedStops:
+    def make(dry, wet, speed=120.0 / 3.6):
         return SpeedStops(speed, tuple(map(make_stop, dry)), tuple(map(make_stop, wet)))
 
     return make

@@ -1,99 +1,69 @@
 """Every measure of a series: its declaration, and what it makes of stops."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 import pytest
 
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.series_measures import SERIES_MEASURES, CountedStop, SpeedStops, dry_relation
 from uictest.core.units import KINDS
 
-MakeSpeed = Callable[..., SpeedStops]
-MakeStop = Callable[..., CountedStop]
-
 
 @pytest.mark.parametrize("name", SERIES_MEASURES)
-def test_a_measure_has_a_unit_of_its_kind(name: str) -> None:
+def test_a_measure_has_a_unit_of_its_kind(name):
     measure = SERIES_MEASURES[name]
     kind = KINDS[measure.kind]
     assert measure.unit in kind.units or (kind.bare and measure.unit == "1")
 
 
 @pytest.mark.parametrize("name", SERIES_MEASURES)
-def test_a_measure_reads_columns_that_results_have(name: str) -> None:
+def test_a_measure_reads_columns_that_results_have(name):
     stop = CountedStop(
         dict.fromkeys(STOP_COLUMNS, 1.0), (dict.fromkeys(WHEELSET_COLUMNS, 1.0),) * 4, passed=True
     )
     value = SERIES_MEASURES[name].of_series([SpeedStops(30.0, (stop,), (stop,))], 0.95)
-    assert value.estimate is not None
     assert value.estimate.stops == 1
 
 
-def test_the_value_of_a_series_is_that_of_its_worst_speed(make_speed: MakeSpeed) -> None:
+def test_the_value_of_a_series_is_that_of_its_worst_speed_and_a_share_of_all_stops(make_speed, make_stop):
     speeds = [make_speed([200.0], [220.0, 230.0, 240.0]), make_speed([460.0], [480.0, 490.0, 500.0])]
     extension = SERIES_MEASURES["stopping_distance_extension"].of_series(speeds, 0.95).estimate
-    assert extension is not None
     assert extension.value == pytest.approx(15.0)
     assert extension.stops == 3
-
-
-def test_shares_are_of_all_stops_together(make_stop: MakeStop) -> None:
     speeds = [
         SpeedStops(20.0, (), tuple(make_stop(passed=passed) for passed in (True, True, True))),
         SpeedStops(30.0, (), (make_stop(passed=False),)),
     ]
     share = SERIES_MEASURES["passing_share"].of_series(speeds, 0.95).estimate
-    assert share is not None
     assert (share.value, share.stops) == (75.0, 4)
 
 
-def test_the_most_locked_wheelset_speaks_for_a_stop(make_stop: MakeStop) -> None:
+def test_the_most_locked_wheelset_and_the_smallest_margin_speak_for_stops(make_stop):
     speed = SpeedStops(30.0, (), tuple(make_stop(locked=time) for time in (0.2, 3.0, 0.4)))
     median, worst = (
         SERIES_MEASURES[f"{name}_locked_time"].of_series([speed], 0.95).estimate
         for name in ("median", "worst")
     )
-    assert median is not None
-    assert worst is not None
     assert (median.value, worst.value) == (0.4, 3.0)
-
-
-def test_the_worst_margin_is_the_smallest(make_stop: MakeStop) -> None:
     speed = SpeedStops(30.0, (), tuple(make_stop(reservoir_margin_bar=bar) for bar in (1.2, 0.4, 0.9)))
     worst = SERIES_MEASURES["worst_reservoir_margin"].of_series([speed], 0.95).estimate
-    assert worst is not None
     assert worst.value == 0.4
-
-
-def test_bogies_that_brake_at_1_1_and_0_9_differ_by_a_fifth_of_their_mean(make_stop: MakeStop) -> None:
     stop = make_stop(deceleration_bogie_1_mps2=1.1, deceleration_bogie_2_mps2=0.9)
     value = SERIES_MEASURES["median_bogie_imbalance"].of_series([SpeedStops(30.0, (), (stop,))], 0.95)
-    assert value.estimate is not None
     assert value.estimate.value == pytest.approx(20.0)
 
 
-def test_a_wet_stop_without_the_number_leaves_the_measure_open(make_stop: MakeStop) -> None:
+def test_a_stop_or_a_speed_without_the_number_leaves_the_measure_open(make_stop, make_speed):
     speed = SpeedStops(30.0, (), (make_stop(reservoir_margin_bar=1.0), make_stop()))
     value = SERIES_MEASURES["worst_reservoir_margin"].of_series([speed], 0.95)
     assert value.estimate is None
     assert value.unavailable_reason == "1 of 2 wet stops have no such number"
-
-
-def test_one_unknown_speed_leaves_the_series_open(make_speed: MakeSpeed) -> None:
     speeds = [make_speed([460.0], [480.0]), make_speed([], [230.0])]
     assert SERIES_MEASURES["k_wet"].of_series(speeds, 0.95).estimate is None
 
 
-def test_a_relation_to_the_dry_stop_is_made_speed_by_speed(make_speed: MakeSpeed) -> None:
+def test_a_relation_to_the_dry_stop_is_made_speed_by_speed_of_figures_of_single_stops(make_speed):
     # 240 m from the lower speed is 120 % of its dry stop, though far below the dry stop from the higher one.
     speeds = [make_speed([198.0, 202.0], [240.0]), make_speed([460.0], [506.0])]
     relation = dry_relation(SERIES_MEASURES["worst_braking_distance"], speeds, 0.95).estimate
-    assert relation is not None
     assert relation.value == pytest.approx(120.0)
-
-
-def test_what_is_no_figure_of_single_stops_has_no_relation(make_speed: MakeSpeed) -> None:
     with pytest.raises(ValueError, match="passing_share"):
         dry_relation(SERIES_MEASURES["passing_share"], [make_speed([1.0], [1.0])], 0.95)
