@@ -1,28 +1,15 @@
 """Simulated stops as recordings, and what a measurement makes of them."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
-from uictest.core.recording import TIME, Recording
-from uictest.judging.evaluation import CaseResult
-from uictest.plans.scenario import Case
-from uictest.recorded.field_data import (
-    Preparation,
-    RawChannel,
-    RecordedStop,
-    judge_recording,
-    prepare,
-    stated_case,
-)
-from uictest.rig import SimulatedStop, simulate
+from uictest.core.recording import TIME
+from uictest.recorded.field_data import Preparation, RawChannel, judge_recording, prepare, stated_case
+from uictest.rig import simulate
 
 STATEMENTS = (
     "rail.condition=wet",
@@ -31,39 +18,38 @@ STATEMENTS = (
     "rig.wsp=active",
     "criteria=[uictest-stop, uic-541-05-appendix-b]",
 )
-Change = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
-def judge_stop(case: Case, stop: RecordedStop) -> CaseResult:
+def judge_stop(case, stop):
     """Return the result of a recorded stop."""
     result, _ = judge_recording(case, stop)
     return result
 
 
 @cache
-def _case() -> Case:
+def _case():
     return replace(stated_case("slides-40", 40.0 / 3.6, STATEMENTS), path=Path("stop"))
 
 
 @cache
-def _stop(rate: float) -> SimulatedStop:
+def _stop(rate):
     return simulate(_case(), record_every=1.0 / rate)
 
 
 @pytest.fixture(scope="session")
-def case() -> Case:
+def case():
     """A stop from 40 km/h on a rail so wet that every wheelset slides."""
     return _case()
 
 
 @pytest.fixture(scope="session")
-def simulated() -> Callable[[float], SimulatedStop]:
+def simulated():
     """The stop, recorded at a rate in Hz."""
     return _stop
 
 
 @pytest.fixture(scope="session")
-def recording() -> Recording:
+def recording():
     """The stop's recording at 100 Hz."""
     recording = _stop(100.0).recording
     assert recording is not None
@@ -71,12 +57,12 @@ def recording() -> Recording:
 
 
 @pytest.fixture
-def channels(recording: Recording) -> dict[str, RawChannel]:
+def channels(recording):
     """Every channel of the recording, free to be damaged."""
     return channels_of(recording)
 
 
-def channels_of(recording: Recording) -> dict[str, RawChannel]:
+def channels_of(recording):
     """Return every channel of a recording, free to be damaged."""
     time = np.array(recording[TIME])
     return {
@@ -86,19 +72,17 @@ def channels_of(recording: Recording) -> dict[str, RawChannel]:
     }
 
 
-def kept(channels: Mapping[str, RawChannel], chosen: np.ndarray) -> dict[str, RawChannel]:
+def kept(channels, chosen):
     """Return channels of one time axis with some of their samples."""
     time = next(iter(channels.values())).time[chosen]
     return {name: replace(each, time=time, samples=each.samples[chosen]) for name, each in channels.items()}
 
 
 @pytest.fixture(scope="session")
-def prepared(recording: Recording) -> Callable[..., RecordedStop]:
+def prepared(recording):
     """Prepare channels with the facts of the recording, or others."""
 
-    def make(
-        channels: Mapping[str, RawChannel], facts: Mapping[str, str] | None = None, **choices: Any
-    ) -> RecordedStop:
+    def make(channels, facts=None, **choices):
         preparation = Preparation.model_validate(choices)
         return prepare(channels, recording.metadata if facts is None else facts, preparation)
 

@@ -1,12 +1,10 @@
-from __future__ import annotations
-
 import pytest
 
 from uictest.plans.scenario import ScenarioErrors
 from uictest.recorded.field_data import stated_case
 
 
-def test_what_is_stated_becomes_a_case() -> None:
+def test_what_is_stated_becomes_a_case():
     case = stated_case("run", 20.0, ["rail.condition=wet", "brake.position=P", "criteria=uictest-stop"])
     assert case.scenario.rail.condition.name == "wet"
     assert case.scenario.brake.position == "P"
@@ -15,6 +13,6 @@ def test_what_is_stated_becomes_a_case() -> None:
 
 
 @pytest.mark.parametrize("statement", ["rail.condition=we", "brake.position=X", "nothing", "seed=1,2"])
-def test_what_is_not_acceptable_is_refused(statement: str) -> None:
+def test_what_is_not_acceptable_is_refused(statement):
     with pytest.raises(ScenarioErrors):
         stated_case("run", 20.0, [statement])

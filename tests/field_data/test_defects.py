@@ -1,11 +1,7 @@
 """Every defect, made in a simulated stop: found, named, and never bridged."""
 
-from __future__ import annotations
-
 import re
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -14,28 +10,25 @@ from uictest.recorded.field_data import UnusableError, unusable_result
 
 from .conftest import judge_stop, kept
 
-Channels = dict[str, Any]
-Damage = Callable[[np.ndarray], np.ndarray]
 
-
-def _kinds(stop: Any) -> set[tuple[str, str]]:
+def _kinds(stop):
     return {(defect.kind, defect.channel) for defect in stop.defects}
 
 
-def _reasons(case: Any, stop: Any) -> dict[str, str]:
+def _reasons(case, stop):
     return {v.id: v.reason for v in judge_stop(case, stop).criteria if v.status == "inconclusive"}
 
 
-def _change(channels: Channels, name: str, samples: np.ndarray) -> None:
+def _change(channels, name, samples):
     channels[name] = replace(channels[name], samples=samples)
 
 
-def _retime(channels: Channels, time: np.ndarray) -> None:
+def _retime(channels, time):
     for name, channel in channels.items():
         channels[name] = replace(channel, time=time)
 
 
-def test_a_sound_record_has_none(channels: Channels, prepared: Any) -> None:
+def test_a_sound_record_has_none(channels, prepared):
     assert prepared(channels).defects == ()
 
 
@@ -47,9 +40,7 @@ def test_a_sound_record_has_none(channels: Channels, prepared: Any) -> None:
         ("time-duplicate", lambda time: time.__setitem__(50, time[49])),
     ],
 )
-def test_a_time_axis_that_is_none_makes_the_record_unusable(
-    case: Any, channels: Channels, prepared: Any, kind: str, damage: Any
-) -> None:
+def test_a_time_axis_that_is_none_makes_the_record_unusable(case, channels, prepared, kind, damage):
     time = channels["speed"].time.copy()
     damage(time)
     _retime(channels, time)
@@ -61,7 +52,7 @@ def test_a_time_axis_that_is_none_makes_the_record_unusable(
     assert kind in result.reason
 
 
-def test_a_gap_in_all_channels(case: Any, channels: Channels, prepared: Any) -> None:
+def test_a_gap_in_all_channels_leaves_no_integrated_distance(case, channels, prepared):
     time = channels["speed"].time
     stop = prepared(kept(channels, (time < 3.0) | (time > 3.805)))
     assert [defect.kind for defect in stop.defects] == ["gap"]
@@ -69,17 +60,13 @@ def test_a_gap_in_all_channels(case: Any, channels: Channels, prepared: Any) -> 
     reasons = _reasons(case, stop)
     assert "wheel_speed_1 is not known from 3 to 3.8 s" in reasons["locked-wheels"]
     assert "standstill" not in reasons
-
-
-def test_a_gap_leaves_no_integrated_distance(channels: Channels, prepared: Any, case: Any) -> None:
     del channels["distance"]
-    time = channels["speed"].time
     result = judge_stop(case, prepared(kept(channels, (time < 3.0) | (time > 3.805))))
     assert np.isnan(result.measures["braking_distance_m"])
     assert np.isfinite(result.measures["braking_time_s"])
 
 
-def _between(first: int, last: int, value: float) -> Damage:
+def _between(first, last, value):
     """Set samples to a value."""
     return lambda samples: np.concatenate((samples[:first], np.full(last - first, value), samples[last:]))
 
@@ -93,9 +80,7 @@ def _between(first: int, last: int, value: float) -> Damage:
         ("cylinder_pressure_2", lambda samples: samples + 0.4e5, "offset", ""),
     ],
 )
-def test_a_damaged_channel_is_the_only_one_that_is_named(
-    channels: Channels, prepared: Any, name: str, damage: Damage, kind: str, text: str
-) -> None:
+def test_a_damaged_channel_is_the_only_one_that_is_named(channels, prepared, name, damage, kind, text):
     _change(channels, name, damage(channels[name].samples))
     stop = prepared(channels)
     assert _kinds(stop) == {(kind, name)}
@@ -113,15 +98,15 @@ def test_a_damaged_channel_is_the_only_one_that_is_named(
     ],
 )
 def test_wheels_that_are_not_known_for_a_while_may_have_locked(
-    case: Any, channels: Channels, prepared: Any, damage: Damage, kind: str, reason: str
-) -> None:
+    case, channels, prepared, damage, kind, reason
+):
     _change(channels, "wheel_speed_2", damage(channels["wheel_speed_2"].samples))
     stop = prepared(channels)
     assert _kinds(stop) == {(kind, "wheel_speed_2")}
     assert reason in _reasons(case, stop)["locked-wheels"]
 
 
-def test_a_dropout_of_the_train_speed_is_no_standstill(channels: Channels, prepared: Any) -> None:
+def test_a_dropout_of_the_train_speed_is_no_standstill(channels, prepared):
     standstill = prepared(channels).standstill
     _change(channels, "speed", _between(100, 104, 0.0)(channels["speed"].samples))
     stop = prepared(channels)
@@ -130,44 +115,36 @@ def test_a_dropout_of_the_train_speed_is_no_standstill(channels: Channels, prepa
 
 
 @pytest.mark.parametrize("name", ["speed", "wheel_speed_1"])
-def test_a_stuck_speed(channels: Channels, prepared: Any, name: str) -> None:
+def test_a_stuck_speed(channels, prepared, name):
     samples = channels[name].samples.copy()
     samples[100:200] = samples[100]
     _change(channels, name, samples)
     assert ("stuck", name) in _kinds(prepared(channels))
 
 
-def test_a_stuck_loadcell_is_no_clamping_force(case: Any, channels: Channels, prepared: Any) -> None:
+def test_a_stuck_loadcell_is_no_clamping_force(case, channels, prepared):
     _change(channels, "clamping_force_1", np.zeros_like(channels["speed"].samples))
     result = judge_stop(case, prepared(channels))
     assert all(np.isnan(wheelset["maximum_clamping_force_n"]) for wheelset in result.wheelsets)
 
 
-def test_a_record_that_starts_late(case: Any, channels: Channels, prepared: Any) -> None:
+def test_a_record_that_starts_late_with_and_without_a_stated_command(case, channels, prepared):
     stop = prepared(kept(channels, channels["speed"].time >= 2.0))
     assert ("starts-late", "the record") in _kinds(stop)
     result = judge_stop(case, stop)
     assert np.isnan(result.measures["braking_time_s"])
     assert np.isnan(result.measures["initial_adhesion_g"])
-
-
-def test_a_record_that_starts_late_without_a_stated_command(channels: Channels, prepared: Any) -> None:
     stop = prepared(kept(channels, channels["speed"].time >= 2.0), {})
     assert stop.trigger.late
     assert ("starts-late", "the record") in _kinds(stop)
 
 
-def test_a_record_that_ends_before_standstill(case: Any, channels: Channels, prepared: Any) -> None:
+def test_a_record_that_ends_before_standstill_is_inconclusive_not_a_skip(case, channels, prepared):
     stop = prepared(kept(channels, channels["speed"].time <= 5.0))
     assert _kinds(stop) == {("ends-before-standstill", "the record")}
     reason = _reasons(case, stop)["standstill"]
     assert re.fullmatch(r"no standstill; the record ends after 5 s with the train at [0-9.]+ km/h", reason)
     assert stop.standstill is None
-
-
-def test_a_record_too_damaged_to_judge_is_inconclusive_not_a_skip(
-    case: Any, channels: Channels, prepared: Any
-) -> None:
     only = {"speed": channels["speed"]}
     result = judge_stop(case, prepared(kept(only, only["speed"].time <= 5.0)))
     assert result.outcome == "inconclusive"
@@ -175,7 +152,7 @@ def test_a_record_too_damaged_to_judge_is_inconclusive_not_a_skip(
     assert "not recorded: wheel_speed_1" in result.reason
 
 
-def test_defects_stand_in_every_verdict(case: Any, channels: Channels, prepared: Any) -> None:
+def test_defects_stand_in_every_verdict(case, channels, prepared):
     _change(channels, "wheel_speed_4", 1.05 * channels["wheel_speed_4"].samples)
     for verdict in judge_stop(case, prepared(channels)).criteria:
         assert verdict.definition["defects"].startswith("offset: wheel_speed_4")

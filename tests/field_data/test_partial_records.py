@@ -1,7 +1,5 @@
 """Parts of a record: what they decide is what the whole record decides."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from itertools import pairwise
@@ -11,17 +9,13 @@ import numpy as np
 import pytest
 
 from uictest.core.measures import MEASURES
-from uictest.core.recording import Recording
 from uictest.core.units import KINDS
-from uictest.judging.evaluation import CaseResult
-from uictest.plans.scenario import Case
 from uictest.plans.scenario.parts.criteria import Criteria, Criterion
 from uictest.recorded.field_data import stated_case
 from uictest.recorded.field_data.observation import observe
 
 from .conftest import channels_of, judge_stop, kept
 
-Channels = dict[str, Any]
 ROUNDING = 1e-9
 _WRITTEN = {
     "first_phase_duration": (3.0, "3 s"),
@@ -33,7 +27,7 @@ DEFINITION = {name: value for name, (value, _) in _WRITTEN.items()}
 _WORDS = {name: {"value": text, "range": [text, text]} for name, (_, text) in _WRITTEN.items()}
 
 
-def _of_part(part: str, channels: Channels) -> Channels:
+def _of_part(part, channels):
     time = channels["speed"].time
     name, _, number = part.partition(" ")
     at = float(number)
@@ -41,24 +35,20 @@ def _of_part(part: str, channels: Channels) -> Channels:
     return kept(channels, chosen[name])
 
 
-def _values(stop: Any, case: Case) -> dict[str, tuple[float, ...]]:
+def _values(stop, case):
     observed = observe(stop, case.scenario)
     records = observed.measures, observed.wheelset_measures
     return {name: measure.read(*records, DEFINITION).values for name, measure in MEASURES.items()}
 
 
-def test_every_measure_of_a_train_lacks_something_in_a_record_that_begins_late(
-    channels: Channels, case: Case, prepared: Any
-) -> None:
+def test_every_measure_of_a_train_lacks_something_in_a_record_that_begins_late(channels, case, prepared):
     """A measure whose channels nobody states would be judged on whatever is there."""
     late = observe(prepared(_of_part("from 3", channels)), case.scenario)
     of_a_train = {name for name, measure in MEASURES.items() if not measure.of_simulation}
     assert late.coverage.missing.keys() == of_a_train - {"standstill"}
 
 
-def test_what_can_only_grow_never_falls_while_a_stop_goes_on(
-    case: Case, channels: Channels, prepared: Any
-) -> None:
+def test_what_can_only_grow_never_falls_while_a_stop_goes_on(case, channels, prepared):
     ends = (0.5, 2.0, 4.0, 6.0, 9.0, 12.0, 15.0, 30.0)
     stages = [_values(prepared(_of_part(f"until {end}", channels)), case) for end in ends]
     for name, measure in MEASURES.items():
@@ -72,7 +62,7 @@ def test_what_can_only_grow_never_falls_while_a_stop_goes_on(
 
 
 @pytest.fixture(scope="module")
-def by_every_measure(case: Case, recording: Recording, prepared: Any) -> Case:
+def by_every_measure(case, recording, prepared):
     """The case, judged by lower and upper bounds on each measure: around its value and far from it."""
     values = _values(prepared(channels_of(recording)), case)
     criteria = tuple(
@@ -87,12 +77,12 @@ def by_every_measure(case: Case, recording: Recording, prepared: Any) -> Case:
 
 
 @pytest.fixture(scope="module")
-def whole(by_every_measure: Case, recording: Recording, prepared: Any) -> CaseResult:
+def whole(by_every_measure, recording, prepared):
     """What the whole record decides."""
     return judge_stop(by_every_measure, prepared(channels_of(recording)))
 
 
-def _criterion(name: str, side: str, share: float, bound: float) -> Criterion:
+def _criterion(name, side, share, bound):
     measure = MEASURES[name]
     unit = next(iter(KINDS[measure.kind].units.values()), None)
     fields: dict[str, Any] = {"id": f"{name.replace('_', '-')}-{side}-{share}", "layer": "requirement"}
@@ -112,8 +102,8 @@ def _criterion(name: str, side: str, share: float, bound: float) -> Criterion:
     ],
 )
 def test_a_part_of_a_record_decides_nothing_else_than_the_whole(
-    part: str, whole: CaseResult, by_every_measure: Case, channels: Channels, prepared: Any
-) -> None:
+    part, whole, by_every_measure, channels, prepared
+):
     some = judge_stop(by_every_measure, prepared(_of_part(part, channels)))
     assert whole.outcome == "fail"
     assert len(whole.criteria) > 100
@@ -129,9 +119,7 @@ def test_a_part_of_a_record_decides_nothing_else_than_the_whole(
 
 
 @pytest.mark.parametrize("part", ["until 12", "from 1", "without 9"])
-def test_what_a_part_shows_for_certain_is_decided(
-    part: str, by_every_measure: Case, channels: Channels, prepared: Any
-) -> None:
+def test_what_a_part_shows_for_certain_is_decided(part, by_every_measure, channels, prepared):
     some = judge_stop(by_every_measure, prepared(_of_part(part, channels)))
     verdicts = {each.id: each.status for each in some.criteria}
     for name in ("sliding-duration", "valve-actuations", "maximum-clamping-force"):
@@ -140,9 +128,7 @@ def test_what_a_part_shows_for_certain_is_decided(
         assert verdicts[f"{name}-upper-3.0"] == "inconclusive"
 
 
-def test_a_valve_that_vents_before_and_after_a_gap_did_not_open_twice(
-    case: Case, channels: Channels, prepared: Any
-) -> None:
+def test_neither_openings_nor_locks_on_either_side_of_a_gap_are_taken_for_others(case, channels, prepared):
     command = channels["valve_command_1"]
     vents = np.zeros_like(command.samples)
     vents[100:200] = 2.0
@@ -150,9 +136,6 @@ def test_a_valve_that_vents_before_and_after_a_gap_did_not_open_twice(
     channels["valve_command_1"] = replace(command, samples=vents)
     observed = observe(prepared(channels), case.scenario)
     assert observed.wheelset_measures[0].valve_actuations == 1.0
-
-
-def test_locks_on_either_side_of_a_gap_are_not_one(case: Case, channels: Channels, prepared: Any) -> None:
     time = channels["speed"].time
     wheel = channels["wheel_speed_1"]
     samples = np.where((time > 1.0) & (time < 2.6), 0.0, channels["speed"].samples)
@@ -162,13 +145,10 @@ def test_locks_on_either_side_of_a_gap_are_not_one(case: Case, channels: Channel
     assert observed.wheelset_measures[0].longest_lock == pytest.approx(0.6, abs=0.03)
 
 
-def test_a_record_without_a_released_brake_shows_no_offsets(channels: Channels, prepared: Any) -> None:
+def test_a_record_that_begins_late_shows_no_offsets_and_knows_no_initial_speed(channels, prepared):
     for begin in (0.5, 1.0, 3.0):
         stop = prepared(_of_part(f"from {begin}", channels))
         assert [defect.kind for defect in stop.defects] == ["starts-late"]
-
-
-def test_a_record_that_begins_late_does_not_know_its_initial_speed(channels: Channels, prepared: Any) -> None:
     statements = ("rail.condition=dry", "brake.position=R", "rig.wsp=active")
     case = stated_case("late", 40.0 / 3.6, (*statements, "criteria=[uic-541-05-appendix-b]"))
     result = judge_stop(case, prepared(_of_part("from 2", channels)))
@@ -181,9 +161,7 @@ def test_a_record_that_begins_late_does_not_know_its_initial_speed(channels: Cha
 
 
 @pytest.mark.parametrize("coarse", ["speed", "wheel_speed_3"])
-def test_samples_far_apart_do_not_show_that_no_wheelset_locked(
-    case: Case, channels: Channels, prepared: Any, coarse: str
-) -> None:
+def test_samples_far_apart_do_not_show_that_no_wheelset_locked(case, channels, prepared, coarse):
     dense = channels[coarse]
     # With the last one, so that a coarse speed shows the standstill.
     every = np.union1d(np.arange(0, dense.time.size, 50), dense.time.size - 1)
@@ -191,7 +169,6 @@ def test_samples_far_apart_do_not_show_that_no_wheelset_locked(
     stop = prepared({**channels, coarse: sparse})
     result = judge_stop(case, stop)
     verdicts = {each.id: each for each in result.criteria}
-
     assert [str(each) for each in stop.defects if each.kind == "coarse"] == [
         f"coarse: {coarse} is sampled every 0.5 s; at most 0.25 s shows all that happens"
     ]

@@ -1,28 +1,17 @@
 """Numbers that no train shows: the unit is wrong, or a sample is no measurement."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from uictest.core.recording.recording import Contents, Group
-from uictest.recorded.field_data import (
-    MapError,
-    RawChannel,
-    RecordedStop,
-    UnusableError,
-    load_map,
-    select_channels,
-)
+from uictest.recorded.field_data import MapError, UnusableError, load_map, select_channels
 
-Channels = dict[str, RawChannel]
 SECONDS = np.arange(0.0, 20.0, 0.05)
 
 
-def _selected(time: object, speed: object, pressure: object, units: tuple[str, str, str]) -> Channels:
+def _selected(time, speed, pressure, units):
     samples = {"time": time, "speed": speed, "cylinder_pressure_1": pressure}
     channels = {name: np.broadcast_to(np.asarray(each), len(SECONDS)) for name, each in samples.items()}
     group = Group("", channels, dict(zip(channels, units, strict=True)))
@@ -43,23 +32,25 @@ def _selected(time: object, speed: object, pressure: object, units: tuple[str, s
         ((1.0, 1.0, 1e308), ("s", "m/s", "bar"), "reaches inf bar"),
     ],
 )
-def test_a_wrong_unit_is_asked_for(
-    factors: tuple[float, float, float], units: tuple[str, str, str], message: str
-) -> None:
+def test_a_wrong_unit_is_asked_for(factors, units, message):
     with np.errstate(over="ignore"):
         pressure = 3.8 * np.float64(factors[2])
     with pytest.raises(MapError, match=message):
         _selected(SECONDS * factors[0], 20.0 * factors[1], pressure, units)
 
 
-def test_times_in_nanoseconds_are_read_where_the_file_says_so() -> None:
+def test_times_in_nanoseconds_and_numbers_among_texts_are_read_in_the_unit_of_their_channel():
     channels = _selected(SECONDS * 1e9, 20.0, 3.8, ("ns", "m/s", "bar"))
     np.testing.assert_allclose(channels["speed"].time, SECONDS)
+    group = Group(
+        "", {"time": SECONDS[:3], "speed": np.array(["36.0", "", "18.0"])}, {"time": "s", "speed": "km/h"}
+    )
+    np.testing.assert_allclose(
+        select_channels(Contents((group,)), load_map("uictest")[0])["speed"].samples, [10, np.nan, 5]
+    )
 
 
-def test_a_single_impossible_sample_is_a_defect_and_not_measured(
-    channels: Channels, prepared: Callable[..., RecordedStop]
-) -> None:
+def test_a_single_impossible_sample_is_a_defect_and_a_speed_without_a_number_unusable(channels, prepared):
     samples = channels["wheel_speed_2"].samples.copy()
     samples[100] = 6553.5
     channels["wheel_speed_2"] = replace(channels["wheel_speed_2"], samples=samples)
@@ -67,52 +58,32 @@ def test_a_single_impossible_sample_is_a_defect_and_not_measured(
     [defect] = [each for each in stop.defects if each.kind == "out-of-range"]
     assert str(defect).startswith("out-of-range: wheel_speed_2 has 1 of")
     assert np.isnan(stop.recording["wheel_speed_2"]).any()
-
-
-@pytest.mark.parametrize("scale", [1e-3, 150.0])
-def test_a_stop_that_no_train_makes_is_refused(
-    channels: Channels, prepared: Callable[..., RecordedStop], scale: float
-) -> None:
-    time = channels["speed"].time * scale
-    scaled = {name: replace(channel, time=time) for name, channel in channels.items()}
-    with pytest.raises(MapError, match=r"m/s2; .* are plausible: check the units of time and speed"):
-        prepared(scaled)
-
-
-def test_a_speed_without_a_number_is_unusable(
-    channels: Channels, prepared: Callable[..., RecordedStop]
-) -> None:
     speed = channels["speed"]
     channels["speed"] = replace(speed, samples=np.full(len(speed.samples), np.nan))
     with pytest.raises(UnusableError, match="not-a-number: speed has"):
         prepared(channels)
 
 
+@pytest.mark.parametrize("scale", [1e-3, 150.0])
+def test_a_stop_that_no_train_makes_is_refused(channels, prepared, scale):
+    time = channels["speed"].time * scale
+    scaled = {name: replace(channel, time=time) for name, channel in channels.items()}
+    with pytest.raises(MapError, match=r"m/s2; .* are plausible: check the units of time and speed"):
+        prepared(scaled)
+
+
 @pytest.mark.parametrize("text", ["nan s", "inf s", "1e400 s", "12", "soon", ""])
-def test_a_stated_time_that_is_none_is_refused(
-    channels: Channels, prepared: Callable[..., RecordedStop], text: str
-) -> None:
+def test_a_stated_time_that_is_none_is_refused(channels, prepared, text):
     with pytest.raises(MapError, match=r"brake_command_time in the header of the file: .* --trigger"):
         prepared(channels, {"brake_command_time": text})
 
 
 @pytest.mark.parametrize("by", ["file", "user"])
-def test_a_brake_command_after_the_record_is_refused(
-    channels: Channels, prepared: Callable[..., RecordedStop], by: str
-) -> None:
+def test_a_brake_command_after_the_record_is_refused(channels, prepared, by):
     facts = {"brake_command_time": "1700000000 s"} if by == "file" else {}
     choices = {"trigger_time": "1700000000 s"} if by == "user" else {}
     with pytest.raises(MapError, match=f"1.7e\\+09 s, stated by the {by}, is not in the record"):
         prepared(channels, facts, **choices)
-
-
-def test_numbers_among_texts_are_in_the_unit_of_the_channel() -> None:
-    group = Group(
-        "", {"time": SECONDS[:3], "speed": np.array(["36.0", "", "18.0"])}, {"time": "s", "speed": "km/h"}
-    )
-    np.testing.assert_allclose(
-        select_channels(Contents((group,)), load_map("uictest")[0])["speed"].samples, [10, np.nan, 5]
-    )
 
 
 @pytest.mark.parametrize(
@@ -125,7 +96,7 @@ def test_numbers_among_texts_are_in_the_unit_of_the_channel() -> None:
         ("broken", "`states`"),
     ],
 )
-def test_a_text_among_numbers_is_placed_and_answered(text: str, remedy: str) -> None:
+def test_a_text_among_numbers_is_placed_and_answered(text, remedy):
     samples = np.array(["10.0", text, "9.0"])
     group = Group(
         "",

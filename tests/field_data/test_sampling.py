@@ -1,9 +1,5 @@
 """Resampling, trigger, standstill, filter: what is done to a record before it is measured."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
@@ -15,14 +11,12 @@ from uictest.recorded.field_data.trigger import find_standstill, find_trigger, r
 RISING = st.lists(st.floats(0.01, 1.0), min_size=2, max_size=30).map(np.cumsum)
 
 
-def _channel(name: str, time: np.ndarray, samples: np.ndarray) -> RawChannel:
+def _channel(name, time, samples):
     return RawChannel(name, name, np.asarray(time, dtype=float), np.asarray(samples, dtype=float))
 
 
 @given(RISING, st.lists(st.floats(-5.0, 40.0), min_size=1, max_size=20))
-def test_nothing_is_known_beyond_the_record_and_a_line_stays_a_line(
-    time: np.ndarray, times_asked: list[float]
-) -> None:
+def test_nothing_is_known_beyond_the_record_and_a_line_stays_a_line(time, times_asked):
     times = np.sort(times_asked)
     values = resampled(_channel("speed", time, 3.0 * time + 1.0), times, raster=100.0)
     inside = (times >= time[0]) & (times <= time[-1])
@@ -31,7 +25,7 @@ def test_nothing_is_known_beyond_the_record_and_a_line_stays_a_line(
 
 
 @given(RISING, st.floats(0.0, 1.0))
-def test_states_are_held(time: np.ndarray, share: float) -> None:
+def test_states_are_held(time, share):
     states = np.arange(len(time), dtype=float) % 3
     times = time[:-1] + 0.99 * share * np.diff(time)
     np.testing.assert_array_equal(
@@ -39,32 +33,29 @@ def test_states_are_held(time: np.ndarray, share: float) -> None:
     )
 
 
-def test_a_gap_stays_a_gap_but_for_its_edges() -> None:
+def test_a_gap_or_a_missing_sample_stays_one_but_for_its_edges():
     time = np.array([0.0, 0.1, 0.2, 0.3, 1.0, 1.1, 1.2])
     values = resampled(_channel("speed", time, time), np.array([0.3, 0.5, 1.0]), raster=0.1)
     np.testing.assert_allclose(values, [0.3, np.nan, 1.0])
+    channel = _channel("speed", np.arange(4.0), np.array([0.0, np.nan, 2.0, 3.0]))
+    values = resampled(channel, np.array([0.0, 0.5, 1.0, 1.5, 2.0, 2.5]), raster=1.0)
+    np.testing.assert_array_equal(np.isnan(values), [False, True, True, True, False, False])
 
 
 @pytest.mark.parametrize(("lost", "is_a_gap"), [(1, False), (2, True)])
-def test_one_sample_lost_is_no_gap_and_two_are(lost: int, is_a_gap: bool) -> None:
+def test_one_sample_lost_is_no_gap_and_two_are(lost, is_a_gap):
     time = np.delete(0.125 * np.arange(20), range(10, 10 + lost))
     assert gaps(time, raster=0.125).any() == is_a_gap
     assert len(list(gap_defects(time, "speed", raster=0.125))) == is_a_gap
 
 
-def test_an_interval_of_two_and_a_half_usual_ones_is_no_gap_and_a_longer_one_is() -> None:
+def test_gaps_are_intervals_of_more_than_two_and_a_half_usual_ones_and_slower_than_the_raster():
     time = np.array([0.0, 1.0, 2.0, 3.0, 5.5, 6.5, 7.5, 10.25])
     assert list(gaps(time, raster=0.1)) == [False] * 6 + [True]
-
-
-def test_what_is_sampled_no_more_slowly_than_the_raster_has_no_gaps() -> None:
-    """Times of a file are rounded: the raster itself may come out a digit longer."""
+    # Times of a file are rounded: the raster itself may come out a digit longer.
     time = np.array([0.0, 0.01, 0.02, 0.03, 0.13, 0.14])
     assert not gaps(time, raster=0.1).any()
     assert gaps(time, raster=0.09).any()
-
-
-def test_the_first_gaps_are_named_and_the_others_counted() -> None:
     time = np.concatenate([10.0 * k + np.arange(5.0) for k in range(6)])
     [defect] = gap_defects(time, "speed", raster=0.1)
     listed = "4 to 10 s, 14 to 20 s, 24 to 30 s and 2 more"
@@ -72,16 +63,8 @@ def test_the_first_gaps_are_named_and_the_others_counted() -> None:
 
 
 @pytest.mark.parametrize(("interval", "coarse"), [(0.25, False), (0.26, True)])
-def test_samples_a_quarter_of_a_second_apart_are_the_last_that_show_all(
-    interval: float, coarse: bool
-) -> None:
+def test_samples_a_quarter_of_a_second_apart_are_the_last_that_show_all(interval, coarse):
     assert len(list(coarse_defects(interval * np.arange(100), "speed"))) == coarse
-
-
-def test_a_missing_sample_spoils_what_lies_beside_it() -> None:
-    channel = _channel("speed", np.arange(4.0), np.array([0.0, np.nan, 2.0, 3.0]))
-    values = resampled(channel, np.array([0.0, 0.5, 1.0, 1.5, 2.0, 2.5]), raster=1.0)
-    np.testing.assert_array_equal(np.isnan(values), [False, True, True, True, False, False])
 
 
 TIME = np.linspace(0.0, 10.0, 1001)
@@ -106,72 +89,60 @@ FACT = {"brake_command_time": "1.5 s"}
         ({"trigger_time": "4 s"}, 4.0, "stated by the user"),
     ],
 )
-def test_triggers(choices: dict[str, str], time: float, text: str) -> None:
+def test_triggers(choices, time, text):
     found = find_trigger(CHANNELS, FACT, Preparation.model_validate(choices))
     assert found.time == pytest.approx(time)
     assert text in found.text
     assert not found.late
 
 
-def test_auto_takes_the_first_that_is_recorded() -> None:
+def test_auto_takes_the_first_that_is_recorded_or_asks():
     auto = Preparation()
     assert find_trigger(CHANNELS, {}, auto).time == 2.0
     without = {name: channel for name, channel in CHANNELS.items() if name != "brake_command"}
     assert find_trigger(without, {}, auto).text.endswith("demanded_pressure rises")
+    with pytest.raises(MapError, match="state it with --trigger"):
+        find_trigger({"speed": SPEED}, {}, Preparation())
 
 
-def test_a_brake_that_holds_the_train_before_it_departs_is_no_trigger() -> None:
+def test_a_brake_that_is_on_is_late_for_a_running_train_and_no_trigger_before_it_departs():
     pressure = _channel("brake_line_pressure", TIME, np.where((TIME < 1.0) | (TIME > 6.0), 3e5, 0.0))
     speed = _channel("speed", TIME, np.clip(5.0 * (TIME - 2.0), 0.0, 15.0))
     found = find_trigger({"speed": speed, "brake_line_pressure": pressure}, {}, Preparation())
     assert found.time == pytest.approx(6.0, abs=0.02)
     assert not found.late
-
-
-def test_a_brake_that_is_on_from_the_start_of_a_running_record_is_late() -> None:
     pressure = _channel("brake_line_pressure", TIME, np.full(1001, 3e5))
     assert find_trigger({"speed": SPEED, "brake_line_pressure": pressure}, {}, Preparation()).late
 
 
-def test_nothing_marks_the_brake_command() -> None:
-    with pytest.raises(MapError, match="state it with --trigger"):
-        find_trigger({"speed": SPEED}, {}, Preparation())
-
-
-def stood(time: np.ndarray, speed: np.ndarray) -> Any:
+def stood(time, speed):
     found = find_standstill(time, speed, 0.0, slow=0.3)
     assert found is not None
     return found
 
 
-def test_standstill_between_samples() -> None:
+def test_standstill_between_samples_or_just_beyond_the_record_is_found_and_no_other():
     time = np.arange(0.0, 12.0, 0.1)
     found = stood(time, 10.03 - time)
     assert found.time == pytest.approx(10.03)
     assert found.beyond == 0.0
-
-
-def test_standstill_just_beyond_the_record_is_run_out() -> None:
     time = np.arange(0.0, 9.95, 0.1)
     found = stood(time, 10.03 - time)
     assert found.time == pytest.approx(10.03)
     assert found.beyond == pytest.approx(0.5 * 0.13**2)
     assert "run out" in found.text
-
-
-def test_a_record_that_ends_faster_holds_no_standstill() -> None:
     time = np.arange(0.0, 9.0, 0.1)
     assert find_standstill(time, 10.03 - time, 0.0, slow=0.3) is None
+    # No deceleration can be taken from it, so nobody knows when the train stood.
+    time = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
+    assert find_standstill(time, np.array([8.0, 6.0, 4.0, 2.0, 0.1]), 0.0, slow=0.3) is None
 
 
-def test_a_sensor_that_reads_a_little_at_rest_does_not_delay_standstill() -> None:
+def test_a_sensor_that_reads_a_little_at_rest_or_a_late_zero_does_not_delay_standstill():
     time = np.arange(0.0, 30.0, 0.1)
     found = stood(time, np.maximum(10.03 - time, 0.05))
     assert found.time == pytest.approx(10.03, abs=0.06)
-
-
-def test_a_zero_long_after_the_fall_is_another_stop() -> None:
-    """The train creeps for three seconds, then stands: what it ran out to is the standstill."""
+    # The train creeps for three seconds, then stands: what it ran out to is the standstill.
     time = np.arange(0.0, 15.0, 0.1)
     speed = np.where(time < 13.0, np.maximum(10.03 - time, 0.05), 0.0)
     found = stood(time, speed)
@@ -179,7 +150,7 @@ def test_a_zero_long_after_the_fall_is_another_stop() -> None:
     assert "run out" in found.text
 
 
-def test_the_train_runs_out_at_the_deceleration_of_the_last_half_second() -> None:
+def test_the_train_runs_out_at_the_deceleration_of_the_last_half_second():
     """It brakes twice as hard from then on."""
     time = np.arange(0.0, 9.75, 0.05)
     speed = np.where(time < 9.2, 10.2 - time, 1.0 - 2.0 * (time - 9.2)) + 0.25
@@ -188,50 +159,38 @@ def test_the_train_runs_out_at_the_deceleration_of_the_last_half_second() -> Non
     assert found.beyond == pytest.approx(speed[-1] ** 2 / 4.0)
 
 
-def test_one_slow_sample_after_a_second_without_any_is_no_standstill() -> None:
-    """No deceleration can be taken from it, so nobody knows when the train stood."""
-    time = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
-    assert find_standstill(time, np.array([8.0, 6.0, 4.0, 2.0, 0.1]), 0.0, slow=0.3) is None
-
-
-def _braking(deceleration: float, initial_speed: float = 20.0) -> RawChannel:
+def _braking(deceleration, initial_speed=20.0):
     time = np.linspace(0.0, initial_speed / deceleration, 2001)
     return _channel("speed", time, initial_speed - deceleration * time)
 
 
 @pytest.mark.parametrize("deceleration", [0.0102, 1.0, 19.8])
-def test_what_a_train_can_do_is_plausible(deceleration: float) -> None:
+def test_what_a_train_can_do_is_plausible(deceleration):
     require_plausible_deceleration(_braking(deceleration), 0.0)
 
 
 @pytest.mark.parametrize("deceleration", [0.0098, 20.2])
-def test_what_no_train_can_do_is_told_in_numbers(deceleration: float) -> None:
+def test_what_no_train_can_do_is_told_in_numbers(deceleration):
     numbers = f"from 72 to 36 km/h in {10.0 / deceleration:.4g} s, at {deceleration:.4g} m/s2"
     with pytest.raises(MapError, match=f"the train slows {numbers}"):
         require_plausible_deceleration(_braking(deceleration), 0.0)
 
 
-def test_a_train_that_stands_at_the_brake_command_has_no_deceleration_to_ask_for() -> None:
+def test_the_deceleration_is_asked_for_after_the_brake_command_of_a_moving_train():
     time = np.arange(0.0, 20.0, 0.1)
     speed = np.where(np.abs(time - 5.0) < 2.0, 5.0, 0.0)
     require_plausible_deceleration(_channel("speed", time, speed), 0.0)
-
-
-def test_the_deceleration_is_asked_for_after_the_brake_command_alone() -> None:
-    """Before it, a wagon may have been shunted or a sensor switched on."""
+    # Before it, a wagon may have been shunted or a sensor switched on.
     braking = _braking(1.0)
     time = np.concatenate(([-2.0, -1.9], braking.time))
     speed = np.concatenate(([300.0, 0.0], braking.samples))
     require_plausible_deceleration(_channel("speed", time, speed), 0.0)
 
 
-def test_a_low_pass_keeps_level_and_place_and_takes_ripple() -> None:
+def test_a_low_pass_keeps_level_and_place_of_what_it_filters():
     ripple = np.sin(2.0 * np.pi * 40.0 * TIME)
     channel = _channel("speed", TIME, 20.0 - TIME + ripple)
     filtered = low_passed(channel, 2.0).samples[100:-100]
     np.testing.assert_allclose(filtered, (20.0 - TIME)[100:-100], atol=0.02)
-
-
-def test_states_and_slow_channels_are_not_filtered() -> None:
     assert low_passed(COMMAND, 2.0) is COMMAND
     assert low_passed(SPEED, 45.0) is SPEED

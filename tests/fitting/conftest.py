@@ -1,16 +1,10 @@
 """Simulated stops as a train would record them: with the noise and the errors of sensors."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import pytest
 
-from uictest.core.recording import TIME, Recording
-from uictest.plans.scenario import Case
-from uictest.recorded.field_data import Preparation, RawChannel, RecordedStop, prepare, stated_case
+from uictest.core.recording import TIME
+from uictest.recorded.field_data import Preparation, RawChannel, prepare, stated_case
 from uictest.rig import simulate
 
 NOISE = {"speed": 0.05, "wheel_speed": 0.03, "clamping_force": 50.0}
@@ -18,13 +12,11 @@ NOISE = {"speed": 0.05, "wheel_speed": 0.03, "clamping_force": 50.0}
 LOADCELL_GAIN = 0.005
 """Standard deviation of the gain errors of loadcells, share."""
 
-Make = Callable[..., tuple[Case, RecordedStop]]
 
-
-def _with_sensor_noise(recording: Recording, dice: np.random.Generator) -> dict[str, RawChannel]:
+def _with_sensor_noise(recording, dice):
     time = np.asarray(recording[TIME])
 
-    def noise(kind: str) -> np.ndarray:
+    def noise(kind):
         return dice.normal(0.0, NOISE[kind], len(time))
 
     samples = {"speed": recording["speed"] + noise("speed")}
@@ -36,10 +28,10 @@ def _with_sensor_noise(recording: Recording, dice: np.random.Generator) -> dict[
 
 
 @pytest.fixture
-def recorded_stop() -> Make:
+def recorded_stop():
     """Simulate a stop from a speed in km/h on a friction, and record it with the sensor noise of a seed."""
 
-    def make(speed: float, friction: str, seed: int = 0, without: tuple[str, ...] = (), **facts: Any) -> Any:
+    def make(speed, friction, seed=0, without=(), **facts):
         wsp = facts.get("wsp", "active")
         case = stated_case(
             "stop",
@@ -47,7 +39,6 @@ def recorded_stop() -> Make:
             ["rail.condition=wet", f"rail.friction={friction}", f"rig.wsp={wsp}", *facts.get("settings", ())],
         )
         recording = simulate(case, record_every=0.01).recording
-        assert recording is not None
         channels = _with_sensor_noise(recording, np.random.default_rng(seed))
         kept = {name: c for name, c in channels.items() if not name.startswith(without or ("-",))}
         return case, prepare(kept, recording.metadata, Preparation())

@@ -1,22 +1,14 @@
 """Energy and recovered friction found again in stops that the rig simulated, or said not to be there."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import pytest
 
-from uictest.plans.scenario import Scenario
 from uictest.recorded.field_data import WHEELSETS, stated_case
-from uictest.recorded.fitting import CleaningFit, FitError, fit_cleaning, fit_stop
+from uictest.recorded.fitting import FitError, fit_cleaning, fit_stop
 from uictest.rig import simulate
 
-Make = Callable[..., Any]
 
-
-def cleaning(energy: float, recovered: float) -> str:
+def cleaning(energy, recovered):
     return (
         f"rail.cleaning={{energy: {energy:g} J/m, recovered_friction: {recovered}, reach: 0.5 m,"
         " carry_over: 0.5}"
@@ -24,21 +16,21 @@ def cleaning(energy: float, recovered: float) -> str:
 
 
 @pytest.fixture
-def library() -> Scenario:
+def library():
     """A scenario with the library's cleaning, which is not that of the recorded stops."""
     return stated_case("guess", 80.0 / 3.6, ["rail.condition=wet-cleaning"]).scenario
 
 
 @pytest.fixture
-def stop(recorded_stop: Make) -> Make:
-    def make(speed: float, mu: float, seed: int, cleans: str, **facts: Any) -> Any:
+def stop(recorded_stop):
+    def make(speed, mu, seed, cleans, **facts):
         rig = facts.pop("rig", "rig.topology=one-caliper")
         return recorded_stop(speed, str(mu), seed, settings=(cleans, rig), **facts)[1]
 
     return make
 
 
-def errors(fit: CleaningFit, energy: float, recovered: float) -> list[float]:
+def errors(fit, energy, recovered):
     """Errors of energy and recovered friction over their half widths."""
     e = fit.estimate
     assert e.standing == "found", str(e)
@@ -57,9 +49,7 @@ def errors(fit: CleaningFit, energy: float, recovered: float) -> list[float]:
         pytest.param(0.1, "one-caliper", marks=pytest.mark.slow),
     ],
 )
-def test_stops_with_deep_slides_tell_both_within_their_confidence(
-    stop: Make, library: Scenario, friction: float, topology: str
-) -> None:
+def test_stops_with_deep_slides_tell_both_within_their_confidence(stop, library, friction, topology):
     recorded = stop(80.0, friction, 1, cleaning(8000.0, 0.22), rig=f"rig.topology={topology}")
     fit = fit_cleaning([recorded], library)
     assert fit.determined
@@ -69,9 +59,7 @@ def test_stops_with_deep_slides_tell_both_within_their_confidence(
     assert float(fit.in_force.energy) == pytest.approx(fit.estimate.energy, rel=1e-3)
 
 
-def test_the_cleanest_rail_under_a_wheelset_is_as_clean_as_the_rig_made_it(
-    recorded_stop: Make, library: Scenario
-) -> None:
+def test_the_cleanest_rail_under_a_wheelset_is_as_clean_as_the_rig_made_it(recorded_stop, library):
     """Friction under a wheelset is mu0 + C (mur - mu0), with the cleaned share C."""
     settings = (cleaning(8000.0, 0.22), "rig.topology=one-caliper")
     case, recorded = recorded_stop(80.0, "0.07", 1, settings=settings)
@@ -84,14 +72,14 @@ def test_the_cleanest_rail_under_a_wheelset_is_as_clean_as_the_rig_made_it(
     assert fit_cleaning([recorded], library).estimate.largest_share == pytest.approx(share, rel=0.1)
 
 
-def test_without_forces_the_noise_of_the_train_speed_is_too_much(stop: Make, library: Scenario) -> None:
+def test_without_forces_the_noise_of_the_train_speed_is_too_much(stop, library):
     recorded = stop(120.0, 0.05, 1, cleaning(5000.0, 0.3), without=("clamping_force",))
     fit = fit_cleaning([recorded], library)
     assert fit.estimate.standing == "not told apart"
     assert fit.stops[0].friction[0].value == pytest.approx(0.05, rel=0.1)
 
 
-def test_two_stops_tell_what_neither_does_alone(stop: Make, library: Scenario) -> None:
+def test_two_stops_tell_what_neither_does_alone(stop, library):
     """While hardly any of the rail is clean only (mur - mu0) / Wc shows; of two mu0 that is enough."""
     numbers = cleaning(45e3, 0.28)
     both = [stop(80.0, 0.07, 1, numbers), stop(80.0, 0.12, 2, numbers)]
@@ -110,8 +98,8 @@ def test_two_stops_tell_what_neither_does_alone(stop: Make, library: Scenario) -
 
 
 @pytest.mark.parametrize("wsp", ["active", "bypassed"])
-def test_cleaning_is_not_found_where_there_was_none(recorded_stop: Make, library: Scenario, wsp: str) -> None:
-    _, recorded = recorded_stop(80.0, "0.07", 3, wsp=wsp, settings=("rig.compensation=full",))
+def test_cleaning_is_not_found_where_there_was_none(recorded_stop, library, wsp):
+    _, recorded = recorded_stop(60.0, "0.07", 3, wsp=wsp, settings=("rig.compensation=full",))
     fit = fit_cleaning([recorded], library)
     assert fit.estimate.standing == "not seen"
     assert not fit.determined
@@ -121,7 +109,7 @@ def test_cleaning_is_not_found_where_there_was_none(recorded_stop: Make, library
     assert fit.stops[0].friction[0].value == pytest.approx(0.07, rel=0.03)
 
 
-def test_a_stop_with_hardly_any_sliding_tells_nothing(stop: Make, library: Scenario) -> None:
+def test_a_stop_with_hardly_any_sliding_tells_nothing(stop, library):
     fit = fit_cleaning([stop(60.0, 0.3, 1, cleaning(8000.0, 0.4))], library)
     assert fit.estimate.standing == "nothing slid"
     assert not fit.determined
@@ -129,20 +117,20 @@ def test_a_stop_with_hardly_any_sliding_tells_nothing(stop: Make, library: Scena
     assert fit.stops[0].friction[0].standing == "at least"
 
 
-def test_a_scenario_that_does_not_clean_is_told_the_librarys_values(recorded_stop: Make) -> None:
+def test_a_scenario_that_does_not_clean_is_told_the_librarys_values(recorded_stop):
     case, recorded = recorded_stop(60.0, "0.07")
     with pytest.raises(FitError, match=r"rail\.cleaning: \{energy: 5300 J/m, recovered_friction: 0\.28,"):
         fit_cleaning([recorded], case.scenario)
 
 
-def test_which_of_several_recordings_lacks_something_is_told(stop: Make, library: Scenario) -> None:
+def test_which_of_several_recordings_lacks_something_is_told(stop, library):
     good = stop(60.0, 0.07, 1, cleaning(8000.0, 0.22))
     bad = stop(60.0, 0.07, 1, cleaning(8000.0, 0.22), without=("wheel_speed_2",))
     with pytest.raises(FitError, match=r"recording 2: .*wheel_speed_2"):
         fit_cleaning([good, bad], library)
 
 
-def test_stated_cleaning_is_not_counted_twice(recorded_stop: Make) -> None:
+def test_stated_cleaning_is_not_counted_twice(recorded_stop):
     """Without a fit of the cleaning, the friction is that of the rail as found."""
     case, recorded = recorded_stop(80.0, "0.07", 1, settings=(cleaning(8000.0, 0.22),))
     plain = stated_case("plain", 80.0 / 3.6, ["rail.condition=wet"]).scenario
@@ -151,7 +139,7 @@ def test_stated_cleaning_is_not_counted_twice(recorded_stop: Make) -> None:
 
 
 @pytest.mark.slow
-def test_the_stated_confidence_covers(stop: Make, library: Scenario) -> None:
+def test_the_stated_confidence_covers(stop, library):
     """Of 95 % intervals of two correlated numbers from 20 records, at least 18 pairs hold both."""
     cases = [(80.0, 0.07), (120.0, 0.09), (80.0, 0.1), (120.0, 0.05)]
     inside = 0

@@ -1,12 +1,8 @@
 """A stop that slides at one energy per metre: its rail is equally clean everywhere, as if found so."""
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
 from uictest.core.units import STANDARD_GRAVITY
-from uictest.plans.scenario import Scenario
 from uictest.recorded.field_data import stated_case
 from uictest.recorded.fitting.balances import Balances, wheelset_creep, windows_of
 from uictest.recorded.fitting.cleaned_stop import CleanedStop
@@ -19,7 +15,7 @@ LOSS = 2000.0
 """J/m"""
 
 
-def steady_slide(scenario: Scenario) -> StopSamples:
+def steady_slide(scenario):
     """Samples of a stop whose four wheelsets lose as much per metre as long as it lasts."""
     friction = FRICTION - np.expm1(-LOSS / ENERGY) * (CLEAN - FRICTION)
     vehicle, rail = scenario.vehicle, scenario.rail.condition
@@ -38,13 +34,7 @@ def steady_slide(scenario: Scenario) -> StopSamples:
     return samples(scenario, speed, np.interp(speed, grid, slip), np.interp(speed, grid, force), step)
 
 
-def samples(
-    scenario: Scenario,
-    speed: NDArray[np.float64],
-    slip: NDArray[np.float64],
-    force: NDArray[np.float64],
-    step: float,
-) -> StopSamples:
+def samples(scenario, speed, slip, force, step):
     four, n = np.ones((4, 1)), len(speed)
     dice = np.random.default_rng(1)
     wheelset, time = scenario.vehicle.wheelset, step * np.arange(n)
@@ -60,7 +50,7 @@ def samples(
     )
 
 
-def test_one_level_of_energy_does_not_tell_both_numbers() -> None:
+def test_one_level_of_energy_does_not_tell_both_numbers():
     cleaning = f"{{energy: {ENERGY} J/m, recovered_friction: {CLEAN}, reach: 0.5 m, carry_over: 0}}"
     settings = ["rail.condition=wet", f"rail.friction={FRICTION}", f"rail.cleaning={cleaning}"]
     scenario = stated_case("one", 30.0, settings).scenario

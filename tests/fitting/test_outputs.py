@@ -1,14 +1,11 @@
 """The scenario that a fit leaves: its friction and its name."""
 
-from __future__ import annotations
-
-from pathlib import Path
 from typing import Any
 
 import pytest
 import yaml
 
-from uictest.plans.scenario import Case, load
+from uictest.plans.scenario import load
 from uictest.recorded.field_data import stated_case
 from uictest.recorded.fitting.estimate import Fit
 from uictest.recorded.fitting.outputs import fitted_yaml, friction_of
@@ -18,14 +15,14 @@ NAN = float("nan")
 HEAD = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 80 km/h\n"
 
 
-def fit(*estimates: tuple[str, float], breaks: tuple[float, ...] = ()) -> Fit:
+def fit(*estimates, breaks=()):
     """Return a fit with these standings and values, one for each stretch."""
-    found: list[Any] = [Estimate("friction", standing, value, NAN, 1) for standing, value in estimates]  # type: ignore[arg-type]
+    found: list[Any] = [Estimate("friction", standing, value, NAN, 1) for standing, value in estimates]
     return Fit(breaks, tuple(found), None, 0.001)
 
 
 @pytest.fixture
-def case() -> Case:
+def case():
     """A stop on a rail of friction 0.3, as far as its scenario knows."""
     return stated_case("guess", 80.0 / 3.6, ["rail.condition=wet", "rail.friction=0.3"])
 
@@ -39,14 +36,12 @@ def case() -> Case:
         (("found", 1.2), 1.0),
     ],
 )
-def test_friction_is_what_was_found_or_the_scenarios_own_unless_it_is_higher(
-    case: Case, estimate: tuple[str, float], friction: float
-) -> None:
+def test_friction_is_what_was_found_or_the_scenarios_own_unless_it_is_higher(case, estimate, friction):
     """A scenario takes no friction above 1."""
     assert friction_of(fit(estimate), case.scenario) == friction
 
 
-def test_a_stretch_that_no_wheelset_reached_takes_its_neighbours_friction(case: Case) -> None:
+def test_a_stretch_that_no_wheelset_reached_takes_its_neighbours_friction(case):
     fitted = fit(("found", 0.07), ("not reached", NAN), ("found", 0.1), breaks=(50.0, 120.0))
     assert friction_of(fitted, case.scenario) == {
         "points": [
@@ -58,16 +53,14 @@ def test_a_stretch_that_no_wheelset_reached_takes_its_neighbours_friction(case: 
     }
 
 
-def test_a_stretch_that_begins_behind_the_brake_command_has_one_before_it(case: Case) -> None:
+def test_a_stretch_that_begins_behind_the_brake_command_has_one_before_it(case):
     points: Any = friction_of(fit(("found", 0.07), ("found", 0.1), breaks=(-20.0,)), case.scenario)
     assert [each["position"] for each in points["points"]] == ["-21 m", "-20 m"]
 
 
 @pytest.mark.parametrize("length", [5, 100])
 @pytest.mark.parametrize("stop", [None, ("t" * 100, "79 km/h")])
-def test_a_fitted_scenario_has_a_name_that_scenarios_can_have(
-    tmp_path: Path, length: int, stop: tuple[str, str] | None
-) -> None:
+def test_a_fitted_scenario_has_a_name_that_scenarios_can_have(tmp_path, length, stop):
     name = "s" * length
     path = tmp_path / "own.yaml"
     path.write_text(HEAD.format(name=name) + "rail: {condition: wet}\n", "utf-8")

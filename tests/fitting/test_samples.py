@@ -1,7 +1,5 @@
 """What a fit takes from a record: torques by forces, and the speed at the brake command."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -11,13 +9,12 @@ from uictest.recorded.fitting.samples import initial_speed, samples_of
 from uictest.rig import simulate
 
 
-def test_forces_say_the_torque_of_pads_that_do_not_vary() -> None:
+def test_forces_say_the_torque_of_pads_that_do_not_vary():
     """By calipers, pads, radius and friction, each wheelset with its own: the rig records both."""
     own = "{1: {brake_force: 80 %}, 4: {pad_friction: 0.45}}"
     settings = ["rail.condition=wet", "rail.friction=0.07", f"vehicle.wheelsets={own}"]
     case = stated_case("stop", 80.0 / 3.6, settings)
     recording = simulate(case, record_every=0.01).recording
-    assert recording is not None
     time = np.asarray(recording[TIME])
     names = [f"{kind}_{n}" for n in WHEELSETS for kind in ("wheel_speed", "clamping_force", "brake_torque")]
     channels = {
@@ -36,7 +33,7 @@ def test_forces_say_the_torque_of_pads_that_do_not_vary() -> None:
     assert rolling.mean() > 0.98
 
 
-def test_the_initial_speed_is_the_mean_of_the_first_tenth_of_a_second() -> None:
+def test_the_initial_speed_is_the_mean_of_the_first_tenth_of_a_second():
     """One sample has the noise of one sample; a long mean would be that of a train that brakes."""
     time = np.arange(-1.0, 21.0, 0.01)
     dice = np.random.default_rng(0)
