@@ -1,8 +1,6 @@
 """A stop as columns of samples, fed to the streaming measures one row at a time."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import pytest
@@ -52,7 +50,7 @@ class Samples:
     reservoir_pressure: Column
 
 
-def _samples() -> Samples:
+def _samples():
     """Half a minute of braking from 30 m/s with slides, a lock and vents, none of them regular."""
     random = np.random.default_rng(5)
     time = np.arange(2601) * 0.01
@@ -78,7 +76,7 @@ def _samples() -> Samples:
     )
 
 
-def _measured(samples: Samples) -> tuple[Any, Any]:
+def _measured(samples):
     """Measures of the train and of its wheelsets after all samples but the first, which begins them."""
     definition = np.zeros(1, layout_of(MeasureDefinition))[0]
     for name, value in _DEFINITION.items():
@@ -109,18 +107,18 @@ def _measured(samples: Samples) -> tuple[Any, Any]:
 
 
 @pytest.fixture(name="measured", scope="session")
-def _measured_fixture() -> Callable[[Samples], tuple[Any, Any]]:
+def _measured_fixture():
     """Measure samples: the record of the train and four of wheelsets."""
     return _measured
 
 
 @pytest.fixture(name="samples", scope="session")
-def _samples_fixture() -> Samples:
+def _samples_fixture():
     """A stop with slides."""
     return _samples()
 
 
 @pytest.fixture(name="stop", scope="session")
-def _stop_fixture(samples: Samples) -> tuple[Any, Any]:
+def _stop_fixture(samples):
     """The measures of that stop."""
     return _measured(samples)

@@ -24,38 +24,34 @@ from uictest.core.measures.catalogue.stopping import mean_deceleration
 
 COMMANDED = 3.8e5
 DEFINITION: Any = SimpleNamespace(
-    rising_share=0.05,
-    developed_share=0.95,
-    deceleration_filter=0.5,
-    moving_speed=2.8,
-    developed_time=2.0,
+    rising_share=0.05, developed_share=0.95, deceleration_filter=0.5, moving_speed=2.8, developed_time=2.0
 )
 
 
 class Braking:
     """A train that rolls at v0 for the dead time; its deceleration then grows evenly to `full`."""
 
-    def __init__(self, v0: float, dead: float, rise: float, full: float) -> None:
+    def __init__(self, v0, dead, rise, full):
         self.v0, self.dead, self.rise, self.full = v0, dead, rise, full
         self.speed_after_rise = v0 - full * rise / 2
         self.standstill = dead + rise + self.speed_after_rise / full
 
-    def pressure(self, t: np.ndarray) -> np.ndarray:
+    def pressure(self, t):
         return COMMANDED * np.clip((t - self.dead) / self.rise, 0.0, 1.0)
 
-    def speed(self, t: np.ndarray) -> np.ndarray:
+    def speed(self, t):
         growing = np.clip(t - self.dead, 0.0, self.rise)
         steady = np.maximum(t - self.dead - self.rise, 0.0)
         return self.v0 - self.full * (growing**2 / (2 * self.rise) + steady)
 
-    def distance(self, t: np.ndarray) -> np.ndarray:
+    def distance(self, t):
         growing = np.clip(t - self.dead, 0.0, self.rise)
         steady = np.maximum(t - self.dead - self.rise, 0.0)
         lost = growing**3 / (6 * self.rise) + growing / 2 * steady + steady**2 / 2
         return self.v0 * t - self.full * lost
 
 
-def observed(stop: Braking, interval: float, begin: float = 0.0) -> Any:
+def observed(stop, interval, begin=0.0):
     """The measures of the train; at the end of the samples it stands."""
     times = np.arange(begin, stop.standstill, interval)
     rows = np.stack([times, stop.distance(times), stop.speed(times), stop.pressure(times)], axis=1).tolist()
@@ -73,14 +69,14 @@ def observed(stop: Braking, interval: float, begin: float = 0.0) -> Any:
 STOP = Braking(v0=33.0, dead=0.4, rise=4.0, full=1.1)
 
 
-def test_even_build_up_takes_its_dead_time_and_half_of_its_duration() -> None:
+def test_even_build_up_takes_its_dead_time_and_half_of_its_duration():
     train = observed(STOP, 0.01)
     assert train.build_up_time == pytest.approx(0.4 + 4.0 / 2, abs=1e-9)
     assert train.build_up_distance == pytest.approx(float(STOP.distance(np.array(2.4))), abs=1e-4)
 
 
 @given(st.floats(20.0, 60.0), st.floats(0.0, 1.0), st.floats(0.5, 8.0), st.floats(0.6, 1.5))
-def test_deceleration_distance_of_an_even_build_up(v0: float, dead: float, rise: float, full: float) -> None:
+def test_deceleration_distance_of_an_even_build_up(v0, dead, rise, full):
     """s - s(te), where s(te) = v0 te - a rise^2 / 48: half of the build-up is over."""
     stop = Braking(v0, dead, rise, full)
     te = dead + rise / 2
@@ -90,14 +86,12 @@ def test_deceleration_distance_of_an_even_build_up(v0: float, dead: float, rise:
 
 
 @given(st.floats(20.0, 60.0), st.floats(0.0, 2.0), st.floats(0.6, 1.5))
-def test_brake_that_comes_at_once_has_its_own_deceleration_behind_the_dead_time(
-    v0: float, dead: float, full: float
-) -> None:
+def test_brake_that_comes_at_once_has_its_own_deceleration_behind_the_dead_time(v0, dead, full):
     (deceleration,) = developed_deceleration(observed(Braking(v0, dead, 1e-6, full), 0.01)).values
     assert deceleration == pytest.approx(full, rel=1e-3)
 
 
-def test_a_weaker_brake_keeps_its_share_of_the_developed_deceleration() -> None:
+def test_a_weaker_brake_keeps_its_share_of_the_developed_deceleration():
     """4 s of build-up, the same in both stops, make the mean deceleration of the weaker one look better."""
     full, weak = observed(STOP, 0.01), observed(Braking(v0=33.0, dead=0.4, rise=4.0, full=0.8 * 1.1), 0.01)
     (developed,), (reference,) = developed_deceleration(weak).values, developed_deceleration(full).values
@@ -113,12 +107,12 @@ def test_a_weaker_brake_keeps_its_share_of_the_developed_deceleration() -> None:
         ("developed_deceleration_mps2", developed_deceleration),
     ],
 )
-def test_the_column_of_a_stop_that_ended_is_its_measure(column: str, measure: Any) -> None:
+def test_the_column_of_a_stop_that_ended_is_its_measure(column, measure):
     train = observed(STOP, 0.01)
     assert STOP_COLUMNS[column].read(train, {}) == measure(train).values[0]
 
 
-def test_developed_deceleration_falls_up_to_now() -> None:
+def test_developed_deceleration_falls_up_to_now():
     train = observed(STOP, 0.01)
     train.stopped = 0.0
     train.end_distance = train.build_up_distance
@@ -128,13 +122,13 @@ def test_developed_deceleration_falls_up_to_now() -> None:
 
 
 @pytest.mark.parametrize("interval", [0.02, 0.05, 0.1, 0.2])
-def test_build_up_does_not_depend_on_when_the_samples_fall(interval: float) -> None:
+def test_build_up_does_not_depend_on_when_the_samples_fall(interval):
     fine, coarse = observed(STOP, 0.001), observed(STOP, interval)
     assert coarse.build_up_time == pytest.approx(fine.build_up_time, abs=1e-6)
     assert coarse.build_up_distance == pytest.approx(fine.build_up_distance, abs=0.2 * interval**2)
 
 
-def test_shares_of_the_pressure_are_parameters() -> None:
+def test_shares_of_the_pressure_are_parameters():
     other = SimpleNamespace(**vars(DEFINITION) | {"rising_share": 0.01, "developed_share": 0.5})
     train: Any = SimpleNamespace(end_time=0.0, end_distance=0.0, end_speed=20.0)
     begin_build_up(train, COMMANDED, 0.0)
@@ -142,18 +136,12 @@ def test_shares_of_the_pressure_are_parameters() -> None:
     assert train.build_up_time == pytest.approx(4.0 * (0.01 + 0.5) / 2)
 
 
-def test_pressure_that_comes_at_once_is_built_up_between_two_samples() -> None:
+def test_pressure_that_comes_at_once_or_was_there_or_falls_again():
     train = observed(Braking(v0=20.0, dead=1.0, rise=1e-6, full=1.0), 0.01)
     assert train.build_up_time == pytest.approx(1.0, abs=0.01)
-
-
-def test_record_that_begins_with_the_brake_built_up_says_so_at_once() -> None:
-    """What comes late cannot be known; whether that counts is decided by what the record lacks."""
+    # What comes late cannot be known; whether that counts is decided by what the record lacks.
     train = observed(STOP, 0.01, begin=6.0)
     assert train.build_up_time == pytest.approx(6.0)
-
-
-def test_pressure_that_falls_again_changes_nothing() -> None:
     train = observed(STOP, 0.01)
     before = (train.build_up_time, train.build_up_distance)
     for pressure in (0.0, COMMANDED):
@@ -161,16 +149,13 @@ def test_pressure_that_falls_again_changes_nothing() -> None:
     assert (train.build_up_time, train.build_up_distance) == before
 
 
-def test_brake_that_never_builds_up_has_neither_time_nor_distance() -> None:
+def test_brake_that_never_builds_up_or_whose_pressure_is_not_known_has_neither_time_nor_distance():
     train: Any = SimpleNamespace(end_time=0.0, end_distance=0.0, end_speed=20.0)
     begin_build_up(train, COMMANDED, 0.0)
     observe_build_up(train, DEFINITION, 1.0, 20.0, 20.0, 0.94 * COMMANDED)
     assert "never reached `developed_share`" in build_up_time(train).unavailable_reason
     assert "never reached `developed_share`" in deceleration_distance(train).unavailable_reason
     assert "never reached `developed_share`" in developed_deceleration(train).unavailable_reason
-
-
-def test_gap_in_the_pressure_is_no_build_up() -> None:
     train: Any = SimpleNamespace(end_time=0.0, end_distance=0.0, end_speed=20.0)
     begin_build_up(train, COMMANDED, float("nan"))
     observe_build_up(train, DEFINITION, 1.0, 20.0, 20.0, float("nan"))

@@ -11,7 +11,7 @@ CYCLE = 0.01
 DEFINITION = SimpleNamespace(moving_speed=2.8, developed_time=2.0, released_share=0.2)
 
 
-def train(cycle: int, speed: float = 20.0) -> SimpleNamespace:
+def train(cycle, speed=20.0):
     """The measures of a stop after the sample of a cycle."""
     return SimpleNamespace(
         previous_time=(cycle - 1) * CYCLE,
@@ -23,7 +23,7 @@ def train(cycle: int, speed: float = 20.0) -> SimpleNamespace:
     )
 
 
-def released(forces: list[float], faulty: list[float], first: int = 300) -> float:
+def released(forces, faulty, first=300):
     """The longest release of a wheelset with these forces, beside one of 10 kN."""
     wheelset = SimpleNamespace(faulty=0.0, release=0.0, longest_release=math.nan)
     for cycle, (force, fault) in enumerate(zip(forces, faulty, strict=True), start=first):
@@ -31,22 +31,22 @@ def released(forces: list[float], faulty: list[float], first: int = 300) -> floa
     return wheelset.longest_release
 
 
-def test_the_longest_stretch_without_force_counts() -> None:
+def test_the_longest_stretch_without_force_counts():
     forces = [1e3] * 50 + [3e3] * 10 + [1e3] * 120 + [3e3] * 10
     assert released(forces, [1.0] * len(forces)) == pytest.approx(1.2)
 
 
-def test_only_while_the_speed_sensor_is_faulty() -> None:
+def test_only_while_the_speed_sensor_is_faulty():
     faulty = [0.0] * 50 + [1.0] * 30 + [0.0] * 40
     assert released([0.0] * len(faulty), faulty) == pytest.approx(0.3)
     assert math.isnan(released([0.0] * 50, [0.0] * 50))
 
 
-def test_not_before_the_brake_is_developed() -> None:
+def test_not_before_the_brake_is_developed():
     assert released([0.0] * 210, [1.0] * 210, first=0) == pytest.approx(0.1, abs=0.011)
 
 
-def test_the_largest_excess_counts_and_that_of_a_slow_train_does_not() -> None:
+def test_the_largest_excess_counts_and_that_of_a_slow_train_does_not():
     measures = train(1)
     for excess in (-3.0, 0.5, 2.0, math.nan, 1.0):
         observe_reference(measures, DEFINITION, measures.previous_speed + excess)
@@ -57,7 +57,7 @@ def test_the_largest_excess_counts_and_that_of_a_slow_train_does_not() -> None:
     assert math.isnan(slow.fault_time)
 
 
-def test_a_controller_without_an_estimate_has_no_excess_but_the_fault_is_seen() -> None:
+def test_a_controller_without_an_estimate_has_no_excess_but_the_fault_is_seen():
     measures = train(5)
     observe_reference(measures, DEFINITION, math.nan)
     assert math.isnan(measures.reference_excess)

@@ -3,9 +3,7 @@
 import importlib
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
@@ -52,7 +50,7 @@ MEASURES = (
 
 
 @pytest.fixture
-def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[ModuleType]:
+def package(tmp_path, monkeypatch):
     """An empty package of measures."""
     (tmp_path / "more_measures").mkdir()
     (tmp_path / "more_measures" / "__init__.py").touch()
@@ -62,11 +60,11 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[ModuleT
         del sys.modules[name]
 
 
-def add(package: ModuleType, module: str, name: str, column: str) -> None:
+def add(package, module, name, column):
     Path(package.__path__[0], f"{module}.py").write_text(NEW.format(name=name, column=column))
 
 
-def test_a_new_module_is_found_without_a_further_edit(package: ModuleType, stop) -> None:
+def test_a_new_module_is_found_without_a_further_edit(package, stop):
     add(package, "speeds", "speed_at_command", "speed_at_command_kmh")
     (measure,) = measures_in(package).values()
     assert measure.name == "speed_at_command"
@@ -80,9 +78,7 @@ def test_a_new_module_is_found_without_a_further_edit(package: ModuleType, stop)
         ("other", "speed_kmh", "two columns are called 'speed_kmh'"),
     ],
 )
-def test_two_measures_of_one_name_or_column_are_rejected(
-    package: ModuleType, name: str, column: str, message: str
-) -> None:
+def test_two_measures_of_one_name_or_column_are_rejected(package, name, column, message):
     add(package, "speeds", "speed", "speed_kmh")
     add(package, "more_speeds", name, column)
     with pytest.raises(ValueError, match=message):
@@ -90,16 +86,14 @@ def test_two_measures_of_one_name_or_column_are_rejected(
 
 
 @pytest.mark.parametrize("name", MEASURES)
-def test_each_measure_gives_one_value_for_the_stop_or_one_per_wheelset(
-    name: str, sliding_stop, wheelsets
-) -> None:
+def test_each_measure_gives_one_value_for_the_stop_or_one_per_wheelset(name, sliding_stop, wheelsets):
     value = MEASURES[name].read(sliding_stop(), wheelsets(0.1, 0.2, 0.3, 0.4), DEFINED)
     assert not value.unavailable_reason
     assert len(value.values) == (4 if MEASURES[name].of_wheelsets else 1)
 
 
 @pytest.mark.parametrize("name", MEASURES)
-def test_each_measure_fits_its_declaration(name: str, stop, wheelsets) -> None:
+def test_each_measure_fits_its_declaration(name, stop, wheelsets):
     measure = MEASURES[name]
     assert measure.name == name
     assert measure.kind in KINDS
@@ -110,38 +104,29 @@ def test_each_measure_fits_its_declaration(name: str, stop, wheelsets) -> None:
         assert hasattr(wheelsets(0.1)[0] if measure.of_wheelsets else stop(), measure.finite_field)
 
 
-def test_what_decides_an_observation_is_a_definition_of_the_measures() -> None:
+def test_what_decides_an_observation_is_a_definition_of_the_measures():
     deciding = {name for measure in MEASURES.values() for name in measure.observed_by}
     assert deciding == fields_of(MeasureDefinition).keys()
 
 
-def test_a_residual_counts_by_its_magnitude(stop, wheelsets) -> None:
+def test_residuals_count_by_magnitude_air_as_normal_volume_and_actuations_in_whole_numbers(stop, wheelsets):
     residual = MEASURES["energy_residual"].read(stop(energy_residual=-0.5), wheelsets(0.1), {})
     assert residual.values == (0.5,)
     assert stop_column_values(stop(energy_residual=-0.5), DEFINED)["energy_residual"] == -0.5
-
-
-def test_air_is_measured_as_normal_volume(stop, wheelsets) -> None:
     (volume,) = MEASURES["air_consumed"].read(stop(air_consumed=0.1185), wheelsets(0.1), {}).values
     assert volume == pytest.approx(0.1)
+    counted, unknown = wheelsets(0.1, 0.1, valve_actuations=[11.0, np.nan])
+    assert type(wheelset_column_values(counted)["valve_actuations"]) is int
+    assert np.isnan(wheelset_column_values(unknown)["valve_actuations"])
 
 
-def test_a_brake_never_developed_has_no_least_deceleration(stop, wheelsets) -> None:
+def test_what_did_not_come_about_has_no_value(stop, wheelsets):
     value = MEASURES["minimum_deceleration"].read(stop(minimum_deceleration=np.nan), wheelsets(0.1), {})
     assert value.unavailable_reason == "the brake was never fully developed while the train ran"
-
-
-def test_before_standstill_a_stop_has_no_braking_distance_to_report(stop) -> None:
     running = stop(stopped=0.0, braking_distance=np.nan, braking_time=np.nan, end_distance=2500.0)
     columns = stop_column_values(running, DEFINED)
     final = ("braking_distance_m", "braking_time_s", "mean_deceleration_mps2", "developed_deceleration_mps2")
     assert all(np.isnan(columns[name]) for name in final)
-
-
-def test_a_count_is_a_whole_number_unless_nothing_was_counted(wheelsets) -> None:
-    counted, unknown = wheelsets(0.1, 0.1, valve_actuations=[11.0, np.nan])
-    assert type(wheelset_column_values(counted)["valve_actuations"]) is int
-    assert np.isnan(wheelset_column_values(unknown)["valve_actuations"])
 
 
 @pytest.mark.parametrize(
@@ -157,11 +142,11 @@ def test_a_count_is_a_whole_number_unless_nothing_was_counted(wheelsets) -> None
         ("met", "1"),
     ],
 )
-def test_a_column_has_the_unit_it_is_reported_in(column: str, unit: str) -> None:
+def test_a_column_has_the_unit_it_is_reported_in(column, unit):
     assert column_unit(column) == unit
 
 
-def test_the_name_of_a_column_ends_with_its_unit_unless_it_is_a_pure_number() -> None:
+def test_the_name_of_a_column_ends_with_its_unit_unless_it_is_a_pure_number():
     endings = {"m/s2": "mps2"}
     columns = [*STOP_COLUMNS.values(), *WHEELSET_COLUMNS.values()]
     for column in columns:
@@ -171,7 +156,7 @@ def test_the_name_of_a_column_ends_with_its_unit_unless_it_is_a_pure_number() ->
     assert pure == {*balances, "adhesion_utilisation", "maximum_slide", "sliding_share", "valve_actuations"}
 
 
-def test_importing_the_catalogue_imports_no_numpy() -> None:
+def test_importing_the_catalogue_imports_no_numpy():
     code = "import sys; from uictest.core.measures import MEASURES; print('numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert done.stdout.strip() == "False"

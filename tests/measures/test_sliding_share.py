@@ -1,7 +1,5 @@
 """The share of time in which wheelsets slide, on courses of speed whose shares are known."""
 
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 from typing import Any
@@ -25,7 +23,7 @@ STEP = 0.25
 """s: sums of it are exact."""
 
 
-def measured(speed: Any, wheel_speed: Any, step: float = STEP) -> tuple[Any, Any]:
+def measured(speed, wheel_speed, step=STEP):
     """Return the records after samples of the train's speed and of (samples, 4) wheel speeds, m/s."""
     train, wheelsets = np.zeros(1, STOP_MEASURES)[0], np.zeros(4, WHEELSET_MEASURES)
     begin_slow_times(train, wheelsets)
@@ -37,25 +35,25 @@ def measured(speed: Any, wheel_speed: Any, step: float = STEP) -> tuple[Any, Any
     return train.view(np.recarray), wheelsets.view(np.recarray)
 
 
-def share(records: tuple[Any, Any], **definition: float) -> Any:
+def share(records, **definition):
     return MEASURES["sliding_share"].read(*records, {**DEFINITION, **definition})
 
 
-def shares(records: tuple[Any, Any], **definition: float) -> Any:
+def shares(records, **definition):
     return MEASURES["sliding_share_of_wheelsets"].read(*records, {**DEFINITION, **definition})
 
 
-def even_stop(seconds: float = 40.0, initial: float = 120.0) -> Any:
+def even_stop(seconds=40.0, initial=120.0):
     """Speeds of an even stop from 120 km/h, which runs at 60 km/h in its middle."""
     count = round(seconds / STEP)
     return 5.0 * (initial - initial * np.arange(count + 1) / count) / 18.0
 
 
-def rolling(speed: Any) -> Any:
+def rolling(speed):
     return np.repeat(np.asarray(speed)[:, None], 4, axis=1)
 
 
-def slid(speed: Any, first: float, last: float, wheelsets: list[int], ratio: float = 0.8) -> Any:
+def slid(speed, first, last, wheelsets, ratio=0.8):
     """Let wheelsets turn at a ratio of the train's speed in the samples after `first` s until `last` s."""
     wheels = rolling(speed)
     time = STEP * np.arange(len(speed))
@@ -64,20 +62,17 @@ def slid(speed: Any, first: float, last: float, wheelsets: list[int], ratio: flo
     return wheels
 
 
-def test_exactly_half_of_the_wheelsets_suffice() -> None:
+def test_half_of_the_wheelsets_at_once_suffice_and_less_never_counts():
     """Sliding 5 of the 20 s that lead to 60 km/h, two wheelsets at once: a quarter."""
     speed = even_stop()
     records = measured(speed, slid(speed, 5.0, 10.0, [1, 3]))
     assert share(records).values == (0.25,)
     assert shares(records).values == (0.0, 0.25, 0.0, 0.25)
-
-
-def test_one_wheelset_less_than_half_never_counts() -> None:
-    speed = even_stop()
     assert share(measured(speed, slid(speed, 0.0, 20.0, [2]))).values == (0.0,)
+    assert share(measured(speed, np.full_like(rolling(speed), math.nan))).values == (0.0,)
 
 
-def test_wheelsets_that_slide_one_after_another_do_not_slide_at_once() -> None:
+def test_wheelsets_that_slide_one_after_another_do_not_slide_at_once():
     """Each has its share, and the reading wheelset by wheelset says more than that of half at once."""
     speed = even_stop()
     wheels = slid(speed, 2.0, 8.0, [0])
@@ -88,7 +83,7 @@ def test_wheelsets_that_slide_one_after_another_do_not_slide_at_once() -> None:
 
 
 @pytest.mark.parametrize(("below", "factor"), [(0.85, 0.85), (0.9, 0.9), (0.95, 0.95)])
-def test_a_wheelset_at_exactly_the_share_of_the_speed_does_not_slide(below: float, factor: float) -> None:
+def test_a_wheelset_at_exactly_the_share_of_the_speed_does_not_slide(below, factor):
     speed = even_stop()
     at = rolling(speed)
     at[:, :2] = factor * speed[:, None]
@@ -98,7 +93,7 @@ def test_a_wheelset_at_exactly_the_share_of_the_speed_does_not_slide(below: floa
     assert share(measured(speed, just_below), sliding_below=below).values == (1.0,)
 
 
-def test_time_counts_until_the_first_sample_at_sixty_and_not_after_it() -> None:
+def test_time_counts_until_the_first_sample_at_sixty_and_not_after_it():
     """At exactly 60 km/h the interval ends, also where the train gains speed again."""
     speed = np.array([120.0, 100.0, 80.0, 60.0, 70.0, 50.0, 0.0]) * KMH
     slides_until, slides_after = rolling(speed), rolling(speed)
@@ -109,7 +104,7 @@ def test_time_counts_until_the_first_sample_at_sixty_and_not_after_it() -> None:
     assert share(measured(speed, slides_after), end_speed=50.0 * KMH).values == pytest.approx((2 / 5,))
 
 
-def test_the_share_down_to_each_speed() -> None:
+def test_the_share_down_to_each_speed():
     """Sliding from 80 to 50 km/h of an even stop from 120: down to v it is (80 - v) of 120 - v."""
     speed = even_stop(60.0)
     records = measured(speed, slid(speed, 20.0, 35.0, [0, 1]))
@@ -119,7 +114,7 @@ def test_the_share_down_to_each_speed() -> None:
 
 
 @pytest.mark.parametrize("initial", [60.0, 45.0])
-def test_a_stop_from_sixty_or_less_has_no_share_whatever_follows(initial: float) -> None:
+def test_a_stop_from_sixty_or_less_has_no_share_whatever_follows(initial):
     speed = even_stop(initial=initial)
     value = share(measured(speed, rolling(speed)))
     assert value.values == ()
@@ -127,19 +122,14 @@ def test_a_stop_from_sixty_or_less_has_no_share_whatever_follows(initial: float)
     assert "60 km/h" in value.unavailable_reason
 
 
-def test_nor_has_one_that_never_came_down_to_it() -> None:
+def test_nor_has_one_that_never_came_down_to_it():
     speed = even_stop()[:60]
     value = share(measured(speed, rolling(speed)))
     assert value.values == ()
     assert not value.whatever_follows
 
 
-def test_an_unknown_wheel_speed_is_not_below_any() -> None:
-    speed = even_stop()
-    assert share(measured(speed, np.full_like(rolling(speed), math.nan))).values == (0.0,)
-
-
-def test_plain_objects_and_records_agree() -> None:
+def test_plain_objects_and_records_agree():
     """Recorded stops are observed with objects, simulated ones with records."""
     speed = even_stop()
     wheels = slid(speed, 3.0, 17.25, [0, 1, 2], 0.87)

@@ -1,8 +1,6 @@
 """Measures of the train against plain numpy on the same samples."""
 
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -21,11 +19,8 @@ from uictest.core.measures import (
     observe_reservoir_margin,
 )
 
-Stop = tuple[Any, Any]
-Measured = Callable[[Any], Stop]
 
-
-def begun(held_before: float) -> np.ndarray:
+def begun(held_before):
     train = np.full(STOP_MEASURES.itemsize // 8, held_before).view(STOP_MEASURES)
     begin_train(train[0], 0.5, 1.0, 30.0, 7e5)
     begin_window(train[0])
@@ -35,40 +30,37 @@ def begun(held_before: float) -> np.ndarray:
     return train.view(np.float64)
 
 
-def test_measures_begin_alike_whatever_the_record_held() -> None:
+def test_measures_begin_alike_whatever_the_record_held():
     np.testing.assert_array_equal(begun(7.0), begun(0.0))
 
 
-def sliding(samples: Any) -> np.ndarray:
+def sliding(samples):
     """Where which wheelset slides: by more than 5 % and 0.3 m/s while the train moves."""
     slip = samples.speed[:, None] - samples.wheel_speed
     moving = samples.speed[:, None] > 2.8
     return moving & (slip / samples.speed[:, None] > 0.05) & (slip > 0.3)
 
 
-def test_first_sliding_and_who_slides_first(samples: Any, stop: Stop) -> None:
+def test_first_sliding_who_slides_first_and_the_speeds_after_it(samples, stop):
     slides = sliding(samples)
     first = int(np.argmax(slides.any(axis=1)))
     assert stop[0].sliding_time == samples.time[first]
     assert stop[0].sliding_wheelset == 1 + np.argmax(slides[first])
-
-
-def test_speed_at_whole_seconds_after_the_first_sliding(samples: Any, stop: Stop) -> None:
     at = stop[0].sliding_time + np.arange(WINDOW_SECONDS + 1)
     np.testing.assert_allclose(
         stop[0].speed_after_sliding, np.interp(at, samples.time, samples.speed), rtol=1e-12
     )
 
 
-def test_speed_after_sliding_is_nan_where_the_record_ends_earlier(samples: Any, measured: Measured) -> None:
+def test_speed_after_sliding_is_nan_where_the_record_ends_earlier(samples, measured):
     short = replace(samples, **{name: column[:700] for name, column in vars(samples).items()})
-    window = measured(short)[0].speed_after_sliding
-    reached = measured(short)[0].sliding_time + np.arange(WINDOW_SECONDS + 1) <= short.time[-1] + 1e-9
-    np.testing.assert_array_equal(np.isfinite(window), reached)
+    train = measured(short)[0]
+    reached = train.sliding_time + np.arange(WINDOW_SECONDS + 1) <= short.time[-1] + 1e-9
+    np.testing.assert_array_equal(np.isfinite(train.speed_after_sliding), reached)
     assert 0 < reached.sum() < reached.size
 
 
-def test_window_does_not_depend_on_when_the_samples_fall(samples: Any, measured: Measured) -> None:
+def test_window_does_not_depend_on_when_the_samples_fall(samples, measured):
     """Every third sample gives the same speeds, within what is linear between samples."""
     sparse = replace(samples, **{name: column[::3] for name, column in vars(samples).items()})
     train = measured(sparse)[0]
@@ -78,7 +70,7 @@ def test_window_does_not_depend_on_when_the_samples_fall(samples: Any, measured:
     )
 
 
-def test_extremes_of_the_filtered_deceleration(samples: Any, stop: Stop) -> None:
+def test_extremes_last_sample_and_count_of_a_train_that_never_stopped(samples, stop):
     deceleration = -np.diff(samples.speed) / np.diff(samples.time)
     share = 0.01 / (0.01 + 0.5)
     filtered = lfilter([share], [1.0, share - 1.0], deceleration)
@@ -86,13 +78,15 @@ def test_extremes_of_the_filtered_deceleration(samples: Any, stop: Stop) -> None
     developed = moving & (samples.time[1:] >= 2.0)
     assert stop[0].maximum_deceleration == pytest.approx(filtered[moving].max(), rel=1e-9)
     assert stop[0].minimum_deceleration == pytest.approx(filtered[developed].min(), rel=1e-9)
-
-
-def test_lowest_pressure_of_the_reservoir(samples: Any, stop: Stop) -> None:
     assert stop[0].reservoir_minimum_pressure == samples.reservoir_pressure.min()
+    train = stop[0]
+    last = (train.end_time, train.end_distance, train.end_speed, train.samples)
+    assert last == (samples.time[-1], samples.distance[-1], samples.speed[-1], samples.time.size)
+    assert stop[0].stopped == 0.0
+    assert np.isnan([stop[0].braking_time, stop[0].braking_distance]).all()
 
 
-def test_margin_of_the_reservoir_is_its_smallest_over_the_cylinders() -> None:
+def test_margin_of_the_reservoir_is_its_smallest_over_the_cylinders():
     train = np.zeros(1, STOP_MEASURES)[0]
     begin_train(train, 0.0, 0.0, 30.0, 8e5)
     for reservoir, cylinder in ((8e5, 0.0), (7.2e5, 3.8e5), (np.nan, 3.8e5), (7.0e5, 1.0e5)):
@@ -100,25 +94,8 @@ def test_margin_of_the_reservoir_is_its_smallest_over_the_cylinders() -> None:
     assert train.reservoir_margin == pytest.approx(3.4e5)
 
 
-def test_last_sample_and_count(samples: Any, stop: Stop) -> None:
-    train = stop[0]
-    last = (train.end_time, train.end_distance, train.end_speed, train.samples)
-    assert last == (samples.time[-1], samples.distance[-1], samples.speed[-1], samples.time.size)
-
-
-def test_a_train_that_never_stopped_has_no_braking_distance(stop: Stop) -> None:
-    assert stop[0].stopped == 0.0
-    assert np.isnan([stop[0].braking_time, stop[0].braking_distance]).all()
-
-
-def test_standstill_ends_the_stop(samples: Any, measured: Measured) -> None:
-    train = measured(samples)[0]
+def test_standstill_ends_the_stop(stop):
+    train = stop[0].copy()
     note_standstill(train, True, 27.5, 410.0)
     assert (train.stopped, train.braking_time, train.braking_distance) == (1.0, 27.5, 410.0)
     assert (train.end_time, train.end_distance, train.end_speed) == (27.5, 410.0, 0.0)
-
-
-def test_nothing_slides_where_nothing_slid(samples: Any, measured: Measured) -> None:
-    rolling = replace(samples, wheel_speed=np.repeat(samples.speed[:, None], 4, axis=1))
-    train = measured(rolling)[0]
-    assert np.isnan([train.sliding_time, train.sliding_wheelset, *train.speed_after_sliding]).all()

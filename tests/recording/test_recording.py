@@ -6,17 +6,14 @@ from uictest.core.recording import Recording
 TIME = np.array([0.0, 0.5, 1.0])
 
 
-def recording(channels: dict[str, np.ndarray], **units: str) -> Recording:
+def recording(channels, **units):
     return Recording(channels, {"time": "s", **units})
 
 
-def test_a_recording_gives_its_length_and_its_channels() -> None:
+def test_a_recording_gives_its_length_and_its_channels_and_says_which_there_are():
     it = recording({"time": TIME, "speed": np.array([3.0, np.nan, 1.0])}, speed="m/s")
     assert len(it) == 3
     assert it["speed"][0] == 3.0
-
-
-def test_an_unknown_channel_is_answered_with_those_there_are() -> None:
     with pytest.raises(KeyError, match="no channel 'sped' in this recording of time, speed"):
         recording({"time": TIME, "speed": TIME}, speed="m/s")["sped"]
 
@@ -37,6 +34,6 @@ def test_an_unknown_channel_is_answered_with_those_there_are() -> None:
         ({"time": TIME}, {"time": "ms"}, "'time' must be in \"s\", found 'ms'"),
     ],
 )
-def test_what_is_no_recording_is_refused(channels: dict, units: dict, message: str) -> None:
+def test_what_is_no_recording_is_refused(channels, units, message):
     with pytest.raises(ValueError, match=message.replace("(", r"\(")):
         recording(channels, **units)

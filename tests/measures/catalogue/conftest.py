@@ -1,8 +1,5 @@
 """Records of stops and wheelsets, each with a sound default and what a test changes."""
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -14,19 +11,19 @@ REACHED = np.array([24.0, 22.0, 20.0, 18.0, 17.0, 16.0, 12.0, 8.0, 6.0, 4.0])
 """s: when the train runs at 10, 20, .. 100 km/h; at 60 km/h after 16 s."""
 
 
-def slow_times(share: float) -> np.ndarray:
+def slow_times(share):
     """Times of so much of the 16 s down to 60 km/h, all above 100 km/h, below every share of its speed."""
     return np.concatenate([np.zeros(27), np.full(3, 16.0 * share)])
 
 
-def _record(dtype: np.dtype, fields: dict[str, Any]) -> Any:
+def _record(dtype, fields):
     records = np.zeros(1, dtype=dtype).view(np.recarray)
     for name, value in fields.items():
         records[name][0] = value
     return records[0]
 
 
-def _stop(**changes: Any) -> Any:
+def _stop(**changes):
     """A sound dry stop from 120 km/h within 465 m, in which no wheelset slid."""
     sound = {
         "initial_speed": 120 * KMH,
@@ -55,7 +52,7 @@ def _stop(**changes: Any) -> Any:
     return _record(STOP_MEASURES, {**sound, **changes})
 
 
-def _sliding_stop(deceleration: float = 0.07 * G, share: float = 0.75, **changes: Any) -> Any:
+def _sliding_stop(deceleration=0.07 * G, share=0.75, **changes):
     """A stop in which a wheelset slides after a second, from when on the train decelerates evenly (m/s2).
 
     Half of the wheelsets slide at once in a `share` of the time until 60 km/h.
@@ -70,7 +67,7 @@ def _sliding_stop(deceleration: float = 0.07 * G, share: float = 0.75, **changes
     return _stop(**{**slid, **changes})
 
 
-def _wheelsets(*slides: float, **changes: Any) -> Any:
+def _wheelsets(*slides, **changes):
     """One wheelset per slide, the same above every train speed; those above 10 % slide 75 % of the time."""
     records = np.zeros(len(slides), dtype=WHEELSET_MEASURES).view(np.recarray)
     for record, slide in zip(records, slides, strict=True):
@@ -83,15 +80,15 @@ def _wheelsets(*slides: float, **changes: Any) -> Any:
 
 
 @pytest.fixture(scope="session")
-def stop() -> Callable[..., Any]:
+def stop():
     return _stop
 
 
 @pytest.fixture(scope="session")
-def sliding_stop() -> Callable[..., Any]:
+def sliding_stop():
     return _sliding_stop
 
 
 @pytest.fixture(scope="session")
-def wheelsets() -> Callable[..., Any]:
+def wheelsets():
     return _wheelsets

@@ -2,14 +2,13 @@
 
 import math
 from types import SimpleNamespace
-from typing import Any
 
 from uictest.core.measures import MEASURES
 
 
-def value(name: str, stop: dict[str, float], wheelsets: list[dict[str, float]]) -> Any:
+def value(name, stop, wheelsets):
     records = [SimpleNamespace(**each) for each in wheelsets]
-    return MEASURES[name].read(SimpleNamespace(**stop), records, {})  # type: ignore[arg-type]
+    return MEASURES[name].read(SimpleNamespace(**stop), records, {})
 
 
 FAULT = {"fault_time": 3.0, "reference_excess": 1.5}
@@ -20,18 +19,12 @@ LOCKS = [
 ]
 
 
-def test_the_locks_of_faulty_wheelsets_do_not_count() -> None:
+def test_the_locks_of_sound_wheelsets_the_longest_release_and_the_excess_of_a_faulty_stop():
     assert value("longest_lock_of_sound_wheelsets", FAULT, LOCKS).values == (0.4,)
     assert value("longest_lock_of_sound_wheelsets", FAULT, LOCKS[1:]).unavailable_reason
     assert value("longest_lock_of_sound_wheelsets", NO_FAULT, LOCKS).unavailable_reason
-
-
-def test_the_longest_release_of_any_wheelset_counts() -> None:
     assert value("longest_release", FAULT, LOCKS).values == (2.5,)
     assert value("longest_release", FAULT, LOCKS[:1]).unavailable_reason
-
-
-def test_without_a_fault_or_an_estimate_there_is_no_excess() -> None:
     assert value("reference_excess", FAULT, LOCKS).values == (1.5,)
     assert "no fault" in value("reference_excess", NO_FAULT, LOCKS).unavailable_reason
     without = {"fault_time": 3.0, "reference_excess": math.nan}

@@ -1,10 +1,5 @@
 """A small recording in every format."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -13,17 +8,15 @@ from uictest.core.recording.formats import FORMATS, isolation, writer_of
 
 from ...conftest import READ_IN_PROCESS
 
-Written = Callable[[str], Path]
-
 
 @pytest.fixture(autouse=True)
-def _isolated(monkeypatch: pytest.MonkeyPatch) -> None:
+def _isolated(monkeypatch):
     """Here a process of its own is the point."""
     monkeypatch.setattr(isolation, "_read_in_process", READ_IN_PROCESS)
 
 
 @pytest.fixture
-def recording() -> Recording:
+def recording():
     """Two seconds of a train that slows down while a valve changes state."""
     time = np.arange(200) * 0.01
     channels = {
@@ -40,10 +33,10 @@ def recording() -> Recording:
 
 
 @pytest.fixture
-def written(recording: Recording, tmp_path: Path) -> Written:
+def written(recording, tmp_path):
     """Write the recording in a format."""
 
-    def write(name: str) -> Path:
+    def write(name):
         path = tmp_path / f"small{FORMATS[name].suffix}"
         writer_of(name)(recording, path)
         return path

@@ -1,9 +1,6 @@
 """Text tables as other programs write them: understood, or refused with the line and what to declare."""
 
-from __future__ import annotations
-
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,34 +8,30 @@ import pytest
 from uictest.core.recording.formats import Dialect, UnreadableError
 from uictest.core.recording.formats.problems import MOST_CHANNELS
 from uictest.core.recording.formats.reader import read_here
-from uictest.core.recording.recording import Group
 
 ROWS = "0.0,80.5,1\n0.1,80.25,2\n0.2,80.0,3\n"
 
 
-def _read(path: Path, content: str | bytes, dialect: Dialect | None = None) -> Group:
+def _read(path, content, dialect=None):
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     [group] = read_here("csv", path, dialect or Dialect()).groups
     return group
 
 
 @pytest.fixture
-def table(tmp_path: Path) -> Path:
+def table(tmp_path):
     return tmp_path / "table.csv"
 
 
 @pytest.mark.parametrize("units", ["s,km/h,bar", "[s],[km/h],[bar]", "(s),(km/h),(bar)", "s, km/h ,bar"])
-def test_a_line_of_units_below_the_names_is_found(table: Path, units: str) -> None:
+def test_a_line_of_units_below_the_names_is_found(table, units):
     group = _read(table, f"t,v,p\n{units}\n{ROWS}")
     assert group.units == {"t": "s", "v": "km/h", "p": "bar"}
     np.testing.assert_array_equal(group.channels["v"], [80.5, 80.25, 80.0])
 
 
-def test_names_that_look_like_units_are_names(table: Path) -> None:
+def test_names_that_look_like_units_and_a_first_line_of_states_are_no_line_of_units(table):
     assert list(_read(table, f"s,v,a\n{ROWS}").channels) == ["s", "v", "a"]
-
-
-def test_a_first_line_of_states_is_no_line_of_units(table: Path) -> None:
     group = _read(table, "t,v,MV\n0.0,80.5,fill\n0.1,80.25,vent\n")
     assert list(group.channels["MV"]) == ["fill", "vent"]
 
@@ -56,18 +49,18 @@ def test_a_first_line_of_states_is_no_line_of_units(table: Path) -> None:
     ],
     ids=["titles", "padded", "descriptions", "all-at-once"],
 )
-def test_lines_that_are_no_part_of_the_table_are_to_be_declared(table: Path, text: str, advice: str) -> None:
+def test_lines_that_are_no_part_of_the_table_are_to_be_declared(table, text, advice):
     with pytest.raises(UnreadableError, match=f"the table seems to .*{re.escape(advice)}"):
         _read(table, text)
 
 
-def test_what_the_message_says_reads_the_table(table: Path) -> None:
+def test_what_the_message_says_reads_the_table(table):
     dialect = Dialect(";", ",", header_line=2)
     group = _read(table, "Rig\nt;v\ns;km/h\n0,0;80,5\n", dialect)
     assert (group.units, list(group.channels["v"])) == ({"t": "s", "v": "km/h"}, [80.5])
 
 
-def test_an_undecodable_byte_is_placed(table: Path) -> None:
+def test_an_undecodable_byte_is_placed(table):
     text = f"t,v,p\n{ROWS}".encode() + "0.3,79.5,Öl\n".encode("cp1252")
     with pytest.raises(
         UnreadableError, match=r"line 5, byte 10: 0xd6 is not UTF-8; .* csv: \{encoding: cp1252\}"
@@ -77,7 +70,7 @@ def test_an_undecodable_byte_is_placed(table: Path) -> None:
 
 
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "utf-16-be"])
-def test_a_byte_order_mark_tells_the_encoding(table: Path, encoding: str) -> None:
+def test_a_byte_order_mark_tells_the_encoding(table, encoding):
     mark = "" if encoding in ("utf-8-sig", "utf-16") else "\ufeff"
     group = _read(table, f"{mark}t,v,Öl\n{ROWS}".encode(encoding), Dialect(encoding="cp1252"))
     assert list(group.channels) == ["t", "v", "Öl"]
@@ -110,38 +103,29 @@ def test_a_byte_order_mark_tells_the_encoding(table: Path, encoding: str) -> Non
         "late-commas",
     ],
 )
-def test_a_damaged_table_is_refused_with_its_line(table: Path, content: bytes, message: str) -> None:
+def test_a_damaged_table_is_refused_with_its_line(table, content, message):
     with pytest.raises(UnreadableError, match=re.escape(message)):
         _read(table, content)
 
 
-def test_a_cell_that_excel_could_not_compute_takes_no_other_with_it(table: Path) -> None:
+def test_cells_that_hold_no_number_and_empty_ones_take_no_other_with_them(table):
     group = _read(table, "t,v,p\n0.0,#N/A,1\n0.1,80.0,2\n")
     np.testing.assert_array_equal(group.channels["v"], [np.nan, 80.0])
     np.testing.assert_array_equal(group.channels["p"], [1.0, 2.0])
-
-
-def test_delimiters_at_the_end_of_rows_and_rows_of_nothing_else_are_no_samples(table: Path) -> None:
     group = _read(table, "t,v\n0.0,80.5,\n# a remark, with commas,\n0.1,80.0,,\n,,,\n")
     assert [list(samples) for samples in group.channels.values()] == [[0.0, 0.1], [80.5, 80.0]]
 
 
-def test_the_first_text_among_numbers_is_placed(table: Path) -> None:
+def test_the_first_text_among_numbers_is_placed_and_four_hundred_digits_are_a_number(table):
     group = _read(table, "t,v,MV\n\n0.0,80.5,fill\n# remark\n\n0.1,n.a.,vent\n")
     assert group.first_texts == {"v": "line 6, column 2"}
-
-
-def test_a_number_of_four_hundred_digits_is_a_number(table: Path) -> None:
     group = _read(table, f"t,v\n0.0,{'9' * 400}\n0.1,off\n")
     assert group.first_texts == {"v": "line 3, column 2"}
 
 
-def test_dates_become_seconds(table: Path) -> None:
+def test_dates_become_seconds_and_thousands_are_read_where_they_are_declared(table):
     group = _read(table, "when,v\n2026-05-31T23:59:59.5,1\n2026-06-01T00:00:00.250,2\n")
     np.testing.assert_allclose(group.channels["when"], [0.0, 0.75])
     assert group.units["when"] == "s"
-
-
-def test_thousands_are_read_where_they_are_declared(table: Path) -> None:
     group = _read(table, "t;v\n0,5;1.080,5\n", Dialect(";", ",", thousands="."))
     np.testing.assert_array_equal(group.channels["v"], [1080.5])

@@ -1,15 +1,10 @@
-from __future__ import annotations
-
 import re
 import sys
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from uictest.core.recording import Recording
 from uictest.core.recording.formats import (
     FORMATS,
     Dialect,
@@ -23,12 +18,11 @@ from uictest.core.recording.formats.layout import name_and_unit
 from uictest.core.recording.formats.problems import MOST_CHANNELS, MOST_VALUES, check_size, required_module
 from uictest.core.recording.formats.reader import read_here
 
-Written = Callable[[str], Path]
 EXTRAS = {"mdf": "asammdf", "tdms": "nptdms"}
 
 
 @pytest.mark.parametrize("name", FORMATS)
-def test_what_is_written_is_read(name: str, written: Written, recording: Recording) -> None:
+def test_what_is_written_is_read(name, written, recording):
     contents = read_here(name, written(name), Dialect())
     assert contents.metadata == recording.metadata
     [group] = contents.groups
@@ -39,9 +33,7 @@ def test_what_is_written_is_read(name: str, written: Written, recording: Recordi
 
 
 @pytest.mark.parametrize("name", FORMATS)
-def test_magnets_and_every_bit_of_a_diagnosis_come_back(
-    name: str, written: Written, recording: Recording
-) -> None:
+def test_magnets_and_every_bit_of_a_diagnosis_come_back(name, written, recording):
     [group] = read_here(name, written(name), Dialect()).groups
     np.testing.assert_array_equal(group.channels["diagnosis"], recording["diagnosis"])
     magnet = group.channels["vent_magnet_1"]
@@ -50,12 +42,12 @@ def test_magnets_and_every_bit_of_a_diagnosis_come_back(
 
 
 @pytest.mark.parametrize("name", FORMATS)
-def test_the_format_is_known_by_the_content(name: str, written: Written) -> None:
+def test_the_format_is_known_by_the_content(name, written):
     assert format_of(written(name)) == name
 
 
 @pytest.mark.parametrize("name", FORMATS)
-def test_a_process_of_its_own_reads_the_same(name: str, written: Written) -> None:
+def test_a_process_of_its_own_reads_the_same(name, written):
     path = written(name)
     here, there = read_here(name, path, Dialect()), read_contents(path)
     assert there.metadata == here.metadata
@@ -65,7 +57,7 @@ def test_a_process_of_its_own_reads_the_same(name: str, written: Written) -> Non
             np.testing.assert_array_equal(one.channels[channel], other.channels[channel])
 
 
-def test_parquet_columns_as_other_programs_write_them(tmp_path: Path) -> None:
+def test_parquet_columns_as_other_programs_write_them(tmp_path):
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -87,7 +79,7 @@ def test_parquet_columns_as_other_programs_write_them(tmp_path: Path) -> None:
     assert group.units == {"stamps": "s", "lasted": "s"}
 
 
-def test_parquet_columns_of_one_name_are_refused(tmp_path: Path) -> None:
+def test_parquet_columns_of_one_name_are_refused(tmp_path):
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -96,7 +88,7 @@ def test_parquet_columns_of_one_name_are_refused(tmp_path: Path) -> None:
         read_here("parquet", tmp_path / "twice.parquet", Dialect())
 
 
-def test_mdf_opens_in_its_own_library(written: Written) -> None:
+def test_mdf_opens_in_its_own_library(written):
     asammdf = pytest.importorskip("asammdf")
     with asammdf.MDF(written("mdf")) as mdf:
         assert mdf.version == "4.10"
@@ -106,7 +98,7 @@ def test_mdf_opens_in_its_own_library(written: Written) -> None:
         assert "case: small" in mdf.header.comment
 
 
-def test_tdms_opens_in_its_own_library(written: Written) -> None:
+def test_tdms_opens_in_its_own_library(written):
     nptdms = pytest.importorskip("nptdms")
     tdms = nptdms.TdmsFile.read(written("tdms"))
     channel = tdms["stop"]["speed"]
@@ -116,7 +108,7 @@ def test_tdms_opens_in_its_own_library(written: Written) -> None:
     assert tdms["stop"]["valve_command_1"].properties["states"] == "0 = fill, 1 = hold, 2 = vent"
 
 
-def test_mat_5_opens_in_its_own_library(written: Written, recording: Recording) -> None:
+def test_mat_5_opens_in_its_own_library(written, recording):
     from scipy.io import loadmat
 
     variables = loadmat(written("mat"), simplify_cells=True)
@@ -124,7 +116,7 @@ def test_mat_5_opens_in_its_own_library(written: Written, recording: Recording) 
     np.testing.assert_array_equal(variables["speed"], recording["speed"])
 
 
-def test_mat_7_3(tmp_path: Path) -> None:
+def test_mat_7_3(tmp_path):
     h5py = pytest.importorskip("h5py")
     pytest.importorskip("pymatreader")
     path = tmp_path / "record.mat"
@@ -140,8 +132,8 @@ def test_mat_7_3(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", EXTRAS)
 def test_a_missing_library_is_told_with_the_line_that_installs_it(
-    name: str, written: Written, recording: Recording, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    name, written, recording, tmp_path, monkeypatch
+):
     path = written(name)
     monkeypatch.setitem(sys.modules, EXTRAS[name], None)
     with pytest.raises(MissingExtraError, match=rf"pip install 'uictest\[{name}\]'"):
@@ -150,16 +142,14 @@ def test_a_missing_library_is_told_with_the_line_that_installs_it(
         writer_of(name)(recording, tmp_path / "other")
 
 
-def test_a_module_that_lacks_another_is_no_missing_extra(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_module_that_lacks_another_is_no_missing_extra(tmp_path, monkeypatch):
     (tmp_path / "broken_reader.py").write_text("import surely_not_there\n")
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(ModuleNotFoundError, match="surely_not_there"):
         required_module("broken_reader", "x")
 
 
-def test_a_declared_dialect(tmp_path: Path) -> None:
+def test_a_declared_dialect(tmp_path):
     path = tmp_path / "rig.txt"
     path.write_bytes("Prüfstand 7\n\nt;v;Zustand\ns;km/h;\n0,0;80,5;zu\n0,1;80,25;auf\n".encode("latin-1"))
     contents = read_here("csv", path, Dialect(";", ",", header_line=3, unit_line=4, encoding="latin-1"))
@@ -169,10 +159,13 @@ def test_a_declared_dialect(tmp_path: Path) -> None:
     assert group.units == {"t": "s", "v": "km/h"}
 
 
-def test_names_that_are_there_twice_all_get_a_number(tmp_path: Path) -> None:
+def test_units_and_numbers_of_names_make_no_other_dialect(tmp_path):
     path = tmp_path / "twice.csv"
     path.write_text("v,v,\n1,2,3\n")
     assert list(read_here("csv", path, Dialect()).groups[0].channels) == ["v (1)", "v (2)", "column 3"]
+    path = tmp_path / "names.csv"
+    path.write_text("t,v;w;x\n0.0,80.5\n")
+    assert list(read_here("csv", path, Dialect()).groups[0].channels) == ["t", "v;w;x"]
 
 
 @pytest.mark.parametrize(
@@ -185,18 +178,18 @@ def test_names_that_are_there_twice_all_get_a_number(tmp_path: Path) -> None:
         ("a [b] c", ("a [b] c", "")),
     ],
 )
-def test_units_in_names(text: str, expected: tuple[str, str]) -> None:
+def test_units_in_names(text, expected):
     assert name_and_unit(text) == expected
 
 
-def test_sizes_are_bounded() -> None:
+def test_sizes_are_bounded():
     check_size([(10, 10)])
     for shapes in ([(MOST_VALUES + 1,)], [(2,)] * (MOST_CHANNELS + 1), [(-1,)], [(2**62, 4)]):
         with pytest.raises(UnreadableError):
             check_size(shapes)
 
 
-def test_the_same_recording_gives_the_same_text(written: Written) -> None:
+def test_the_same_recording_gives_the_same_text(written):
     path: Any = written("csv")
     first = path.read_bytes()
     assert written("csv").read_bytes() == first
@@ -220,16 +213,8 @@ def test_the_same_recording_gives_the_same_text(written: Written) -> None:
         ("a\nt,v\n0.0,80.5\n", Dialect(";", header_line=2), "be separated by ',': set csv"),
     ],
 )
-def test_a_table_of_another_dialect_says_what_to_declare(
-    tmp_path: Path, text: str, dialect: Dialect, advice: str
-) -> None:
+def test_a_table_of_another_dialect_says_what_to_declare(tmp_path, text, dialect, advice):
     path = tmp_path / "table.csv"
     path.write_text(text)
     with pytest.raises(UnreadableError, match=f"seems to {re.escape(advice)}"):
         read_here("csv", path, dialect)
-
-
-def test_semicolons_in_a_name_make_no_other_dialect(tmp_path: Path) -> None:
-    path = tmp_path / "names.csv"
-    path.write_text("t,v;w;x\n0.0,80.5\n")
-    assert list(read_here("csv", path, Dialect()).groups[0].channels) == ["t", "v;w;x"]

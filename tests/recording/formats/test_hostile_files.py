@@ -1,25 +1,20 @@
 """Damaged and hostile files: a message within bounded time, nothing beside the file, never a traceback."""
 
-from __future__ import annotations
-
 import random
 import struct
 import zlib
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
 from uictest.core.recording.formats import UnreadableError, read_contents
 from uictest.core.recording.formats.choice import format_of
 
-Written = Callable[[str], Path]
 BINARY = ("mdf", "tdms", "mat", "parquet")
 BEGINNINGS = {"mdf": b"MDF     4.10    ", "tdms": b"TDSm", "mat": b"MATLAB 5.0 MAT-file", "parquet": b"PAR1"}
 SECONDS = 20.0
 
 
-def _refused(path: Path, seconds: float = SECONDS) -> str:
+def _refused(path, seconds=SECONDS):
     before = sorted(path.parent.iterdir())
     with pytest.raises(UnreadableError) as caught:
         read_contents(path, seconds=seconds)
@@ -28,7 +23,7 @@ def _refused(path: Path, seconds: float = SECONDS) -> str:
     return str(caught.value)
 
 
-def _tolerated(path: Path) -> None:
+def _tolerated(path):
     """A file that may still hold something is read or refused, and leaves nothing behind either way."""
     before = sorted(path.parent.iterdir())
     try:
@@ -40,19 +35,16 @@ def _tolerated(path: Path) -> None:
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".mf4", ".tdms", ".mat", ".parquet", ""])
-def test_an_empty_file(tmp_path: Path, suffix: str) -> None:
+def test_an_empty_file(tmp_path, suffix):
     path = tmp_path / f"empty{suffix}"
     path.touch()
     assert _refused(path) == "the file is empty"
 
 
-def test_another_type_of_file(tmp_path: Path) -> None:
+def test_a_folder_a_missing_file_and_another_type_of_file(tmp_path):
     path = tmp_path / "image.mf4"
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(100))
     assert "not a recording" in _refused(path)
-
-
-def test_a_folder_and_a_missing_file(tmp_path: Path) -> None:
     with pytest.raises((UnreadableError, OSError)):
         read_contents(tmp_path)
     with pytest.raises(FileNotFoundError):
@@ -60,7 +52,7 @@ def test_a_folder_and_a_missing_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", BINARY)
-def test_a_beginning_and_nothing_behind_it(tmp_path: Path, name: str) -> None:
+def test_a_beginning_and_nothing_behind_it(tmp_path, name):
     path = tmp_path / "stub"
     path.write_bytes(BEGINNINGS[name] + random.Random(name).randbytes(300))
     assert format_of(path) == name
@@ -69,7 +61,7 @@ def test_a_beginning_and_nothing_behind_it(tmp_path: Path, name: str) -> None:
 
 @pytest.mark.parametrize("share", [pytest.param(0.02, marks=pytest.mark.slow), 0.6])
 @pytest.mark.parametrize("name", BINARY)
-def test_a_truncated_file(written: Written, name: str, share: float) -> None:
+def test_a_truncated_file(written, name, share):
     path = written(name)
     content = path.read_bytes()
     path.write_bytes(content[: max(int(share * len(content)), len(BEGINNINGS[name]))])
@@ -79,7 +71,7 @@ def test_a_truncated_file(written: Written, name: str, share: float) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(8))
 @pytest.mark.parametrize("name", BINARY)
-def test_a_file_with_changed_bytes(written: Written, name: str, seed: int) -> None:
+def test_a_file_with_changed_bytes(written, name, seed):
     path = written(name)
     content = bytearray(path.read_bytes())
     dice = random.Random(f"{name} {seed}")
@@ -89,7 +81,7 @@ def test_a_file_with_changed_bytes(written: Written, name: str, seed: int) -> No
     _tolerated(path)
 
 
-def test_an_mdf_file_whose_groups_follow_each_other_in_a_circle(written: Written) -> None:
+def test_an_mdf_file_whose_groups_follow_each_other_in_a_circle(written):
     path = written("mdf")
     content = bytearray(path.read_bytes())
     group = content.index(b"##DG")
@@ -98,7 +90,7 @@ def test_an_mdf_file_whose_groups_follow_each_other_in_a_circle(written: Written
     _refused(path, seconds=5.0)
 
 
-def test_a_mat_file_that_unpacks_to_more_than_memory(tmp_path: Path) -> None:
+def test_a_mat_file_that_unpacks_to_more_than_memory(tmp_path):
     """A compressed variable that claims a billion values."""
     header = b"MATLAB 5.0 MAT-file".ljust(124) + struct.pack("<H2s", 0x0100, b"IM")
     flags = struct.pack("<IIII", 6, 8, 6, 0)
@@ -125,13 +117,13 @@ def test_a_mat_file_that_unpacks_to_more_than_memory(tmp_path: Path) -> None:
     ],
     ids=["nul", "no-utf8", "commas", "long-line", "ragged", "comment", "no-rows", "open-quote"],
 )
-def test_texts_that_are_no_tables(tmp_path: Path, content: bytes) -> None:
+def test_texts_that_are_no_tables(tmp_path, content):
     path = tmp_path / "table.csv"
     path.write_bytes(content)
     _refused(path)
 
 
-def test_names_never_become_paths(written: Written, tmp_path: Path) -> None:
+def test_names_never_become_paths(written, tmp_path):
     path = tmp_path / "names.csv"
     hostile = ["../../evil", "/etc/passwd", "\x1b[31m", "CON", "a" * 5000, "=cmd()"]
     path.write_text(",".join(hostile) + "\n" + ",".join("1" * len(hostile)) + "\n")
@@ -140,5 +132,5 @@ def test_names_never_become_paths(written: Written, tmp_path: Path) -> None:
     assert sorted(tmp_path.iterdir()) == [path]
 
 
-def test_a_reader_that_takes_too_long_is_ended(written: Written) -> None:
+def test_a_reader_that_takes_too_long_is_ended(written):
     assert "did not end within 0.01 s" in _refused(written("mdf"), seconds=0.01)

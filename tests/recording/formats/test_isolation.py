@@ -1,16 +1,11 @@
 """A sound file is not called damaged where the machine is what fails."""
 
-from __future__ import annotations
-
 import errno
 import os
 import resource
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -18,21 +13,19 @@ from uictest.core.recording.formats import ReadingInterruptedError, UnreadableEr
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="limits and signals are POSIX")
 
-Written = Callable[[str], Path]
 
-
-def reading_under(monkeypatch: pytest.MonkeyPatch, before: Callable[[], None]) -> None:
+def reading_under(monkeypatch, before):
     """Call a function in the process that reads before it becomes the reader."""
     run = subprocess.run
 
-    def prepared(command: Any, **options: Any) -> Any:
+    def prepared(command, **options):
         return run(command, preexec_fn=before, **options)
 
     monkeypatch.setattr(isolation.subprocess, "run", prepared)
 
 
-def files_up_to(size: int) -> Callable[[], None]:
-    def limit() -> None:
+def files_up_to(size):
+    def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
@@ -41,9 +34,7 @@ def files_up_to(size: int) -> Callable[[], None]:
 
 @pytest.mark.parametrize("size", [0, 300, 1700])
 @pytest.mark.parametrize("name", ["mdf", "csv", "parquet"])
-def test_a_full_temporary_folder_is_named(
-    written: Written, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, size: int
-) -> None:
+def test_a_full_temporary_folder_is_named(written, tmp_path, monkeypatch, name, size):
     path = written(name)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     reading_under(monkeypatch, files_up_to(size))
@@ -55,12 +46,12 @@ def test_a_full_temporary_folder_is_named(
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_a_reader_writes_nothing_but_what_it_read(written: Written, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_reader_writes_nothing_but_what_it_read(written, monkeypatch):
     """Half a compiled module, as a full disk leaves it, would make every sound file seem damaged."""
     commands: list[list[str]] = []
     run = subprocess.run
 
-    def recorded(command: list[str], **options: Any) -> Any:
+    def recorded(command, **options):
         commands.append(command)
         return run(command, **options)
 
@@ -77,9 +68,7 @@ def test_a_reader_writes_nothing_but_what_it_read(written: Written, monkeypatch:
     assert shown.stdout == "True\n"
 
 
-def test_a_full_temporary_folder_excuses_no_damaged_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_full_temporary_folder_excuses_no_damaged_file(tmp_path, monkeypatch):
     """As long as there is room for the refusal."""
     path = tmp_path / "stub.mf4"
     path.write_bytes(b"MDF     4.10    " + bytes(300))
@@ -89,9 +78,7 @@ def test_a_full_temporary_folder_excuses_no_damaged_file(
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
-def test_a_reader_that_is_killed_says_nothing_about_the_file(
-    written: Written, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
-) -> None:
+def test_a_reader_that_is_killed_says_nothing_about_the_file(written, monkeypatch, number):
     """As the system does where memory runs out."""
     path = written("csv")
     reading_under(monkeypatch, lambda: os.kill(os.getpid(), number))
@@ -100,8 +87,8 @@ def test_a_reader_that_is_killed_says_nothing_about_the_file(
     assert caught.value.filename == str(path)
 
 
-def test_a_reader_that_crashes_does(written: Written, monkeypatch: pytest.MonkeyPatch) -> None:
-    def crash() -> None:
+def test_a_reader_that_crashes_does(written, monkeypatch):
+    def crash():
         signal.signal(signal.SIGSEGV, signal.SIG_DFL)  # pytest's own handler would show where
         os.kill(os.getpid(), signal.SIGSEGV)
 
