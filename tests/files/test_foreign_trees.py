@@ -1,13 +1,10 @@
 """Whatever stands in a folder of runs: nothing outside of it changes, and nothing in it that is not ours."""
 
-from __future__ import annotations
-
 import logging
 import os
 import tempfile
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 import pytest
 from hypothesis import given, settings, strategies as st
@@ -35,7 +32,7 @@ TEXTS = st.sampled_from(["mine", "process 4 on here", "uictest", "a  summary.csv
 LINKS = st.sampled_from(["victim.txt", "folder", "folder/inner.csv", "nowhere", ".", "reports"])
 
 
-def tree(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
+def tree(inner):
     return st.dictionaries(st.sampled_from(NAMES), inner, max_size=6)
 
 
@@ -43,7 +40,7 @@ def tree(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
 TREES = tree(st.recursive(st.one_of(TEXTS, LINKS.map(Path)), tree, max_leaves=12))
 
 
-def grow(folder: Path, content: dict[str, Any], top: Path) -> None:
+def grow(folder, content, top):
     folder.mkdir(exist_ok=True)
     for name, each in content.items():
         if isinstance(each, dict):
@@ -54,7 +51,7 @@ def grow(folder: Path, content: dict[str, Any], top: Path) -> None:
             (folder / name).write_text(each)
 
 
-def state(folder: Path) -> dict[str, str]:
+def state(folder):
     """Every path below a folder, and what is there: links are not followed."""
     found: dict[str, str] = {}
     for place, folders, names in os.walk(folder):
@@ -66,7 +63,7 @@ def state(folder: Path) -> dict[str, str]:
 
 @given(TREES, TREES)
 @settings(deadline=None, max_examples=40)
-def test_nothing_of_somebody_else_changes(reports_tree: dict[str, Any], partial_tree: dict[str, Any]) -> None:
+def test_nothing_of_somebody_else_changes(reports_tree, partial_tree):
     logging.disable(logging.WARNING)
     with tempfile.TemporaryDirectory() as place:
         top = Path(place)
@@ -85,7 +82,7 @@ def test_nothing_of_somebody_else_changes(reports_tree: dict[str, Any], partial_
     assert len(added - {LATEST}) <= 1, "the run, which is published"
 
 
-def work_in(reports: Path) -> None:
+def work_in(reports):
     """Do in a folder everything that the room can do."""
     with RunFolder(reports, "run") as folder:
         write(folder.path, "summary.csv", "ours")
@@ -106,7 +103,7 @@ def work_in(reports: Path) -> None:
 
 
 @pytest.mark.parametrize("below", ["recordings", "recordings/more"])
-def test_no_file_is_written_or_removed_behind_a_link(tmp_path: Path, below: str) -> None:
+def test_no_file_is_written_or_removed_behind_a_link(tmp_path, below):
     (tmp_path / "there" / "more").mkdir(parents=True)
     run = tmp_path / "run"
     run.mkdir()
@@ -124,14 +121,14 @@ def test_no_file_is_written_or_removed_behind_a_link(tmp_path: Path, below: str)
 
 
 @pytest.mark.parametrize("name", ["../out.csv", "a/../../out.csv", "/tmp/out.csv"])
-def test_no_name_leads_out_of_the_folder(tmp_path: Path, name: str) -> None:
+def test_no_name_leads_out_of_the_folder(tmp_path, name):
     (tmp_path / "run").mkdir()
     with pytest.raises(OSError, match="leads out of its folder"):
         write(tmp_path / "run", name, "x")
     assert not (tmp_path / "out.csv").exists()
 
 
-def test_a_list_that_is_not_of_uictest_is_not_continued(tmp_path: Path) -> None:
+def test_a_list_that_is_not_of_uictest_is_not_continued(tmp_path):
     for make in (lambda path: path.write_text("mine"), lambda path: path.symlink_to(tmp_path / "victim")):
         (tmp_path / "victim").write_text("victim")
         make(tmp_path / LIST)
@@ -143,7 +140,7 @@ def test_a_list_that_is_not_of_uictest_is_not_continued(tmp_path: Path) -> None:
         (tmp_path / LIST).unlink()
 
 
-def test_only_what_is_as_it_was_written_is_removed(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+def test_only_what_is_as_it_was_written_is_removed(tmp_path, caplog):
     begin_list(tmp_path)
     for name in ("map-a.csv", "map-b.csv", "summary.csv"):
         write(tmp_path, name, name)

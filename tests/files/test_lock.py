@@ -1,16 +1,12 @@
 """A folder belongs to one process at a time, and to nobody once that has ended."""
 
-from __future__ import annotations
-
 import errno
 import fcntl
 import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 import pytest
 
@@ -27,16 +23,15 @@ with FolderLock(Path(sys.argv[1]), shared=sys.argv[2] == "shared"):
 
 
 @contextmanager
-def another_process(folder: Path, how: str = "alone") -> Iterator[subprocess.Popen[str]]:
+def another_process(folder, how="alone"):
     """Lend a process that has the lock, until the end of the block."""
     command = [sys.executable, "-c", HOLDER, str(folder), how]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
         assert process.stdout.readline() == "held\n"
         yield process
 
 
-def test_another_process_is_named(tmp_path: Path) -> None:
+def test_another_process_is_named(tmp_path):
     with another_process(tmp_path) as process:
         with pytest.raises(FolderInUseError) as caught:
             FolderLock(tmp_path)
@@ -46,7 +41,7 @@ def test_another_process_is_named(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_those_who_share_work_side_by_side_and_nobody_else_does(tmp_path: Path) -> None:
+def test_those_who_share_work_side_by_side_and_nobody_else_does(tmp_path):
     with another_process(tmp_path, "shared"):
         with FolderLock(tmp_path, shared=True):
             pass
@@ -56,15 +51,15 @@ def test_those_who_share_work_side_by_side_and_nobody_else_does(tmp_path: Path) 
         pass
 
 
-def test_a_killed_process_holds_nothing(tmp_path: Path) -> None:
+def test_a_killed_process_holds_nothing(tmp_path):
     with another_process(tmp_path) as process:
         process.send_signal(signal.SIGKILL)
     with FolderLock(tmp_path), pytest.raises(FolderInUseError, match=f"process {os.getpid()} on"):
         FolderLock(tmp_path)
 
 
-def test_where_there_are_no_locks_nobody_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(*_: object) -> None:
+def test_where_there_are_no_locks_nobody_is_refused(tmp_path, monkeypatch):
+    def refuse(*_):
         raise OSError(errno.ENOLCK, "No locks available")
 
     monkeypatch.setattr("fcntl.flock", refuse)
@@ -74,31 +69,29 @@ def test_where_there_are_no_locks_nobody_is_refused(tmp_path: Path, monkeypatch:
             FolderLock(tmp_path, abandoned=True)
 
 
-def _link(place: Path, victim: Path) -> None:
+def _link(place, victim):
     place.symlink_to(victim)
 
 
-def _hard_link(place: Path, victim: Path) -> None:
+def _hard_link(place, victim):
     place.hardlink_to(victim)
 
 
-def _copy(place: Path, victim: Path) -> None:
+def _copy(place, victim):
     place.write_bytes(victim.read_bytes())
 
 
-def _pipe(place: Path, _: Path) -> None:
+def _pipe(place, _):
     os.mkfifo(place)
 
 
-def _folder(place: Path, _: Path) -> None:
+def _folder(place, _):
     place.mkdir()
 
 
 @pytest.mark.parametrize("make", [_link, _hard_link, _copy, _pipe, _folder])
 @pytest.mark.parametrize("content", ["mine", ""])
-def test_what_is_no_lock_of_uictest_is_neither_followed_nor_changed(
-    tmp_path: Path, make: Callable[[Path, Path], None], content: str
-) -> None:
+def test_what_is_no_lock_of_uictest_is_neither_followed_nor_changed(tmp_path, make, content):
     """A link led to the file of somebody else, which was emptied and given the name of a process."""
     victim, folder = tmp_path / "victim.txt", tmp_path / "reports"
     victim.write_text(content)
@@ -119,27 +112,29 @@ def test_what_is_no_lock_of_uictest_is_neither_followed_nor_changed(
     assert victim.read_text() == content
 
 
-def test_a_link_that_leads_nowhere_makes_no_file_there(tmp_path: Path) -> None:
+def test_a_link_that_leads_nowhere_makes_no_file_there(tmp_path):
     (tmp_path / ".uictest.lock").symlink_to(tmp_path / "made")
     with pytest.raises(FileExistsError):
         FolderLock(tmp_path)
     assert not (tmp_path / "made").exists()
 
 
-def test_another_program_can_have_a_lock_of_its_own(tmp_path: Path) -> None:
+def test_a_file_that_another_program_put_there_stays(tmp_path):
     (tmp_path / ".lock").write_text("theirs")
     with FolderLock(tmp_path):
         pass
     assert (tmp_path / ".lock").read_text() == "theirs"
+    with FolderLock(tmp_path):
+        (tmp_path / ".uictest.lock").unlink()
+        (tmp_path / ".uictest.lock").write_text("mine")
+    assert (tmp_path / ".uictest.lock").read_text() == "mine"
 
 
-def test_a_file_that_its_last_holder_removed_meanwhile_is_no_lock(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_that_its_last_holder_removed_meanwhile_is_no_lock(tmp_path, monkeypatch):
     """Whoever opened it before would hold a lock that nobody else meets."""
     flock, path = fcntl.flock, tmp_path / ".uictest.lock"
 
-    def removed_first(descriptor: int, operation: int) -> None:
+    def removed_first(descriptor, operation):
         monkeypatch.setattr("fcntl.flock", flock)
         path.unlink()
         flock(descriptor, operation)
@@ -149,12 +144,10 @@ def test_a_file_that_its_last_holder_removed_meanwhile_is_no_lock(
         FolderLock(tmp_path)
 
 
-def test_a_file_that_another_process_made_meanwhile_is_left_to_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_that_another_process_made_meanwhile_is_left_to_it(tmp_path, monkeypatch):
     flock, path, held = fcntl.flock, tmp_path / ".uictest.lock", []
 
-    def replaced_first(descriptor: int, operation: int) -> None:
+    def replaced_first(descriptor, operation):
         monkeypatch.setattr("fcntl.flock", flock)
         path.unlink()
         held.append(FolderLock(tmp_path))
@@ -168,7 +161,7 @@ def test_a_file_that_another_process_made_meanwhile_is_left_to_it(
     assert not path.exists()
 
 
-def test_a_folder_that_is_renamed_keeps_its_lock(tmp_path: Path) -> None:
+def test_a_folder_that_is_renamed_keeps_its_lock(tmp_path):
     (tmp_path / "a").mkdir()
     with FolderLock(tmp_path, "a"):
         (tmp_path / "a").rename(tmp_path / "b")
@@ -178,7 +171,7 @@ def test_a_folder_that_is_renamed_keeps_its_lock(tmp_path: Path) -> None:
     assert list((tmp_path / "b").iterdir()) == []
 
 
-def test_no_lock_is_made_behind_a_link(tmp_path: Path) -> None:
+def test_no_lock_is_made_behind_a_link(tmp_path):
     (tmp_path / "there").mkdir()
     (tmp_path / "link").symlink_to("there")
     with FolderLock(tmp_path / "link"):  # as the user named it
@@ -186,10 +179,3 @@ def test_no_lock_is_made_behind_a_link(tmp_path: Path) -> None:
     with pytest.raises(OSError, match="is a link, which is not followed"):
         FolderLock(tmp_path, "link")
     assert list((tmp_path / "there").iterdir()) == []
-
-
-def test_a_file_that_took_the_place_of_the_lock_is_not_removed(tmp_path: Path) -> None:
-    with FolderLock(tmp_path):
-        (tmp_path / ".uictest.lock").unlink()
-        (tmp_path / ".uictest.lock").write_text("mine")
-    assert (tmp_path / ".uictest.lock").read_text() == "mine"

@@ -1,9 +1,6 @@
 """Nothing but `uictest.core.files` writes, renames or removes."""
 
-from __future__ import annotations
-
 import ast
-from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -34,7 +31,7 @@ EXCEPTIONS = {
 """Module -> what it may call, and why."""
 
 
-def changing_calls(tree: ast.AST) -> Iterator[tuple[int, str]]:
+def changing_calls(tree):
     """Yield line and name of each call that changes, or may change, what is on the disk."""
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
@@ -51,7 +48,7 @@ def changing_calls(tree: ast.AST) -> Iterator[tuple[int, str]]:
             yield node.lineno, name
 
 
-def _reads(call: ast.Call) -> bool:
+def _reads(call):
     """Return whether `open` states a mode, or none, that only reads."""
     if ast.unparse(call.func) == "os.open":
         return ast.unparse(call.args[1]) == "os.O_RDONLY"
@@ -64,7 +61,7 @@ def _reads(call: ast.Call) -> bool:
     ) and (is_method or isinstance(mode, ast.Constant))
 
 
-def test_every_write_and_removal_goes_through_one_room() -> None:
+def test_every_write_and_removal_goes_through_one_room():
     elsewhere = [
         f"{path}:{line}: {name}"
         for path, line, name in _all_calls()
@@ -73,18 +70,18 @@ def test_every_write_and_removal_goes_through_one_room() -> None:
     assert elsewhere == []
 
 
-def test_every_exception_is_still_one() -> None:
+def test_every_exception_is_still_one():
     found = {(path, name) for path, _, name in _all_calls()}
     assert {(path, name) for path, names in EXCEPTIONS.items() for name in names} <= found
 
 
-def test_the_room_itself_is_seen() -> None:
+def test_the_room_itself_is_seen():
     found = {name for path, _, name in _all_calls() if path.startswith("core/files/")}
     assert {"mkdir", "rename", "replace", "unlink", "rmdir", "rmtree", "symlink", "open"} <= found
 
 
 @cache
-def _all_calls() -> list[tuple[str, int, str]]:
+def _all_calls():
     return [
         (path.relative_to(PACKAGE).as_posix(), *call)
         for path in sorted(PACKAGE.rglob("*.py"))

@@ -1,12 +1,9 @@
-from __future__ import annotations
-
 import errno
 import hashlib
 import logging
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -22,7 +19,7 @@ from uictest.core.files import (
 )
 
 
-def test_a_published_folder_appears_under_its_name_with_its_files(tmp_path: Path) -> None:
+def test_a_published_folder_appears_under_its_name_with_its_files(tmp_path):
     with RunFolder(tmp_path / "reports", "first") as folder:
         write(folder.path, "summary.csv", "id\n")
         assert not (tmp_path / "reports" / "first").exists()
@@ -32,13 +29,13 @@ def test_a_published_folder_appears_under_its_name_with_its_files(tmp_path: Path
     assert (place / "summary.csv").read_text() == "id\n"
 
 
-def test_a_taken_name_gets_a_number(tmp_path: Path) -> None:
+def test_a_taken_name_gets_a_number(tmp_path):
     for expected in ("run", "run-2", "run-3"):
         with RunFolder(tmp_path, "run") as folder:
             assert folder.publish().name == expected
 
 
-def test_the_name_that_reports_state_is_that_of_the_folder(tmp_path: Path) -> None:
+def test_the_name_that_reports_state_is_that_of_the_folder(tmp_path):
     (tmp_path / "run").mkdir()
     with RunFolder(tmp_path, "run") as first, RunFolder(tmp_path, "run") as second:
         names = first.name, second.name
@@ -47,14 +44,14 @@ def test_the_name_that_reports_state_is_that_of_the_folder(tmp_path: Path) -> No
     assert tuple(place.name for place in reversed(places)) == names
 
 
-def test_a_name_that_is_taken_meanwhile_gets_a_number(tmp_path: Path) -> None:
+def test_a_name_that_is_taken_meanwhile_gets_a_number(tmp_path):
     with RunFolder(tmp_path, "run") as folder:
         (tmp_path / "run").mkdir()
         assert folder.publish() == tmp_path / "run-2"
 
 
-def test_a_folder_that_is_not_published_leaves_nothing_of_what_was_made(tmp_path: Path) -> None:
-    def fail_halfway() -> None:
+def test_a_folder_that_is_not_published_leaves_nothing_of_what_was_made(tmp_path):
+    def fail_halfway():
         with RunFolder(tmp_path / "deep" / "reports", "run") as folder:
             write(folder.path, "recordings/half.csv", "i")
             raise OSError("No space left on device")
@@ -64,13 +61,10 @@ def test_a_folder_that_is_not_published_leaves_nothing_of_what_was_made(tmp_path
     assert list(tmp_path.iterdir()) == []
 
 
-def test_what_others_put_beside_an_abandoned_folder_stays(tmp_path: Path) -> None:
+def test_an_abandoned_folder_leaves_what_others_put_beside_it_and_none_is_made_below_a_file(tmp_path):
     with RunFolder(tmp_path / "reports", "run"):
         (tmp_path / "reports" / "note.txt").write_text("mine")
     assert [path.name for path in (tmp_path / "reports").iterdir()] == ["note.txt"]
-
-
-def test_a_folder_below_a_regular_file_is_an_oserror(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(OSError, match="file"):
         RunFolder(tmp_path / "file" / "reports", "run")
@@ -86,9 +80,7 @@ with RunFolder(Path(sys.argv[1]), "killed") as folder:
 """
 
 
-def test_what_a_killed_run_left_is_removed_by_the_next_and_what_a_living_one_has_is_not(
-    tmp_path: Path,
-) -> None:
+def test_what_a_killed_run_left_is_removed_by_the_next_and_what_a_living_one_has_is_not(tmp_path):
     subprocess.run([sys.executable, "-c", KILLED_AT_WORK, str(tmp_path)], check=False)
     [left] = tmp_path.iterdir()
     assert left.name == ".killed.partial"
@@ -106,32 +98,29 @@ def test_what_a_killed_run_left_is_removed_by_the_next_and_what_a_living_one_has
     ]
 
 
-def _run(parent: Path, name: str) -> Path:
+def _run(parent, name):
     run = parent / name
     run.mkdir()
     return run
 
 
-def test_latest_follows_the_newest_run(tmp_path: Path) -> None:
+def test_latest_follows_the_newest_run(tmp_path):
     for name in ("first", "second"):
         point_latest(_run(tmp_path, name))
         found = latest_run(tmp_path)
-        assert found is not None
         assert found.name == name
     assert sorted(path.name for path in tmp_path.iterdir()) == ["first", LATEST, "second"]
 
 
-def test_the_link_is_relative_so_that_the_folder_can_be_moved(tmp_path: Path) -> None:
+def test_the_link_is_relative_so_that_the_folder_can_be_moved(tmp_path):
     (tmp_path / "here").mkdir()
     point_latest(_run(tmp_path / "here", "run"))
     (tmp_path / "here").rename(tmp_path / "there")
     assert latest_run(tmp_path / "there") == (tmp_path / "there" / "run").resolve()
 
 
-def test_where_links_are_impossible_a_text_file_names_the_run(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def refuse(*_: object, **__: object) -> None:
+def test_where_links_are_impossible_a_text_file_names_the_run(tmp_path, monkeypatch):
+    def refuse(*_, **__):
         raise OSError("links are not supported here")
 
     monkeypatch.setattr(os, "symlink", refuse)
@@ -142,13 +131,13 @@ def test_where_links_are_impossible_a_text_file_names_the_run(
 
 
 @pytest.mark.parametrize("with_dangling_link", [False, True])
-def test_without_a_run_there_is_no_latest(tmp_path: Path, with_dangling_link: bool) -> None:
+def test_without_a_run_there_is_no_latest(tmp_path, with_dangling_link):
     if with_dangling_link:
         (tmp_path / LATEST).symlink_to("gone")
     assert latest_run(tmp_path) is None
 
 
-def test_a_file_of_somebody_else_that_is_named_latest_stays(tmp_path: Path) -> None:
+def test_a_file_of_somebody_else_that_is_named_latest_stays(tmp_path):
     for content in ("the latest news", "news\n", "../there\n"):
         (tmp_path / LATEST).write_text(content)
         said = point_latest(_run(tmp_path, str(len(content))))
@@ -156,14 +145,12 @@ def test_a_file_of_somebody_else_that_is_named_latest_stays(tmp_path: Path) -> N
         assert (tmp_path / LATEST).read_text() == content
 
 
-def _killed(tmp_path: Path) -> Path:
+def _killed(tmp_path):
     subprocess.run([sys.executable, "-c", KILLED_AT_WORK, str(tmp_path)], check=False)
     return tmp_path / ".killed.partial"
 
 
-def test_what_the_user_put_into_the_folder_of_a_killed_run_stays_and_is_named(
-    tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_what_the_user_put_into_the_folder_of_a_killed_run_stays_and_is_named(tmp_path, caplog):
     left = _killed(tmp_path)
     (left / "notes.txt").write_text("mine")
     with caplog.at_level(logging.WARNING), RunFolder(tmp_path, "run"):
@@ -174,7 +161,7 @@ def test_what_the_user_put_into_the_folder_of_a_killed_run_stays_and_is_named(
 
 
 @pytest.mark.parametrize("lock", [None, "", "process 4 on here", "uictest lock"])
-def test_a_hidden_folder_without_a_lock_of_uictest_stays(tmp_path: Path, lock: str | None) -> None:
+def test_a_hidden_folder_without_a_lock_of_uictest_stays(tmp_path, lock):
     """Any `.x.partial` folder with an unlocked `.lock` was removed: other programs have such folders."""
     foreign = tmp_path / ".theirs.partial"
     foreign.mkdir()
@@ -189,7 +176,7 @@ def test_a_hidden_folder_without_a_lock_of_uictest_stays(tmp_path: Path, lock: s
     assert sorted(path.name for path in foreign.iterdir()) == before
 
 
-def test_a_link_to_the_folder_of_a_killed_run_is_not_followed(tmp_path: Path) -> None:
+def test_a_link_to_the_folder_of_a_killed_run_is_not_followed(tmp_path):
     (tmp_path / "there").mkdir()
     (tmp_path / "reports").mkdir()
     left = _killed(tmp_path / "there")
@@ -200,9 +187,7 @@ def test_a_link_to_the_folder_of_a_killed_run_is_not_followed(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("made", ["folder", "file", "link", "full"])
-def test_nothing_that_appears_between_the_check_and_the_rename_is_replaced(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, made: str
-) -> None:
+def test_nothing_that_appears_between_the_check_and_the_rename_is_replaced(tmp_path, monkeypatch, made):
     """A finished run was lost in 2 of 360 collisions: `rename` replaces an empty folder, and others fail."""
     makers = {
         "folder": lambda: (tmp_path / "run").mkdir(),
@@ -212,7 +197,7 @@ def test_nothing_that_appears_between_the_check_and_the_rename_is_replaced(
     }
     mkdir = os.mkdir
 
-    def too_late(path: str, *arguments: int, dir_fd: int) -> None:
+    def too_late(path, *arguments, dir_fd):
         monkeypatch.setattr(os, "mkdir", mkdir)
         makers[made]()
         mkdir(path, *arguments, dir_fd=dir_fd)
@@ -228,12 +213,10 @@ def test_nothing_that_appears_between_the_check_and_the_rename_is_replaced(
     assert (there / "a.csv").exists() == (made == "full")
 
 
-def test_a_file_that_is_put_into_the_reserved_name_stays(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_that_is_put_into_the_reserved_name_stays(tmp_path, monkeypatch):
     rename = os.rename
 
-    def too_late(old: str, new: str, **places: int) -> None:
+    def too_late(old, new, **places):
         monkeypatch.setattr(os, "rename", rename)
         (tmp_path / new / "theirs.csv").write_text("theirs")
         rename(old, new, **places)
@@ -247,12 +230,10 @@ def test_a_file_that_is_put_into_the_reserved_name_stays(
     assert (place / "summary.csv").read_text() == "ours"
 
 
-def test_a_file_system_that_renames_over_no_folder_gets_the_run_as_well(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_system_that_renames_over_no_folder_gets_the_run_as_well(tmp_path, monkeypatch):
     rename = os.rename
 
-    def replaces_none(old: str, new: str, **places: int) -> None:
+    def replaces_none(old, new, **places):
         if (tmp_path / new).exists():
             raise FileExistsError(errno.EEXIST, "File exists", new)
         rename(old, new, **places)
@@ -262,8 +243,8 @@ def test_a_file_system_that_renames_over_no_folder_gets_the_run_as_well(
         assert folder.publish() == tmp_path / "run"
 
 
-def test_a_publication_that_fails_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(*_: object, **__: object) -> None:
+def test_a_publication_that_fails_leaves_nothing(tmp_path, monkeypatch):
+    def full(*_, **__):
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(os, "rename", full)
@@ -285,18 +266,17 @@ for _ in range(10):
 """
 
 
-def test_none_of_many_runs_of_one_name_is_lost(tmp_path: Path) -> None:
+def test_none_of_many_runs_of_one_name_is_lost(tmp_path):
     command = [sys.executable, "-c", PUBLISHER, str(tmp_path)]
     processes = [subprocess.Popen(command, stdin=subprocess.PIPE) for _ in range(6)]
     for process in processes:
-        assert process.stdin is not None
         process.stdin.close()
     assert [process.wait() for process in processes] == [0] * 6
     names = ["run", *(f"run-{number}" for number in range(2, 61))]
     assert {path.name: (path / "name").read_text() for path in tmp_path.iterdir()} == {n: n for n in names}
 
 
-def test_the_list_of_a_run_is_what_sha256sum_checks(tmp_path: Path) -> None:
+def test_the_list_of_a_run_is_what_sha256sum_checks(tmp_path):
     with RunFolder(tmp_path, "run") as folder:
         write(folder.path, "a.csv", "first")
         write(folder.path, "recordings/slip[f=0.09].parquet", b"\0")
@@ -310,7 +290,7 @@ def test_the_list_of_a_run_is_what_sha256sum_checks(tmp_path: Path) -> None:
     ]
 
 
-def test_a_run_in_a_folder_behind_a_link_is_published_there(tmp_path: Path) -> None:
+def test_a_run_in_a_folder_behind_a_link_is_published_there(tmp_path):
     """The user named the link: the reports may lie on another disk."""
     (tmp_path / "disk").mkdir()
     (tmp_path / "reports").symlink_to("disk")
@@ -322,13 +302,11 @@ def test_a_run_in_a_folder_behind_a_link_is_published_there(tmp_path: Path) -> N
         assert (tmp_path / "disk" / ".uictest.lock").exists()
 
 
-def test_a_run_that_is_published_while_its_name_is_being_reserved_has_the_name(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_run_that_is_published_while_its_name_is_being_reserved_has_the_name(tmp_path, monkeypatch):
     """The name that reports state is that of their folder."""
     mkdir = os.mkdir
 
-    def published_first(path: str, *arguments: int, dir_fd: int) -> None:
+    def published_first(path, *arguments, dir_fd):
         monkeypatch.setattr(os, "mkdir", mkdir)
         (tmp_path / "run").mkdir()
         mkdir(path, *arguments, dir_fd=dir_fd)

@@ -2,20 +2,22 @@ import errno
 import os
 import stat
 import sys
-from pathlib import Path
 
 import pytest
 
 from uictest.core.files import new_file, write_to
 
 
-def test_the_file_has_the_content_and_nothing_is_left_beside_it(tmp_path: Path) -> None:
+def test_the_file_has_the_content_at_the_end_of_the_block_and_nothing_is_left_beside_it(tmp_path):
     write_to(tmp_path / "summary.csv", "a,b\r\n1,±2\n")
     assert (tmp_path / "summary.csv").read_bytes() == "a,b\r\n1,±2\n".encode()
     assert [path.name for path in tmp_path.iterdir()] == ["summary.csv"]
+    target = tmp_path / ("c" * 247 + ".parquet")
+    write_to(target, "x")
+    assert target.read_text() == "x"
 
 
-def test_a_failed_write_keeps_the_old_file_and_leaves_no_other(tmp_path: Path) -> None:
+def test_a_failed_write_keeps_the_old_file_and_leaves_no_other(tmp_path):
     target = tmp_path / "results.json"
     write_to(target, "old")
     with pytest.raises(KeyboardInterrupt), new_file(tmp_path, "results.json") as file:
@@ -25,7 +27,7 @@ def test_a_failed_write_keeps_the_old_file_and_leaves_no_other(tmp_path: Path) -
     assert list(tmp_path.iterdir()) == [target]
 
 
-def test_nothing_stands_at_the_path_before_the_block_ends(tmp_path: Path) -> None:
+def test_nothing_stands_at_the_path_before_the_block_ends(tmp_path):
     target = tmp_path / "index.html"
     with new_file(tmp_path, "index.html") as file:
         file.write(b"<html>")
@@ -33,8 +35,8 @@ def test_nothing_stands_at_the_path_before_the_block_ends(tmp_path: Path) -> Non
     assert target.read_text() == "<html>"
 
 
-def test_a_full_disk_is_reported_and_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(_: int) -> None:
+def test_a_full_disk_is_reported_and_leaves_nothing(tmp_path, monkeypatch):
+    def full(_):
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(os, "fsync", full)
@@ -44,7 +46,7 @@ def test_a_full_disk_is_reported_and_leaves_nothing(tmp_path: Path, monkeypatch:
 
 
 @pytest.mark.parametrize("folder", ["nowhere", "file"])
-def test_errors_name_the_file_that_was_to_be_written(tmp_path: Path, folder: str) -> None:
+def test_errors_name_the_file_that_was_to_be_written(tmp_path, folder):
     (tmp_path / "file").touch()
     target = tmp_path / folder / "a.txt"
     with pytest.raises((FileNotFoundError, NotADirectoryError)) as caught:
@@ -53,7 +55,7 @@ def test_errors_name_the_file_that_was_to_be_written(tmp_path: Path, folder: str
     assert "partial" not in str(caught.value)
 
 
-def test_a_file_that_cannot_be_put_in_its_place_is_named(tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_put_in_its_place_is_named(tmp_path):
     target = tmp_path / "taken"
     target.mkdir()
     (target / "inside").touch()
@@ -64,28 +66,22 @@ def test_a_file_that_cannot_be_put_in_its_place_is_named(tmp_path: Path) -> None
     assert list(tmp_path.iterdir()) == [target]
 
 
-def test_an_error_about_another_file_keeps_its_name(tmp_path: Path) -> None:
+def test_an_error_about_another_file_keeps_its_name(tmp_path):
     other = tmp_path / "other"
     with pytest.raises(FileNotFoundError) as caught, new_file(tmp_path, "a.txt"):
         other.read_text()
     assert caught.value.filename == str(other)
 
 
-def test_a_name_as_long_as_the_file_system_allows_is_written(tmp_path: Path) -> None:
-    target = tmp_path / ("c" * 247 + ".parquet")
-    write_to(target, "x")
-    assert target.read_text() == "x"
-
-
 @pytest.mark.skipif(os.name != "posix", reason="file modes are POSIX")
-def test_the_file_has_the_mode_any_new_file_has(tmp_path: Path) -> None:
+def test_the_file_has_the_mode_any_new_file_has(tmp_path):
     (tmp_path / "ordinary").touch()
     write_to(tmp_path / "atomic", "")
     assert (tmp_path / "atomic").stat().st_mode == (tmp_path / "ordinary").stat().st_mode
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such modes")
-def test_nobody_else_can_read_or_write_a_private_file(tmp_path: Path) -> None:
+def test_nobody_else_can_read_or_write_a_private_file(tmp_path):
     path = tmp_path / "kept"
     with new_file(tmp_path, "kept", private=True):
         [temporary] = tmp_path.iterdir()
@@ -93,7 +89,7 @@ def test_nobody_else_can_read_or_write_a_private_file(tmp_path: Path) -> None:
     assert stat.S_IMODE(path.stat().st_mode) == 0o600
 
 
-def test_what_is_no_file_is_not_replaced_by_one(tmp_path: Path) -> None:
+def test_what_is_no_file_is_not_replaced_by_one(tmp_path):
     """A rename would make a file of `/dev/null`."""
     pipe = tmp_path / "junit.xml"
     os.mkfifo(pipe)
@@ -104,7 +100,7 @@ def test_what_is_no_file_is_not_replaced_by_one(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("target", ["pipe", "file", "nothing"])
-def test_a_link_is_neither_replaced_nor_followed(tmp_path: Path, target: str) -> None:
+def test_a_link_is_neither_replaced_nor_followed(tmp_path, target):
     """A rename would make a file of `/dev/stdout`, which is a link."""
     os.mkfifo(tmp_path / "pipe")
     (tmp_path / "file").write_text("mine")
@@ -117,7 +113,7 @@ def test_a_link_is_neither_replaced_nor_followed(tmp_path: Path, target: str) ->
     assert not (tmp_path / "nothing").exists()
 
 
-def test_a_failed_write_leaves_no_folder_that_it_has_made(tmp_path: Path) -> None:
+def test_a_failed_write_leaves_no_folder_that_it_has_made(tmp_path):
     (tmp_path / "kept").mkdir()
     for name in ("a/b/stop.parquet", "kept/stop.parquet"):
         with pytest.raises(ZeroDivisionError), new_file(tmp_path, name):

@@ -12,7 +12,7 @@ times = st.floats(0.0, 100.0)
 
 
 @given(times, times)
-def test_demand_never_falls_and_never_exceeds_the_command(a: float, b: float) -> None:
+def test_demand_never_falls_and_never_exceeds_the_command(a, b):
     early, late = sorted((a, b))
     assert (
         0.0
@@ -23,16 +23,16 @@ def test_demand_never_falls_and_never_exceeds_the_command(a: float, b: float) ->
 
 
 @pytest.mark.parametrize(("time", "share"), [(0.0, 0.0), (0.4, 0.0), (1.15, 0.5), (1.9, 1.0), (60.0, 1.0)])
-def test_demand_waits_for_the_dead_time_and_rises_evenly(time: float, share: float) -> None:
+def test_demand_waits_for_the_dead_time_and_rises_evenly(time, share):
     assert demanded_pressure(time, FULL, 0.4, FILLING_RATE) == pytest.approx(share * FULL, abs=1e-6)
 
 
-def test_relay_valve_laps_at_the_demand() -> None:
+def test_relay_valve_laps_at_the_demand():
     assert relay_opening(FULL, FULL, GAIN) == 0.0
 
 
 @given(st.floats(0.0, 1e6), st.floats(0.0, 1e6))
-def test_relay_valve_fills_towards_a_higher_demand_and_exhausts_towards_a_lower(d: float, p: float) -> None:
+def test_relay_valve_fills_towards_a_higher_demand_and_exhausts_towards_a_lower(d, p):
     opening = relay_opening(d, p, GAIN)
     assert -1.0 <= opening <= 1.0
     assert opening * (d - p) >= 0.0

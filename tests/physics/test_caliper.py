@@ -1,7 +1,6 @@
 """The caliper against its equation of equilibrium, solved by brute force, and what friction must do."""
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,24 +25,24 @@ class Caliper:
     clearance: float = 2.9e-3
     contact_stiffness: float = 8e6
 
-    def compression(self, stroke: float) -> float:
+    def compression(self, stroke):
         return max(stroke - self.clearance, 0.0)
 
-    def contact(self, stroke: float) -> float:
+    def contact(self, stroke):
         return self.contact_stiffness * self.compression(stroke)
 
-    def friction(self, stroke: float) -> float:
+    def friction(self, stroke):
         return self.coulomb_friction + self.load_friction * self.contact(stroke)
 
-    def net_force(self, stroke: float, pressure: float) -> float:
+    def net_force(self, stroke, pressure):
         """Force on the piston without friction, N."""
         return pressure * self.piston_area - self.preload - self.spring_rate * stroke - self.contact(stroke)
 
-    def pressure_at(self, stroke: float, direction: float) -> float:
+    def pressure_at(self, stroke, direction):
         """Pressure at which the piston just moves in a direction, Pa."""
         return (direction * self.friction(stroke) - self.net_force(stroke, 0.0)) / self.piston_area
 
-    def after(self, stroke: float, pressure: float, step: float = STEP) -> float:
+    def after(self, stroke, pressure, step=STEP):
         derived = stiffnesses(
             self.spring_rate,
             self.load_friction,
@@ -53,13 +52,7 @@ class Caliper:
             step,
         )
         return stroke_after(
-            stroke,
-            pressure,
-            self.piston_area,
-            self.preload,
-            self.coulomb_friction,
-            self.clearance,
-            *derived,
+            stroke, pressure, self.piston_area, self.preload, self.coulomb_friction, self.clearance, *derived
         )
 
 
@@ -70,12 +63,12 @@ pressures = st.floats(0.0, 5e5)
 dampings = st.floats(0.0, 1e5)
 
 
-def brute_force(caliper: Caliper, stroke: float, pressure: float) -> float:
+def brute_force(caliper, stroke, pressure):
     """Root of the equation of motion in each direction; no motion where friction carries the difference."""
     for direction, end in ((1.0, 10.0), (-1.0, -10.0)):
         if direction * caliper.net_force(stroke, pressure) > caliper.friction(stroke):
 
-            def balance(y: float, direction: float = direction) -> float:
+            def balance(y, direction=direction):
                 squeezed = caliper.compression(y) - caliper.compression(stroke)
                 viscous = caliper.viscous_friction * (y - stroke) + caliper.contact_friction * squeezed
                 return caliper.net_force(y, pressure) - direction * caliper.friction(y) - viscous / STEP
@@ -84,21 +77,19 @@ def brute_force(caliper: Caliper, stroke: float, pressure: float) -> float:
     return stroke
 
 
-def sweep(caliper: Caliper, pressures: Iterable[float]) -> np.ndarray:
+def sweep(caliper, pressures):
     stroke = 0.0
     strokes = [stroke := caliper.after(stroke, p) for p in pressures]
     return np.array(strokes)
 
 
 @given(strokes, pressures, st.floats(0.0, 1e4), dampings)
-def test_one_step_solves_the_equation_of_motion(
-    stroke: float, pressure: float, viscous: float, contact: float
-) -> None:
+def test_one_step_solves_the_equation_of_motion(stroke, pressure, viscous, contact):
     caliper = replace(CALIPER, viscous_friction=viscous, contact_friction=contact)
     assert caliper.after(stroke, pressure) == pytest.approx(brute_force(caliper, stroke, pressure), abs=1e-11)
 
 
-def test_a_random_pressure_is_followed_as_by_brute_force() -> None:
+def test_a_random_pressure_is_followed_as_by_brute_force():
     history = np.abs(np.cumsum(np.random.default_rng(3).normal(0.0, 2e4, 400))) % 5e5
     expected, stroke = [], 0.0
     for p in history.tolist():
@@ -108,9 +99,7 @@ def test_a_random_pressure_is_followed_as_by_brute_force() -> None:
 
 
 @given(strokes, st.floats(-0.999, 0.999), pressures, dampings)
-def test_no_motion_while_friction_carries_the_difference(
-    stroke: float, share: float, viscous: float, contact: float
-) -> None:
+def test_no_motion_while_friction_carries_the_difference(stroke, share, viscous, contact):
     """However often it is pushed with less than the friction, the piston does not creep."""
     caliper = replace(CALIPER, viscous_friction=viscous, contact_friction=contact)
     free = -caliper.net_force(stroke, 0.0)
@@ -122,17 +111,17 @@ def test_no_motion_while_friction_carries_the_difference(
 
 
 @given(strokes, pressures)
-def test_piston_never_leaves_its_seat_backwards(stroke: float, pressure: float) -> None:
+def test_piston_never_leaves_its_seat_backwards(stroke, pressure):
     assert CALIPER.after(stroke, pressure) >= 0.0
 
 
 @given(strokes, pressures, pressures)
-def test_more_pressure_never_means_less_stroke(stroke: float, a: float, b: float) -> None:
+def test_more_pressure_never_means_less_stroke(stroke, a, b):
     low, high = sorted((a, b))
     assert CALIPER.after(stroke, low) <= CALIPER.after(stroke, high)
 
 
-def test_no_clamping_until_the_clearance_is_closed() -> None:
+def test_no_clamping_until_the_clearance_is_closed():
     """The spring, the friction and the clearance together give the pressure at which the pads touch."""
     touch = CALIPER.pressure_at(CALIPER.clearance, 1.0)
     strokes = sweep(SLOW, [0.999 * touch] * 3)
@@ -141,7 +130,7 @@ def test_no_clamping_until_the_clearance_is_closed() -> None:
     assert SLOW.after(0.0, 1.001 * touch) > CALIPER.clearance
 
 
-def test_loop_is_as_wide_as_twice_the_friction() -> None:
+def test_loop_is_as_wide_as_twice_the_friction():
     """At one and the same stroke, squeezing and releasing pressure differ by 2 (Fc + alpha N) / A."""
     rising = np.linspace(0.0, 4.5e5, 5001)
     up = sweep(SLOW, rising.tolist())
@@ -154,11 +143,11 @@ def test_loop_is_as_wide_as_twice_the_friction() -> None:
     assert squeezing - releasing == pytest.approx(expected, rel=1e-3)
 
 
-def ramp(start: float, end: float, duration: float) -> list[float]:
+def ramp(start, end, duration):
     return np.linspace(start, end, round(duration / STEP) + 1).tolist()
 
 
-def loop_width(caliper: Caliper, duration: float, stroke: float) -> float:
+def loop_width(caliper, duration, stroke):
     """Pressure between squeezing and releasing at a stroke, each from 0 to 5 bar within a duration, Pa."""
     rising = ramp(0.0, 5e5, duration)
     strokes = sweep(caliper, [*rising, *rising[::-1]])
@@ -167,7 +156,7 @@ def loop_width(caliper: Caliper, duration: float, stroke: float) -> float:
 
 
 @pytest.mark.parametrize("duration", [0.5, 1.0, 4.0])
-def test_friction_of_the_contact_widens_the_loop_by_the_speed_of_the_pads(duration: float) -> None:
+def test_friction_of_the_contact_widens_the_loop_by_the_speed_of_the_pads(duration):
     """By cN (z' squeezing + z' releasing) / A; under a ramp of p, z' = A p' / (kc (1 +- alpha) + k)."""
     caliper = replace(SLOW, contact_friction=7e4)
     force_rate = caliper.piston_area * 5e5 / duration
@@ -179,7 +168,7 @@ def test_friction_of_the_contact_widens_the_loop_by_the_speed_of_the_pads(durati
     assert widened == pytest.approx(caliper.contact_friction * sum(speeds) / caliper.piston_area, rel=0.02)
 
 
-def test_free_travel_does_not_feel_the_friction_of_the_contact() -> None:
+def test_free_travel_does_not_feel_the_friction_of_the_contact():
     """Not in a bit: the pads do not touch, however quick the pressure is."""
     damped = replace(CALIPER, contact_friction=1e5)
     below = 0.999 * CALIPER.pressure_at(CALIPER.clearance, 1.0)
@@ -189,9 +178,7 @@ def test_free_travel_does_not_feel_the_friction_of_the_contact() -> None:
 
 @pytest.mark.parametrize("end", [1.5e5, 3e5, 4e5])
 @pytest.mark.parametrize("start", [0.0, 5e5])
-def test_where_the_piston_comes_to_rest_does_not_depend_on_the_friction_of_the_contact(
-    start: float, end: float
-) -> None:
+def test_where_the_piston_comes_to_rest_does_not_depend_on_the_friction_of_the_contact(start, end):
     """Squeezed up or released down to a pressure and held there: all it does is to arrive later."""
     history = [*ramp(0.0, start, 0.2), *[start] * 2000, *[end] * 2000]
     at_rest = [
@@ -203,10 +190,9 @@ def test_where_the_piston_comes_to_rest_does_not_depend_on_the_friction_of_the_c
 
 
 @pytest.mark.parametrize(
-    "caliper",
-    [SLOW, CALIPER, replace(CALIPER, viscous_friction=1e4), replace(CALIPER, contact_friction=1e5)],
+    "caliper", [SLOW, CALIPER, replace(CALIPER, viscous_friction=1e4), replace(CALIPER, contact_friction=1e5)]
 )
-def test_work_of_a_closed_loop_is_what_friction_turns_into_heat(caliper: Caliper) -> None:
+def test_work_of_a_closed_loop_is_what_friction_turns_into_heat(caliper):
     """The work of the air on the piston over a loop is positive and equals that of friction and damping."""
     time = STEP * np.arange(8001)
     pressure = 2.25e5 * (1.0 - np.cos(2.0 * math.pi * time / 2.0))
@@ -223,10 +209,10 @@ def test_work_of_a_closed_loop_is_what_friction_turns_into_heat(caliper: Caliper
 
 
 @pytest.mark.parametrize("damped", [replace(SLOW, viscous_friction=2e4), replace(SLOW, contact_friction=2e4)])
-def test_quick_loops_are_wider_than_slow_ones(damped: Caliper) -> None:
+def test_quick_loops_are_wider_than_slow_ones(damped):
     """Friction that grows with speed: WSP cycles and brake applications give different lines."""
 
-    def area(period: float) -> float:
+    def area(period):
         time = STEP * np.arange(round(2 * period / STEP) + 1)
         pressure = 3e5 + 1e5 * np.sin(2.0 * math.pi * time / period)
         half = time.size // 2
@@ -236,5 +222,5 @@ def test_quick_loops_are_wider_than_slow_ones(damped: Caliper) -> None:
     assert area(0.2) > 1.05 * area(4.0)
 
 
-def test_lever_multiplies_the_contact_force() -> None:
+def test_lever_multiplies_the_contact_force():
     assert clamping_force(3.9e-3, 2.9e-3, 8e6, 2.45) == pytest.approx(2.45 * 8e3)

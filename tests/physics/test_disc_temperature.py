@@ -1,7 +1,6 @@
 """Temperature of a disc: published solutions, closed forms, and the heat equation solved by SciPy."""
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 import pytest
@@ -25,7 +24,7 @@ DIFFUSIVITY = CONDUCTIVITY / (DENSITY * SPECIFIC_HEAT)
 Array = NDArray[np.float64]
 
 
-def surface_rise(flux: Sequence[float] | Array, thickness: float, cycle: float = CYCLE) -> Array:
+def surface_rise(flux, thickness, cycle=CYCLE):
     """Surface temperature less the initial one after each cycle of a flux in W/m2, nothing cooled."""
     fourier = DIFFUSIVITY * cycle / thickness**2
     held = thickness / CONDUCTIVITY
@@ -44,7 +43,7 @@ def surface_rise(flux: Sequence[float] | Array, thickness: float, cycle: float =
 
 @pytest.mark.parametrize("depths", [2.5, 4.0, 5.5])
 @pytest.mark.parametrize("duration", [10.0, 28.0, 45.0])
-def test_highest_surface_temperature_of_a_stop_on_a_thick_disc(duration: float, depths: float) -> None:
+def test_highest_surface_temperature_of_a_stop_on_a_thick_disc(duration, depths):
     """Half space under a flux that falls linearly to zero: 0.5319 q0 sqrt(t_s)/sqrt(k rho c), half way.
 
     From 2 q0/sqrt(pi k rho c) sqrt(t) (1 - 2 t/(3 t_s)) at t = t_s/2: 4/(3 sqrt(2 pi)) = 0.5319. Thick is a
@@ -60,12 +59,12 @@ def test_highest_surface_temperature_of_a_stop_on_a_thick_disc(duration: float, 
     assert time[rise.argmax()] == pytest.approx(duration / 2.0, rel=0.02)
 
 
-def heat_equation(flux_at: Array, thickness: float, cells: int = 400) -> Array:
+def heat_equation(flux_at, thickness, cells=400):
     """Surface temperature of an insulated slab after each cycle: finite volumes, stepped by SciPy."""
     width = thickness / cells
     exchange = DIFFUSIVITY / width**2
 
-    def change(time: float, temperature: Array) -> Array:
+    def change(time, temperature):
         flow = exchange * np.diff(temperature)
         rates = np.zeros(cells)
         rates[:-1] += flow
@@ -93,7 +92,7 @@ def heat_equation(flux_at: Array, thickness: float, cells: int = 400) -> Array:
     return np.asarray(solution.y[0] + half_a_cell)
 
 
-def test_a_thin_disc_follows_the_heat_equation() -> None:
+def test_a_thin_disc_follows_the_heat_equation():
     """A ring of 20 mm in a stop of 8 s: neither a half space nor of one temperature.
 
     Once the modes that are left out have settled, some 0.1 s after the flux jumped.
@@ -108,7 +107,7 @@ def test_a_thin_disc_follows_the_heat_equation() -> None:
     np.testing.assert_allclose(ours[settled], reference[settled], atol=0.01 * reference.max())
 
 
-def test_under_a_steady_flux_the_surface_leads_the_bulk_by_a_third() -> None:
+def test_under_a_steady_flux_the_surface_leads_the_bulk_by_a_third():
     """T_surface - T = q L/(3 k) once all modes are held."""
     thickness, flux = 0.02, 3e5
     seconds = 40.0
@@ -118,24 +117,24 @@ def test_under_a_steady_flux_the_surface_leads_the_bulk_by_a_third() -> None:
     assert math.fsum(map(held_mode, range(1, MODES + 1))) + held_rest() == pytest.approx(1.0 / 3.0)
 
 
-def test_cycles_of_any_length_give_the_same_temperature() -> None:
+def test_cycles_of_any_length_give_the_same_temperature():
     """Each mode is solved exactly for a constant flux, however long the interval."""
     fine = surface_rise([2e5] * 400, 0.02, cycle=0.01)[-1]
     assert surface_rise([2e5], 0.02, cycle=4.0)[-1] == pytest.approx(fine, rel=1e-11)
 
 
 @given(x=st.floats(0.0, 30.0))
-def test_share_of_the_way_to_equilibrium(x: float) -> None:
+def test_share_of_the_way_to_equilibrium(x):
     assert relaxed_share(x) == pytest.approx(-math.expm1(-x), rel=1e-10)
 
 
-def test_the_series_goes_over_into_the_exponential() -> None:
+def test_the_series_goes_over_into_the_exponential():
     below, above = relaxed_share(0.01 - 1e-12), relaxed_share(0.01)
     assert above - below == pytest.approx(1e-12 * math.exp(-0.01), rel=0.1)
 
 
 @given(excess=st.floats(1.0, 800.0), cycles=st.integers(1, 2000))
-def test_a_disc_that_rolls_cools_exponentially(excess: float, cycles: int) -> None:
+def test_a_disc_that_rolls_cools_exponentially(excess, cycles):
     """T - T_ambient = (T0 - T_ambient) exp(-h A t/C), in cycles or at once."""
     per_cycle, surroundings = 3e-4, 293.15
     temperature = surroundings + excess
@@ -144,7 +143,7 @@ def test_a_disc_that_rolls_cools_exponentially(excess: float, cycles: int) -> No
     assert temperature - surroundings == pytest.approx(excess * math.exp(-per_cycle * cycles), rel=1e-9)
 
 
-def test_a_dragging_disc_comes_to_the_temperature_at_which_the_air_takes_all() -> None:
+def test_a_dragging_disc_comes_to_the_temperature_at_which_the_air_takes_all():
     """P = h A (T - T_ambient)."""
     capacity, conductance, power, interval = 1e5, 200.0, 30e3, 10.0
     share = relaxed_share(conductance * interval / capacity)

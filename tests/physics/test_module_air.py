@@ -1,7 +1,6 @@
 """The air of a module as it is computed, against vessels that obey the energy balance of physics.tank."""
 
 import math
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,7 +21,6 @@ BARE, WITH_BALLS = 2.6, 12.0
 SWEPT = 0.0265
 CLOSING, OPENING = 1.43e5, 1.36e5
 
-ErrorAt = Callable[[float, float], float]
 
 pressures = st.floats(1e5, 6e5)
 exchanges = st.floats(0.0, 500.0)
@@ -39,10 +37,10 @@ class Vessel:
     pressure: float = 1e5
     temperature: float = WALL
 
-    def __post_init__(self) -> None:
+    def __post_init__(self):
         self.mass = self.pressure * self.volume / PRESSURE_PER_MASS
 
-    def gain(self, mass: float, growth: float = 0.0) -> None:
+    def gain(self, mass, growth=0.0):
         """Gain air of the wall's temperature (kg), or lose some, and grow in relative volume."""
         carried = enthalpy(mass, WALL, self.temperature, K * CV)
         self.mass += mass
@@ -64,23 +62,23 @@ class Vessel:
         self.pressure += rise
 
     @property
-    def amount(self) -> float:
+    def amount(self):
         return self.mass * PRESSURE_PER_MASS
 
     @property
-    def exchange(self) -> float:
+    def exchange(self):
         """Its W in the equations of the module."""
         return (K - 1.0) * self.conductance * self.step * WALL / VOLUME
 
 
-def flows(vessel: Vessel) -> Iterator[float]:
+def flows(vessel):
     """Five seconds of filling from 5 bar, holding and venting to 1 bar, 0.1 s each, at random; in kg."""
     for valve in np.random.default_rng(4).choice([5e5, 1e5, None], 50):
         for _ in range(round(0.1 / vessel.step)):
             yield 0.0 if valve is None else 3e-8 * vessel.step * (valve - vessel.pressure)
 
 
-def error_of_the_amount(conductance: float, step: float) -> float:
+def error_of_the_amount(conductance, step):
     """Largest error of the air that a tank's pressure tells, over the air that flowed."""
     tank = Vessel(conductance, step)
     amount, errors = tank.amount, []
@@ -92,7 +90,7 @@ def error_of_the_amount(conductance: float, step: float) -> float:
     return max(errors) / tank.amount
 
 
-def error_of_the_pressure(conductance: float, step: float) -> float:
+def error_of_the_pressure(conductance, step):
     """Largest error of the pressure of a module whose flows are known and whose volume goes to and fro."""
     module = Vessel(conductance, step, volume=1.0 - SWEPT)
     pressure, amount, errors = module.pressure, module.amount, []
@@ -107,13 +105,13 @@ def error_of_the_pressure(conductance: float, step: float) -> float:
 
 
 @pytest.mark.parametrize("error", [error_of_the_amount, error_of_the_pressure])
-def test_without_heat_the_air_is_that_of_the_tanks_energy_balance(error: ErrorAt) -> None:
+def test_without_heat_the_air_is_that_of_the_tanks_energy_balance(error):
     assert error(0.0, 5e-4) < 1e-11
 
 
 @pytest.mark.parametrize("error", [error_of_the_amount, error_of_the_pressure])
 @pytest.mark.parametrize("conductance", [BARE, WITH_BALLS])
-def test_with_heat_the_air_is_that_of_the_tanks_energy_balance(error: ErrorAt, conductance: float) -> None:
+def test_with_heat_the_air_is_that_of_the_tanks_energy_balance(error, conductance):
     """But for the heat of a step, which is that of its beginning here and that of its end there."""
     coarse = error(conductance, 5e-4)
     assert 0.0 < coarse < 1e-3
@@ -121,9 +119,7 @@ def test_with_heat_the_air_is_that_of_the_tanks_energy_balance(error: ErrorAt, c
 
 
 @given(pressures, pressures, rises, exchanges)
-def test_a_module_like_the_tank_has_the_tanks_pressure(
-    pressure: float, amount: float, rise: float, exchange: float
-) -> None:
+def test_a_module_like_the_tank_has_the_tanks_pressure(pressure, amount, rise, exchange):
     """What the tank's pressure tells of its air gives, put into the same volume, that pressure again."""
     gained = amount_gained(pressure, rise, amount, exchange, K)
     after = pressure_volume_after(pressure, 1.0, 0.0, amount, gained, exchange, K)
@@ -131,16 +127,14 @@ def test_a_module_like_the_tank_has_the_tanks_pressure(
 
 
 @given(pressures, st.floats(0.9, 1.0), exchanges)
-def test_air_at_rest_does_not_change_by_a_bit(pressure: float, volume: float, exchange: float) -> None:
+def test_air_at_rest_does_not_change_by_a_bit(pressure, volume, exchange):
     assert amount_gained(pressure, 0.0, pressure, exchange, K) == 0.0
     amount = pressure * volume
     assert pressure_volume_after(pressure, volume, 0.0, amount, 0.0, exchange, K) == amount
 
 
 @given(pressures, st.floats(0.7, 1.3), st.floats(1.0, 500.0))
-def test_an_amount_that_was_wrong_comes_right_while_the_pressure_rests(
-    pressure: float, share: float, exchange: float
-) -> None:
+def test_an_amount_that_was_wrong_comes_right_while_the_pressure_rests(pressure, share, exchange):
     """Air of the wall's temperature has q = p: what sensors and starts falsify does not last."""
     amount = share * pressure
     gained = amount_gained(pressure, 0.0, amount, exchange, K)
@@ -148,14 +142,12 @@ def test_an_amount_that_was_wrong_comes_right_while_the_pressure_rests(
     assert gained * (pressure - amount) >= 0.0
 
 
-def volume_at(travel: float) -> float:
+def volume_at(travel):
     return 1.0 + SWEPT * (travel - 1.0)
 
 
 @given(st.floats(0.0, 1.0), st.floats(0.5e5, 6e5))
-def test_the_piston_keeps_its_pressure_between_the_two_while_it_has_somewhere_to_go(
-    travel: float, pressure: float
-) -> None:
+def test_the_piston_keeps_its_pressure_between_the_two_while_it_has_somewhere_to_go(travel, pressure):
     pressure_volume = pressure * volume_at(travel)
     after = travel_after(travel, pressure_volume, SWEPT, CLOSING, OPENING)
     left = pressure_volume / volume_at(after)
@@ -167,12 +159,12 @@ def test_the_piston_keeps_its_pressure_between_the_two_while_it_has_somewhere_to
 
 
 @given(st.floats(0.0, 1.0), st.floats(OPENING, CLOSING))
-def test_between_the_two_pressures_the_piston_stays(travel: float, pressure: float) -> None:
+def test_between_the_two_pressures_the_piston_stays(travel, pressure):
     after = travel_after(travel, pressure * volume_at(travel), SWEPT, CLOSING, OPENING)
     assert after == pytest.approx(travel, abs=1e-13)
 
 
-def test_the_piston_moves_out_at_the_closing_pressure_and_back_at_the_opening_pressure() -> None:
+def test_the_piston_moves_out_at_the_closing_pressure_and_back_at_the_opening_pressure():
     """Air is let in and out isothermally, grain by grain: where the travel begins and ends is a pressure."""
     amounts = np.linspace(1.2e5, 1.6e5, 4001)
     travel, rows = 0.0, []

@@ -19,41 +19,35 @@ DRAWS = 1 << 15
 
 
 @pytest.mark.parametrize(("key", "counter", "bits"), KNOWN_ANSWERS)
-def test_known_answers(key: tuple[int, int], counter: tuple[int, int], bits: tuple[int, int]) -> None:
+def test_known_answers(key, counter, bits):
     assert threefry(*key, *counter) == bits
 
 
-def test_known_answers_hold_for_the_integers_of_a_record() -> None:
+def test_known_answers_hold_for_the_integers_of_a_record_and_the_bell_is_bounded_and_symmetric():
     """Numpy's signed 64-bit integers must not overflow in the rotations."""
     key, counter, bits = KNOWN_ANSWERS[1]
     assert threefry(*map(np.int64, key), *map(np.int64, counter)) == bits
+    assert bell(ALL_ONES, ALL_ONES) == -bell(0, 0) < 2.0 * math.sqrt(3.0)
 
 
 @pytest.fixture(scope="module")
-def draws() -> np.ndarray:
+def draws():
     """One channel's noise over many samples."""
     return np.array([bell(*threefry(7, 11, sample, 3)) for sample in range(DRAWS)])
 
 
-def test_bell_has_mean_zero_variance_one_and_the_kurtosis_of_four_uniform_numbers(draws: np.ndarray) -> None:
+def test_bell_has_the_moments_of_four_uniform_numbers_and_successive_samples_are_unrelated(draws):
     """The excess kurtosis of one uniform number is -6/5, that of a sum of n is -6/(5 n)."""
     error = 4.0 / math.sqrt(DRAWS)
     assert draws.mean() == pytest.approx(0.0, abs=error)
     assert draws.var() == pytest.approx(1.0, abs=error * math.sqrt(1.7))
     assert np.mean(draws**3) == pytest.approx(0.0, abs=error * math.sqrt(10.0))
     assert np.mean(draws**4) == pytest.approx(3.0 - 6.0 / 20.0, abs=error * math.sqrt(40.0))
-
-
-def test_bell_is_bounded_and_symmetric() -> None:
-    assert bell(ALL_ONES, ALL_ONES) == -bell(0, 0) < 2.0 * math.sqrt(3.0)
-
-
-def test_successive_samples_are_unrelated(draws: np.ndarray) -> None:
     correlations = [np.mean(draws[lag:] * draws[:-lag]) for lag in (1, 2, 20)]
     np.testing.assert_allclose(correlations, 0.0, atol=4.0 / math.sqrt(DRAWS))
 
 
-def test_channels_seeds_and_cases_are_unrelated() -> None:
+def test_channels_seeds_and_cases_are_unrelated():
     keys = list(product((0, 1), (0, 1), (0, 1)))
     series = [[bell(*threefry(seed, case, k, channel)) for k in range(2000)] for seed, case, channel in keys]
     correlations = np.corrcoef(series) - np.eye(len(keys))

@@ -19,27 +19,27 @@ speeds = st.floats(0.01, 80.0)
 loads = st.floats(2e4, 1.2e5)
 
 
-def polach(w: np.ndarray, v: float, load: float, law: tuple[float, ...]) -> np.ndarray:
+def polach(w, v, load, law):
     mu0, a, b, ka, ks = law
     mu = mu0 * ((1 - a) * np.exp(-b * w) + a)
     eps = STIFFNESS * (w / v) / (load * mu)
     return 2 * load * mu / np.pi * (ka * eps / (1 + (ka * eps) ** 2) + np.arctan(ks * eps))
 
 
-def force(w: float, v: float, law: tuple[float, ...], load: float = LOAD) -> float:
+def force(w, v, law, load=LOAD):
     return creep_force(w, v, load, STIFFNESS, *law)[0]
 
 
 @pytest.mark.parametrize("law", [DRY, WET])
 @pytest.mark.parametrize("v", [0.1, 3.0, 33.0])
-def test_force_is_polachs_over_all_slips(v: float, law: tuple[float, ...]) -> None:
+def test_force_is_polachs_over_all_slips(v, law):
     w = np.concatenate([np.geomspace(1e-9, 1.0, 300) * v, [0.0]])
     ours = [force(slip, v, law) for slip in w.tolist()]
     np.testing.assert_allclose(ours, polach(w, v, LOAD, law), rtol=1e-12)
 
 
 @pytest.mark.parametrize("law", [DRY, WET])
-def test_slope_at_zero_creep(law: tuple[float, ...]) -> None:
+def test_slope_at_zero_creep(law):
     """dF/ds = (kA + kS)/2 G a b c11, with s = w / v."""
     expected = (law[3] + law[4]) / 2 * SHEAR_MODULUS * SEMI_AXIS_A * SEMI_AXIS_B * C11
     v = 20.0
@@ -47,7 +47,7 @@ def test_slope_at_zero_creep(law: tuple[float, ...]) -> None:
     assert creep_force(0.0, v, LOAD, STIFFNESS, *law)[1] * v == pytest.approx(expected, rel=1e-12)
 
 
-def test_force_at_eps_4_467_on_a_wet_rail() -> None:
+def test_force_at_eps_4_467_on_a_wet_rail():
     """0.573 of the friction limit; a widespread wrong form, kA eps / (1 + kA eps^2), gives 0.390."""
     mu0, _, _, ka, ks = WET
     v = 20.0
@@ -57,7 +57,7 @@ def test_force_at_eps_4_467_on_a_wet_rail() -> None:
 
 
 @given(st.floats(1e-6, 20.0))
-def test_without_reductions_it_is_polach_1999(w: float) -> None:
+def test_without_reductions_it_is_polach_1999(w):
     """F = (2 Q mu / pi) [eps / (1 + eps^2) + arctan(eps)]."""
     v, mu = 20.0, 0.3
     eps = STIFFNESS * w / v / (LOAD * mu)
@@ -66,15 +66,13 @@ def test_without_reductions_it_is_polach_1999(w: float) -> None:
 
 
 @given(st.floats(0.0, 80.0), speeds, loads, conditions)
-def test_force_never_exceeds_the_friction_limit(
-    w: float, v: float, load: float, law: tuple[float, ...]
-) -> None:
+def test_force_never_exceeds_the_friction_limit(w, v, load, law):
     limit, _ = friction_limit(w, load, *law[:3])
     assert 0.0 <= force(w, v, law, load) <= limit * (1.0 + 1e-12)
 
 
 @given(st.floats(1e-4, 1.0), st.floats(1.0, 60.0), conditions)
-def test_slope_is_the_derivative_of_the_force(share: float, v: float, law: tuple[float, ...]) -> None:
+def test_slope_is_the_derivative_of_the_force(share, v, law):
     w = share * v
     h = 1e-4 * w
     central = (force(w + h, v, law) - force(w - h, v, law)) / (2 * h)
@@ -83,7 +81,7 @@ def test_slope_is_the_derivative_of_the_force(share: float, v: float, law: tuple
 
 
 @pytest.mark.parametrize("law", [DRY, WET])
-def test_friction_falls_from_mu0_to_the_share_a(law: tuple[float, ...]) -> None:
+def test_friction_falls_from_mu0_to_the_share_a(law):
     mu0, ratio, decay = law[:3]
     at_rest, fast = (friction_limit(w, LOAD, mu0, ratio, decay)[0] for w in (0.0, 200.0))
     assert at_rest == pytest.approx(LOAD * mu0, rel=1e-15)
@@ -91,7 +89,7 @@ def test_friction_falls_from_mu0_to_the_share_a(law: tuple[float, ...]) -> None:
 
 
 @given(loads)
-def test_contact_area_grows_with_the_load_as_hertz_says(load: float) -> None:
+def test_contact_area_grows_with_the_load_as_hertz_says(load):
     """Both semi-axes grow with the cube root of the load."""
     assert contact_stiffness(STIFFNESS, load / LOAD) == pytest.approx(
         STIFFNESS * (load / LOAD) ** (2 / 3), rel=1e-11

@@ -17,12 +17,12 @@ from uictest.core.physics.pole_wheel import (
 
 
 @given(st.floats(-1e4, 1e4))
-def test_the_sine_is_that_of_the_library(turns: float) -> None:
+def test_the_sine_is_that_of_the_library(turns):
     whole = turns - math.floor(turns)
     assert sine_of_turns(turns) == pytest.approx(math.sin(2.0 * math.pi * whole), abs=2e-15)
 
 
-def test_an_eccentric_wheel_errs_once_per_turn_by_its_amplitude() -> None:
+def test_an_eccentric_wheel_errs_once_per_turn_by_its_amplitude():
     turns = np.linspace(3.0, 4.0, 4001)
     errors = np.array([passing_rate(float(x), 0.01) for x in turns]) - 1.0
     assert errors.max() == pytest.approx(0.01, rel=1e-6)
@@ -32,21 +32,21 @@ def test_an_eccentric_wheel_errs_once_per_turn_by_its_amplitude() -> None:
 
 
 @given(st.floats(0.0, 1e3), st.floats(0.0, 0.5))
-def test_a_whole_turn_passes_whole(turns: float, eccentricity: float) -> None:
+def test_a_whole_turn_passes_whole(turns, eccentricity):
     """An eccentric wheel has neither more nor fewer teeth."""
     passed = passed_turns(turns + 1.0, eccentricity) - passed_turns(turns, eccentricity)
     assert passed == pytest.approx(1.0, abs=1e-11)
 
 
 @given(st.floats(0.0, 100.0), st.floats(0.0, 0.5))
-def test_what_passes_grows_at_the_passing_rate(turns: float, eccentricity: float) -> None:
+def test_what_passes_grows_at_the_passing_rate(turns, eccentricity):
     h = 1e-5
     slope = (passed_turns(turns + h, eccentricity) - passed_turns(turns - h, eccentricity)) / (2.0 * h)
     assert slope == pytest.approx(passing_rate(turns, eccentricity), abs=1e-6)
 
 
 @given(st.floats(0.0, 1e5), st.integers(2, 200), st.integers(0, 5))
-def test_teeth_are_counted_one_by_one(place: float, teeth: int, missing: int) -> None:
+def test_teeth_are_counted_one_by_one(place, teeth, missing):
     """Against a wheel whose teeth are written out."""
     missing = min(missing, teeth - 1)
     there = (
@@ -67,9 +67,7 @@ def test_teeth_are_counted_one_by_one(place: float, teeth: int, missing: int) ->
     share=st.floats(0.0, 1.0),
     interval=st.floats(0.001, 0.1),
 )
-def test_the_time_since_a_tooth_is_that_of_even_acceleration(
-    rate: float, change: float, share: float, interval: float
-) -> None:
+def test_the_time_since_a_tooth_is_that_of_even_acceleration(rate, change, share, interval):
     before = max(rate - change * interval, 0.0)
     change = (rate - before) / interval
     ago = share * interval
@@ -77,15 +75,15 @@ def test_the_time_since_a_tooth_is_that_of_even_acceleration(
     assert time_since(distance, rate, before, interval) == pytest.approx(ago, rel=1e-6, abs=1e-6 * interval)
 
 
-def test_a_wheel_that_stands_has_passed_nothing() -> None:
+def test_the_timer_counts_ticks_and_a_wheel_that_stands_has_passed_nothing():
     assert time_since(0.0, 0.0, 0.0, 0.01) == 0.0
     assert math.isfinite(time_since(0.5, 0.0, 0.0, 0.01))
+    assert speed_of_teeth(2.0, 0.03, 0.0104, 0.001) == pytest.approx(0.06 / 0.010)
+    assert speed_of_teeth(2.0, 0.03, 0.0106, 0.001) == pytest.approx(0.06 / 0.011)
 
 
 @pytest.mark.parametrize("deceleration", [0.0, 1.0, 4.0])
-def test_the_speed_of_whole_teeth_is_the_true_one_in_the_middle_of_their_interval(
-    deceleration: float,
-) -> None:
+def test_the_speed_of_whole_teeth_is_the_true_one_in_the_middle_of_their_interval(deceleration):
     """At constant deceleration the mean over an interval is the speed at the middle of it."""
     pitch, speed = 0.03, 10.0
     times = (
@@ -95,8 +93,3 @@ def test_the_speed_of_whole_teeth_is_the_true_one_in_the_middle_of_their_interva
     )
     reading = speed_of_teeth(5.0, pitch, times[1] - times[0], 1e-12)
     assert reading == pytest.approx(speed - deceleration * 0.5 * (times[0] + times[1]), rel=1e-9)
-
-
-def test_the_timer_counts_ticks() -> None:
-    assert speed_of_teeth(2.0, 0.03, 0.0104, 0.001) == pytest.approx(0.06 / 0.010)
-    assert speed_of_teeth(2.0, 0.03, 0.0106, 0.001) == pytest.approx(0.06 / 0.011)

@@ -13,9 +13,7 @@ lengths = st.floats(1e-6, 50.0)
 
 
 @given(shares, losses, lengths, st.floats(1e2, 1e6), st.floats(0.05, 10.0))
-def test_the_share_solves_its_differential_equation(
-    share: float, loss_per_metre: float, distance: float, energy: float, reach: float
-) -> None:
+def test_the_share_solves_its_differential_equation(share, loss_per_metre, distance, energy, reach):
     expected = solve_ivp(
         lambda x, c: (1.0 - np.exp(-loss_per_metre / energy) - c) / reach,
         *((0.0, distance), [share]),
@@ -30,14 +28,14 @@ def test_the_share_solves_its_differential_equation(
 
 
 @given(losses, st.floats(1e2, 1e6))
-def test_after_many_reaches_of_constant_sliding_the_share_has_settled(loss: float, energy: float) -> None:
+def test_after_many_reaches_of_constant_sliding_the_share_has_settled(loss, energy):
     reach = 0.5
     share = cleaned_share(0.0, 40.0 * reach * loss, 40.0 * reach, 1.0 / energy, 1.0 / reach)
     assert share == pytest.approx(1.0 - np.exp(-loss / energy), rel=1e-9, abs=1e-12)
 
 
 @given(shares, losses, lengths, lengths)
-def test_a_stretch_in_two_parts_is_the_whole(share: float, loss: float, first: float, second: float) -> None:
+def test_a_stretch_in_two_parts_is_the_whole(share, loss, first, second):
     whole = cleaned_share(share, loss * (first + second), first + second, 1.0 / 5300.0, 2.0)
     half_way = cleaned_share(share, loss * first, first, 1.0 / 5300.0, 2.0)
     assert cleaned_share(half_way, loss * second, second, 1.0 / 5300.0, 2.0) == pytest.approx(
@@ -46,19 +44,19 @@ def test_a_stretch_in_two_parts_is_the_whole(share: float, loss: float, first: f
 
 
 @given(lengths)
-def test_a_rolling_wheel_cleans_nothing(distance: float) -> None:
+def test_a_rolling_wheel_cleans_nothing(distance):
     assert cleaned_share(0.0, 0.0, distance, 1.0 / 5300.0, 2.0) == 0.0
     assert cleaned_share(0.0, 1e6, distance, 0.0, 2.0) == 0.0
 
 
 @given(shares, lengths, st.floats(-1e3, 0.0))
-def test_a_loss_below_zero_by_rounding_cleans_nothing(share: float, distance: float, loss: float) -> None:
+def test_a_loss_below_zero_by_rounding_cleans_nothing(share, distance, loss):
     rolling = cleaned_share(share, 0.0, distance, 1.0 / 5300.0, 2.0)
     assert cleaned_share(share, loss, distance, 1.0 / 5300.0, 2.0) == rolling
 
 
 @given(shares, shares, shares)
-def test_each_wheelset_adds_to_what_it_finds(share: float, arrived: float, carry_over: float) -> None:
+def test_each_wheelset_adds_to_what_it_finds(share, arrived, carry_over):
     """Of what is not clean on arrival, a wheelset cleans its share."""
     left = share_left_behind(share, arrived, carry_over)
     assert max(share, carry_over * arrived) - 1e-12 <= left <= 1.0
@@ -66,15 +64,13 @@ def test_each_wheelset_adds_to_what_it_finds(share: float, arrived: float, carry
 
 
 @given(st.floats(0.001, 1.0), shares, st.floats(0.001, 1.0))
-def test_cleaning_never_lowers_friction_and_never_exceeds_a_clean_rail(
-    friction: float, share: float, recovered: float
-) -> None:
+def test_cleaning_never_lowers_friction_and_never_exceeds_a_clean_rail(friction, share, recovered):
     met = cleaned_friction(friction, share, recovered)
     assert friction <= met <= max(friction, recovered) * (1.0 + 1e-15)
     assert cleaned_friction(friction, 0.0, recovered) == friction
 
 
-def test_a_clean_rail_has_the_recovered_friction() -> None:
+def test_a_clean_rail_has_the_recovered_friction():
     assert cleaned_friction(0.08, 1.0, 0.28) == pytest.approx(0.28)
     assert cleaned_friction(0.08, 0.5, 0.28) == pytest.approx(0.18)
     assert cleaned_friction(0.4, 0.5, 0.28) == 0.4

@@ -13,12 +13,12 @@ CYCLE = 0.01
 SLOWEST = 0.14
 
 
-def reading(speed: float, noise: float = 0.0) -> float:
+def reading(speed, noise=0.0):
     return speed_reading(speed, PITCH, TICK, CYCLE, SLOWEST, noise)
 
 
 @given(st.floats(SLOWEST, 100.0))
-def test_speed_is_off_by_no_more_than_half_a_tick_of_the_timer(speed: float) -> None:
+def test_speed_is_off_by_no_more_than_half_a_tick_of_the_timer(speed):
     """The timer counts over the teeth of a whole cycle, or over one tooth where that takes longer."""
     counted = max(math.floor(speed * CYCLE / PITCH), 1) * PITCH / speed
     bound = 0.5 * TICK / (counted - 0.5 * TICK)
@@ -26,24 +26,22 @@ def test_speed_is_off_by_no_more_than_half_a_tick_of_the_timer(speed: float) -> 
 
 
 @given(st.floats(SLOWEST, 100.0))
-def test_speed_is_within_a_tenth_of_a_per_mille_with_a_microsecond_timer(speed: float) -> None:
+def test_speed_is_within_a_tenth_of_a_per_mille_with_a_microsecond_timer(speed):
     """A cycle of 10 ms holds ten thousand ticks; at least half of it lies between teeth that are counted."""
     assert reading(speed) == pytest.approx(speed, rel=2e-4)
 
 
 @given(st.floats(-5.0, SLOWEST, exclude_max=True))
-def test_a_wheel_slower_than_the_time_out_reads_zero(speed: float) -> None:
+def test_a_wheel_slower_than_the_time_out_reads_zero(speed):
     assert reading(speed, noise=0.1) == 0.0
 
 
-def test_noise_is_relative() -> None:
+def test_noise_is_relative():
     assert reading(20.0, noise=1e-3) == pytest.approx(reading(20.0) * 1.001, rel=1e-14)
 
 
 @given(st.floats(0.0, 1e6), st.floats(-0.01, 0.01), st.floats(-1e3, 1e3), st.floats(-1e3, 1e3))
-def test_analogue_sensor_adds_its_errors_and_stays_within_its_range(
-    value: float, gain_error: float, offset: float, noise: float
-) -> None:
+def test_analogue_sensor_adds_its_errors_and_stays_within_its_range(value, gain_error, offset, noise):
     step = 2.0**-4
     read = analogue_reading(value, gain_error, offset, noise, 1e6, step, 1.0 / step)
     assert 0.0 <= read <= 1e6
@@ -52,13 +50,13 @@ def test_analogue_sensor_adds_its_errors_and_stays_within_its_range(
 
 
 @given(st.floats(-1e12, 1e12))
-def test_nearest_whole_number(x: float) -> None:
+def test_nearest_whole_number(x):
     """As Python's own rounding: ties go to the even neighbour."""
     assert rounded_to_whole(x) == round(x)
 
 
 @given(st.floats(0.0, 9e5), st.floats(1e-3, 1e4))
-def test_reading_is_the_nearest_step_of_the_converter(value: float, resolution: float) -> None:
+def test_reading_is_the_nearest_step_of_the_converter(value, resolution):
     read = analogue_reading(value, 0.0, 0.0, 0.0, 1e6, resolution, 1.0 / resolution)
     assert abs(read - value) <= 0.5 * resolution * (1.0 + 1e-6)
     assert read / resolution == pytest.approx(round(read / resolution), abs=1e-6)

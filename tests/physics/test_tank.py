@@ -42,16 +42,14 @@ class Vessel:
     work: float = 0.0
     carried: float = 0.0
 
-    def __post_init__(self) -> None:
+    def __post_init__(self):
         self.pressure = self.mass * R * self.temperature / self.volume
 
     @property
-    def energy(self) -> float:
+    def energy(self):
         return self.mass * CV * self.temperature
 
-    def step(
-        self, gained: float = 0.0, source: float = WALL, *, growth: float = 0.0, exchange: float = 0.0
-    ) -> None:
+    def step(self, gained=0.0, source=WALL, *, growth=0.0, exchange=0.0):
         """Gain air (kg) from a source (K), or lose it, and change volume (m3)."""
         carried = enthalpy(gained, source, self.temperature, CP)
         self.mass += gained
@@ -76,17 +74,17 @@ class Vessel:
         self.heat += exchange * (WALL - self.temperature)
 
 
-def filled(pressure: float, temperature: float = WALL) -> Vessel:
+def filled(pressure, temperature=WALL):
     return Vessel(pressure * VOLUME / (R * temperature), temperature)
 
 
-def through_orifice(pressure: float, temperature: float, beyond: float) -> float:
+def through_orifice(pressure, temperature, beyond):
     """Flow into a vessel from what lies beyond its orifice at the temperature of the wall, kg/s."""
     cold, cold_wall = REFERENCE_TEMPERATURE / temperature, REFERENCE_TEMPERATURE / WALL
     return mass_flow(beyond, pressure, cold_wall, cold, CONDUCTANCE, *LAW)
 
 
-def test_closed_adiabatic_tank_keeps_p_v_to_the_ratio_of_heats_while_its_volume_grows() -> None:
+def test_closed_adiabatic_tank_keeps_p_v_to_the_ratio_of_heats_while_its_volume_grows():
     vessel = filled(4e5)
     parts = 20_000
     for _ in range(parts):
@@ -97,9 +95,7 @@ def test_closed_adiabatic_tank_keeps_p_v_to_the_ratio_of_heats_while_its_volume_
 
 
 @given(st.one_of(st.just(0.0), masses), masses, temperatures, temperatures, st.integers(1, 5))
-def test_adiabatic_filling_adds_the_enthalpy_of_the_source(
-    first: float, more: float, temperature: float, source: float, parts: int
-) -> None:
+def test_adiabatic_filling_adds_the_enthalpy_of_the_source(first, more, temperature, source, parts):
     """U = U0 + cp T_in m_in, in however many steps: p rises by k R T_in m_in / V, whatever there was."""
     vessel = Vessel(first, temperature)
     before = vessel.pressure
@@ -110,14 +106,14 @@ def test_adiabatic_filling_adds_the_enthalpy_of_the_source(
     assert vessel.pressure == pytest.approx(before + K * R * source * more / VOLUME, rel=1e-12)
 
 
-def test_an_evacuated_tank_is_filled_with_air_warmer_by_the_ratio_of_heats() -> None:
+def test_an_evacuated_tank_is_filled_with_air_warmer_by_the_ratio_of_heats():
     """The textbook case: 20 degC outside, 137 degC inside, whatever the size of the tank."""
     vessel = Vessel(0.0)
     vessel.step(1e-2)
     assert vessel.temperature == pytest.approx(1.4 * 293.15, rel=1e-14)
 
 
-def test_adiabatic_venting_leaves_air_that_expanded_isentropically() -> None:
+def test_adiabatic_venting_leaves_air_that_expanded_isentropically():
     """p / T^(k / (k - 1)) of the air that stays keeps its value: from 8 to 1 bar it cools to -111 degC."""
     vessel = filled(8e5)
     while vessel.pressure > 1e5:
@@ -127,7 +123,7 @@ def test_adiabatic_venting_leaves_air_that_expanded_isentropically() -> None:
     assert vessel.temperature == pytest.approx(161.9, abs=0.2)
 
 
-def test_isothermal_blow_down_through_a_choked_orifice_is_exponential() -> None:
+def test_isothermal_blow_down_through_a_choked_orifice_is_exponential():
     """p(t) = p0 exp(-t C rho0 R T / V) as long as the flow is choked, at the reference temperature."""
     step = 1e-5
     vessel = filled(10e5)
@@ -143,7 +139,7 @@ def test_isothermal_blow_down_through_a_choked_orifice_is_exponential() -> None:
 
 
 @given(masses, masses, st.floats(0.5, 2.0), temperatures)
-def test_a_large_exchange_is_isothermal(first: float, more: float, stretch: float, source: float) -> None:
+def test_a_large_exchange_is_isothermal(first, more, stretch, source):
     """p V = m R Tw after any step, whatever flows in and however the volume changes."""
     vessel = Vessel(first)
     vessel.step(more, source, growth=(stretch - 1.0) * VOLUME, exchange=ISOTHERMAL)
@@ -153,8 +149,8 @@ def test_a_large_exchange_is_isothermal(first: float, more: float, stretch: floa
 
 @given(masses, temperatures, exchanges, st.integers(1, 20))
 def test_a_closed_tank_cools_towards_its_wall_by_the_same_share_in_every_step(
-    mass: float, temperature: float, exchange: float, steps: int
-) -> None:
+    mass, temperature, exchange, steps
+):
     """Backward Euler of m cv T' = h A (Tw - T): never past the wall, however large the exchange."""
     vessel = Vessel(mass, temperature)
     for _ in range(steps):
@@ -163,7 +159,7 @@ def test_a_closed_tank_cools_towards_its_wall_by_the_same_share_in_every_step(
     assert vessel.temperature - WALL == pytest.approx((temperature - WALL) * left, abs=1e-9)
 
 
-def stepped(vessel: Vessel, step: float, duration: float, beyond: float) -> np.ndarray:
+def stepped(vessel, step, duration, beyond):
     """Pressures of a vessel with the exchange of a bare tank, one per step."""
     pressures = [vessel.pressure]
     for _ in range(round(duration / step)):
@@ -173,10 +169,10 @@ def stepped(vessel: Vessel, step: float, duration: float, beyond: float) -> np.n
     return np.array(pressures)
 
 
-def integrated(vessel: Vessel, times: np.ndarray, beyond: float) -> np.ndarray:
+def integrated(vessel, times, beyond):
     """Masses (kg) and energies (J) of a rigid vessel at times, by scipy, from mass and energy balance."""
 
-    def slope(_: float, state: np.ndarray) -> list[float]:
+    def slope(_, state):
         mass, energy = state.tolist()
         temperature = energy / (mass * CV)
         flow = through_orifice(energy * (K - 1.0) / VOLUME, temperature, beyond)
@@ -188,7 +184,7 @@ def integrated(vessel: Vessel, times: np.ndarray, beyond: float) -> np.ndarray:
     return solve_ivp(slope, span, start, t_eval=times, rtol=1e-10, atol=1e-14, method="LSODA").y
 
 
-def blow_down_error(step: float) -> float:
+def blow_down_error(step):
     """Largest deviation from scipy's solution of the same balances, over the pressure at the start."""
     vessel = filled(4.8e5)
     times = step * np.arange(round(2.0 / step) + 1)
@@ -197,14 +193,14 @@ def blow_down_error(step: float) -> float:
     return float(np.max(np.abs(ours - exact)) / 4.8e5)
 
 
-def test_blow_down_with_heat_follows_scipys_solution() -> None:
+def test_blow_down_with_heat_follows_scipys_solution():
     """From choked flow through the subsonic range to the atmosphere, at the rig's step of 0.5 ms."""
     error = blow_down_error(5e-4)
     assert error < 1e-3
     assert blow_down_error(2.5e-4) == pytest.approx(0.5 * error, rel=0.1)
 
 
-def test_a_tank_that_is_filled_and_closed_warms_and_cools_as_its_balances_say() -> None:
+def test_a_tank_that_is_filled_and_closed_warms_and_cools_as_its_balances_say():
     """0.3 s of filling from 4.8 bar as by scipy, then m cv T' = h A (Tw - T): the pressure falls again."""
     step = 2e-4
     vessel = filled(ATMOSPHERE)
@@ -212,7 +208,6 @@ def test_a_tank_that_is_filled_and_closed_warms_and_cools_as_its_balances_say() 
     stepped(vessel, step, 0.3, 4.8e5)
     assert [vessel.mass, vessel.energy] == pytest.approx(filling.tolist(), rel=1e-3)
     assert vessel.temperature > WALL + 20.0
-
     excess, mass, pressures = vessel.temperature - WALL, vessel.mass, []
     for _ in range(round(2.0 / step)):
         vessel.step(exchange=step * BARE)
@@ -223,16 +218,14 @@ def test_a_tank_that_is_filled_and_closed_warms_and_cools_as_its_balances_say() 
 
 
 @given(st.floats(1e4, 1e6), masses, volumes, exchanges)
-def test_air_at_rest_does_not_change_by_a_bit(
-    pressure: float, mass: float, volume: float, exchange: float
-) -> None:
+def test_air_at_rest_does_not_change_by_a_bit(pressure, mass, volume, exchange):
     assert air_changes(pressure, WALL, mass, 0.0, 0.0, volume, 0.0, WALL, exchange, R, CV) == (0.0, 0.0)
 
 
 @given(st.floats(1e4, 1e6), temperatures, masses, volumes)
 def test_closed_adiabatic_air_does_not_change_by_a_bit_at_any_temperature(
-    pressure: float, temperature: float, mass: float, volume: float
-) -> None:
+    pressure, temperature, mass, volume
+):
     assert air_changes(pressure, temperature, mass, 0.0, 0.0, volume, 0.0, WALL, 0.0, R, CV) == (0.0, 0.0)
 
 
@@ -240,9 +233,7 @@ moves = st.tuples(st.floats(-0.2, 0.2), temperatures, st.floats(-0.05, 0.05), ex
 
 
 @given(masses, temperatures, st.lists(moves, min_size=1, max_size=20))
-def test_nothing_is_lost_of_mass_and_energy_whatever_happens(
-    mass: float, temperature: float, history: list[tuple[float, float, float, float]]
-) -> None:
+def test_nothing_is_lost_of_mass_and_energy_whatever_happens(mass, temperature, history):
     """m cv T after = before + enthalpy + heat - work, and p V = m R T stays true."""
     vessel = Vessel(mass, temperature)
     before, moved = vessel.energy, vessel.energy
@@ -256,5 +247,5 @@ def test_nothing_is_lost_of_mass_and_energy_whatever_happens(
 
 
 @pytest.mark.parametrize(("flow", "temperature"), [(1e-3, 250.0), (-1e-3, 400.0)])
-def test_a_flow_carries_the_enthalpy_of_the_side_that_it_comes_from(flow: float, temperature: float) -> None:
+def test_a_flow_carries_the_enthalpy_of_the_side_that_it_comes_from(flow, temperature):
     assert enthalpy(flow, 250.0, 400.0, CP) == flow * CP * temperature

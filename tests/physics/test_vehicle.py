@@ -17,9 +17,7 @@ length = st.floats(-15.0, 15.0)
 
 
 @given(length, length, st.floats(-1.0, 1.0), st.floats(-0.1, 0.1))
-def test_points_move_as_on_a_rigid_body_that_lifts_its_nose_a_little(
-    ahead: float, above: float, x: float, z: float
-) -> None:
+def test_points_move_as_on_a_rigid_body_that_lifts_its_nose_a_little(ahead, above, x, z):
     """The linear part of a rotation by a small angle."""
     angle = 1e-6
     turned_x = ahead * math.cos(angle) - above * math.sin(angle)
@@ -28,16 +26,10 @@ def test_points_move_as_on_a_rigid_body_that_lifts_its_nose_a_little(
     assert vertical(z, angle, ahead) == pytest.approx(z + turned_z - above, abs=1e-10)
 
 
-def test_spring_force_is_the_slope_of_its_energy() -> None:
+def test_springs_dampers_and_a_car_have_the_forces_and_energies_of_their_laws():
     k, d, h = 5e6, 0.01, 1e-6
     slope = (spring_energy(k, d + h) - spring_energy(k, d - h)) / (2 * h)
     assert suspension_force(k, 0.0, d, 0.0) == pytest.approx(slope, rel=1e-9)
-
-
-def test_damper_force_is_proportional_to_the_rate() -> None:
     assert suspension_force(0.0, 2e4, 0.3, 0.5) == 1e4
-
-
-def test_energy_of_a_car_at_120_km_h() -> None:
-    """45 t at 33.3 m/s: 25 MJ."""
+    # 45 t at 33.3 m/s: 25 MJ.
     assert kinetic_energy(45e3, 120 / 3.6) == pytest.approx(25e6)

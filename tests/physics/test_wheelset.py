@@ -1,7 +1,6 @@
 """One wheelset on the rail: the implicit slip, the lock, and scipy's stiff integrator beside them."""
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import islice, pairwise
 
@@ -28,15 +27,13 @@ STEP = 5e-4
 laws = st.sampled_from([DRY, WET, SLIPPERY])
 
 
-def rail_force(slip: float, speed: float, law: tuple[float, ...]) -> float:
+def rail_force(slip, speed, law):
     """Force of both wheels, odd in the slip."""
     size = creep_force(abs(slip), max(abs(speed), SLOWEST_CREEP), LOAD, STIFFNESS, *law)[0]
     return math.copysign(2.0 * size, slip)
 
 
-def refinements(
-    start: float, free: float, softness: float, speed: float, law: tuple[float, ...]
-) -> Iterator[tuple[float, float, float]]:
+def refinements(start, free, softness, speed, law):
     """Estimate and bracket of the slip speed before and after each Newton step, in sizes."""
     slip, low, high = start, lowest_slip(free, softness, LOAD, law[0]), free
     while True:
@@ -45,7 +42,7 @@ def refinements(
         slip, low, high = refined_slip(slip, low, high, free, softness, force, slope)
 
 
-def slip_after(start: float, free: float, softness: float, speed: float, law: tuple[float, ...]) -> float:
+def slip_after(start, free, softness, speed, law):
     """Slip speed two Newton steps after the last one, as the running gear takes them."""
     direction = -1.0 if free < 0.0 else 1.0
     steps = refinements(max(direction * start, 0.0), direction * free, softness, speed, law)
@@ -65,14 +62,14 @@ class Wheelset:
     rotation: float = field(init=False)
     misfits: list[float] = field(default_factory=list)
 
-    def __post_init__(self) -> None:
+    def __post_init__(self):
         self.rotation = self.speed / self.radius
 
     @property
-    def slip(self) -> float:
+    def slip(self):
         return self.speed - self.radius * self.rotation
 
-    def advance(self, torque: float) -> None:
+    def advance(self, torque):
         softness = self.step * (1.0 / self.mass + self.radius**2 / self.inertia)
         free = self.slip + self.step * self.radius * torque / self.inertia
         slip = slip_after(self.slip, free, softness, self.speed, self.law)
@@ -83,17 +80,15 @@ class Wheelset:
 
 
 @given(st.floats(-30.0, 30.0), st.floats(-40.0, 40.0), st.floats(0.0, 40.0), laws)
-def test_slip_is_odd(start: float, free: float, speed: float, law: tuple[float, ...]) -> None:
-    def solved(sign: float) -> float:
+def test_slip_is_odd(start, free, speed, law):
+    def solved(sign):
         return slip_after(sign * start, sign * free, 1e-6, sign * speed, law)
 
     assert solved(-1.0) == -solved(1.0)
 
 
 @given(st.floats(-30.0, 30.0), st.floats(0.0, 40.0), st.floats(0.0, 40.0), laws)
-def test_slip_is_reached_by_a_force_that_the_rail_can_give(
-    start: float, free: float, speed: float, law: tuple[float, ...]
-) -> None:
+def test_slip_is_reached_by_a_force_that_the_rail_can_give(start, free, speed, law):
     """Whatever the iterations start from, the force lies between none and the friction limit."""
     softness = 1e-6
     slip = slip_after(start, free, softness, speed, law)
@@ -101,13 +96,11 @@ def test_slip_is_reached_by_a_force_that_the_rail_can_give(
 
 
 @given(st.floats(0.0, 30.0), st.floats(0.0, 40.0), st.floats(0.0, 40.0), laws)
-def test_a_newton_step_narrows_the_bracket_around_the_root(
-    start: float, free: float, speed: float, law: tuple[float, ...]
-) -> None:
+def test_a_newton_step_narrows_the_bracket_around_the_root(start, free, speed, law):
     """Wherever it starts: too little slip speed at the lower end, too much at the upper one."""
     softness = 1e-6
 
-    def excess(slip: float) -> float:
+    def excess(slip):
         return slip + softness * rail_force(slip, speed, law) - free
 
     steps = list(islice(refinements(start, free, softness, speed, law), 8))
@@ -118,14 +111,14 @@ def test_a_newton_step_narrows_the_bracket_around_the_root(
 
 
 @given(st.floats(0.0, 40.0), st.floats(1.0, 40.0), laws)
-def test_newton_steps_end_at_the_root(free: float, speed: float, law: tuple[float, ...]) -> None:
+def test_newton_steps_end_at_the_root(free, speed, law):
     """Where the creep law has one root: above a walking pace."""
     softness = 1e-6
     slip = next(islice(refinements(0.0, free, softness, speed, law), 60, None))[0]
     assert slip + softness * rail_force(slip, speed, law) == pytest.approx(free, abs=1e-9)
 
 
-def braked_and_released(law: tuple[float, ...], speed: float) -> list[float]:
+def braked_and_released(law, speed):
     """Misfits of the creep law, over the friction limit, while a wheelset is locked and released."""
     wheelset = Wheelset(law, speed, mass=1e9)
     for k in range(4000):
@@ -136,7 +129,7 @@ def braked_and_released(law: tuple[float, ...], speed: float) -> list[float]:
 
 @pytest.mark.parametrize("law", [DRY, WET, SLIPPERY])
 @pytest.mark.parametrize("speed", [30.0, 3.0])
-def test_slip_solves_its_equation(law: tuple[float, ...], speed: float) -> None:
+def test_slip_solves_its_equation(law, speed):
     """Two Newton steps from the last slip speed meet the creep law at every step."""
     misfits = braked_and_released(law, speed)
     assert max(misfits) < 2e-3
@@ -145,17 +138,17 @@ def test_slip_solves_its_equation(law: tuple[float, ...], speed: float) -> None:
 
 @pytest.mark.parametrize("law", [DRY, WET, SLIPPERY])
 @pytest.mark.parametrize("speed", [0.3, 0.05])
-def test_slip_solves_its_equation_below_a_walking_pace(law: tuple[float, ...], speed: float) -> None:
+def test_slip_solves_its_equation_below_a_walking_pace(law, speed):
     """Only the step in which a locked wheel begins to roll again may miss it; the next one has it back."""
     misfits = np.array(braked_and_released(law, speed))
     assert np.count_nonzero(misfits > 1e-2) <= 1
     assert np.mean(misfits) < 1e-4
 
 
-def deviation_from_scipy(law: tuple[float, ...], torque: float, step: float) -> float:
+def deviation_from_scipy(law, torque, step):
     """Largest difference of the slip speed, m/s, over a second in which the brake torque rises."""
 
-    def slopes(t: float, y: np.ndarray) -> list[float]:
+    def slopes(t, y):
         speed, rotation = y
         force = rail_force(speed - 0.43 * rotation, speed, law)
         return [-force / 11_000.0, (0.43 * force - torque * min(t / 0.5, 1.0)) / 123.0]
@@ -172,7 +165,7 @@ def deviation_from_scipy(law: tuple[float, ...], torque: float, step: float) -> 
 
 
 @pytest.mark.parametrize(("law", "torque"), [(DRY, 6000.0), (WET, 6000.0), (SLIPPERY, 4200.0)])
-def test_slip_follows_a_stiff_integrator(law: tuple[float, ...], torque: float) -> None:
+def test_slip_follows_a_stiff_integrator(law, torque):
     """Rolling with micro-slip on the first two rails, running into a deep slide on the third."""
     error = deviation_from_scipy(law, torque, STEP)
     assert error < 5e-3
@@ -180,9 +173,7 @@ def test_slip_follows_a_stiff_integrator(law: tuple[float, ...], torque: float) 
 
 
 @given(st.floats(0.0, 50.0), st.floats(-0.1, 50.0), st.floats(0.0, 1e5))
-def test_sliding_friction_stops_a_locked_wheelset_but_never_turns_it(
-    speed: float, free_speed: float, friction: float
-) -> None:
+def test_sliding_friction_stops_a_locked_wheelset_but_never_turns_it(speed, free_speed, friction):
     """Speed after the step: between the free speed and standstill."""
     softness = STEP / 1850.0
     after = free_speed - softness * locked_force(speed, free_speed, friction, softness)
@@ -190,12 +181,12 @@ def test_sliding_friction_stops_a_locked_wheelset_but_never_turns_it(
 
 
 @given(st.floats(0.0, 50.0), st.floats(-50.0, 50.0), st.floats(0.0, 1e5))
-def test_locked_force_is_odd(speed: float, free_speed: float, friction: float) -> None:
+def test_locked_force_is_odd(speed, free_speed, friction):
     one = locked_force(speed, free_speed, friction, 1e-7)
     assert locked_force(-speed, -free_speed, friction, 1e-7) == -one
 
 
-def test_locked_wheelset_feels_its_sliding_friction() -> None:
+def test_locked_wheelset_feels_its_sliding_friction():
     """The change of the force within a step is that of the speed."""
     softness = STEP / 1850.0
     force = locked_force(20.0, 20.0, 9900.0, softness)
@@ -205,7 +196,5 @@ def test_locked_wheelset_feels_its_sliding_friction() -> None:
 @pytest.mark.parametrize(
     ("rotation", "speed", "sense"), [(3.0, -1.0, 1.0), (-3.0, 1.0, -1.0), (0.0, 5.0, 1.0), (0.0, -5.0, -1.0)]
 )
-def test_a_wheelset_turns_as_it_turns_or_as_the_rail_would_turn_it(
-    rotation: float, speed: float, sense: float
-) -> None:
+def test_a_wheelset_turns_as_it_turns_or_as_the_rail_would_turn_it(rotation, speed, sense):
     assert turning_direction(rotation, speed) == sense

@@ -17,7 +17,7 @@ commands = st.lists(st.sampled_from([FILL, HOLD, VENT]), min_size=1, max_size=80
 
 
 @given(commands, st.integers(0, LONGEST_DELAY_CYCLES + 1))
-def test_register_remembers_every_command_that_a_delay_can_ask_for(given_: list[int], cycles: int) -> None:
+def test_register_remembers_every_command_that_a_delay_can_ask_for(given_, cycles):
     register = 0
     for command in given_:
         register = remember(register, command)
@@ -26,7 +26,7 @@ def test_register_remembers_every_command_that_a_delay_can_ask_for(given_: list[
 
 
 @given(commands)
-def test_register_fits_the_signed_integer_of_a_record(given_: list[int]) -> None:
+def test_register_fits_the_signed_integer_of_a_record(given_):
     register = 0
     for command in given_:
         register = remember(register, command)
@@ -34,7 +34,7 @@ def test_register_fits_the_signed_integer_of_a_record(given_: list[int]) -> None
 
 
 @pytest.mark.parametrize("steps", [1, 7, 40])
-def test_travel_takes_its_time_and_ends_at_the_stop(steps: int) -> None:
+def test_travel_takes_its_time_and_ends_at_the_stop(steps):
     opening = 0.0
     for _ in range(steps):
         assert opening < 1.0
@@ -43,5 +43,5 @@ def test_travel_takes_its_time_and_ends_at_the_stop(steps: int) -> None:
     assert travel(opening, 1.0, 1.0 / steps) == 1.0
 
 
-def test_travel_turns_back_from_where_it_is() -> None:
+def test_travel_turns_back_from_where_it_is():
     assert travel(0.4, 0.0, 0.1) == pytest.approx(0.3)

@@ -1,20 +1,13 @@
 """Scenarios that are stepped from outside."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import pytest
-
-WriteScenario = Callable[..., Path]
 
 
 @pytest.fixture
-def write_scenario(tmp_path: Path) -> WriteScenario:
+def write_scenario(tmp_path):
     """Write a short stop on a wet rail, with more lines of YAML where a test wants them."""
 
-    def write(extra: str = "") -> Path:
+    def write(extra=""):
         path = tmp_path / "stop.yaml"
         head = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 30 km/h\n"
         path.write_text(f"{head}rail: {{condition: wet, friction: 0.06}}\n{extra}")

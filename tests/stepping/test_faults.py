@@ -1,10 +1,5 @@
 """Faults of valves, brakes and sensors as a controller outside meets them."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -12,7 +7,6 @@ import uictest
 from uictest.controllers import Inputs
 from uictest.core.units import BAR
 
-Write = Callable[..., Path]
 NOTHING, HOLD, VENT = ([0] * 4, [0] * 4), ([1] * 4, [0] * 4), ([1] * 4, [1] * 4)
 HALF_FULL = 45
 """Cycles until the tanks are about half full."""
@@ -23,11 +17,11 @@ FILLED = 100
 class Stop:
     """A stop whose four valves are commanded alike."""
 
-    def __init__(self, path: Path, fault: str = "") -> None:
+    def __init__(self, path, fault=""):
         self.rig = uictest.Rig(path)
         self.inputs: list[Inputs] = [self.rig.reset()]
 
-    def command(self, magnets: tuple[list[int], list[int]], cycles: int) -> np.ndarray:
+    def command(self, magnets, cycles):
         """Return the tank pressures before and after these cycles, bar."""
         before = self.rig.state.tank_pressure
         for _ in range(cycles):
@@ -36,27 +30,25 @@ class Stop:
 
 
 @pytest.fixture
-def stop(write_scenario: Write) -> Callable[[str], Stop]:
+def stop(write_scenario):
     """Begin a stop with one fault of wheelset 2, or of the train."""
     return lambda fault: Stop(write_scenario(f"faults: [{{{fault}}}]\n"))
 
 
-def of_part(part: str, kind: str, value: str = "") -> str:
+def of_part(part, kind, value=""):
     own = "" if part in ("brake-line", "controller") else ", wheelset: 2"
     return f"at: 0 s, part: {part}, kind: {kind}{own}{f', value: {value}' if value else ''}"
 
 
 @pytest.mark.parametrize(("part", "kind"), [("hold-magnet", "shorted"), ("fill-valve", "stuck-closed")])
-def test_a_tank_that_is_shut_off_stays_empty(stop: Callable[[str], Stop], part: str, kind: str) -> None:
+def test_a_tank_that_is_shut_off_stays_empty(stop, part, kind):
     _, after = stop(of_part(part, kind)).command(NOTHING, FILLED)
     assert after[1] < 0.05
     assert min(after[[0, 2, 3]]) > 0.5
 
 
 @pytest.mark.parametrize(("part", "kind"), [("hold-magnet", "open-circuit"), ("fill-valve", "stuck-open")])
-def test_a_tank_that_is_not_shut_off_goes_on_filling(
-    stop: Callable[[str], Stop], part: str, kind: str
-) -> None:
+def test_a_tank_that_is_not_shut_off_goes_on_filling(stop, part, kind):
     held = stop(of_part(part, kind))
     held.command(NOTHING, HALF_FULL)
     before, after = held.command(HOLD, 50)
@@ -65,9 +57,7 @@ def test_a_tank_that_is_not_shut_off_goes_on_filling(
 
 
 @pytest.mark.parametrize(("part", "kind"), [("hold-magnet", "open-circuit"), ("fill-valve", "stuck-open")])
-def test_air_blows_through_a_valve_that_vents_and_fills(
-    stop: Callable[[str], Stop], part: str, kind: str
-) -> None:
+def test_air_blows_through_a_valve_that_vents_and_fills(stop, part, kind):
     """Its tank keeps a pressure between those of the brake line and the atmosphere."""
     blown = stop(of_part(part, kind))
     blown.command(NOTHING, 2 * FILLED)
@@ -77,9 +67,7 @@ def test_air_blows_through_a_valve_that_vents_and_fills(
 
 
 @pytest.mark.parametrize(("part", "kind"), [("vent-magnet", "open-circuit"), ("vent-valve", "stuck-closed")])
-def test_a_tank_that_cannot_be_vented_keeps_its_pressure(
-    stop: Callable[[str], Stop], part: str, kind: str
-) -> None:
+def test_a_tank_that_cannot_be_vented_keeps_its_pressure(stop, part, kind):
     kept = stop(of_part(part, kind))
     kept.command(NOTHING, FILLED)
     before, after = kept.command(VENT, 100)
@@ -88,7 +76,7 @@ def test_a_tank_that_cannot_be_vented_keeps_its_pressure(
 
 
 @pytest.mark.parametrize(("part", "kind"), [("vent-magnet", "shorted"), ("vent-valve", "stuck-open")])
-def test_a_tank_that_is_always_vented_gets_less(stop: Callable[[str], Stop], part: str, kind: str) -> None:
+def test_a_tank_that_is_always_vented_gets_less(stop, part, kind):
     leaking = stop(of_part(part, kind))
     leaking.command(NOTHING, 2 * FILLED)
     before, after = leaking.command(HOLD, 100)
@@ -96,7 +84,7 @@ def test_a_tank_that_is_always_vented_gets_less(stop: Callable[[str], Stop], par
     assert after[1] < 0.3 * before[1]
 
 
-def test_a_blocked_exhaust_vents_in_proportion(stop: Callable[[str], Stop]) -> None:
+def test_a_blocked_exhaust_vents_in_proportion(stop):
     """Choked, the flow is that of the open share: the pressure falls by about as much."""
     blocked = stop(of_part("vent-valve", "blocked", "60 %"))
     blocked.command(NOTHING, 2 * FILLED)
@@ -105,7 +93,7 @@ def test_a_blocked_exhaust_vents_in_proportion(stop: Callable[[str], Stop]) -> N
     assert falls[1] / falls[2] == pytest.approx(0.4, abs=0.08)
 
 
-def test_a_slow_valve_takes_its_time(stop: Callable[[str], Stop]) -> None:
+def test_a_slow_valve_takes_its_time(stop):
     slow = stop(of_part("wsp-valve", "slow", "2 s"))
     slow.command(NOTHING, 2 * FILLED)
     before, after = slow.command(VENT, 20)
@@ -113,7 +101,7 @@ def test_a_slow_valve_takes_its_time(stop: Callable[[str], Stop]) -> None:
     assert 0.0 < falls[1] < 0.3 * falls[2]
 
 
-def test_a_brake_that_is_cut_out_has_no_force(stop: Callable[[str], Stop]) -> None:
+def test_a_brake_that_is_cut_out_has_no_force(stop):
     cut = stop(of_part("brake", "cut-out"))
     cut.command(NOTHING, 2 * FILLED)
     force = cut.rig.state.clamping_force
@@ -121,7 +109,7 @@ def test_a_brake_that_is_cut_out_has_no_force(stop: Callable[[str], Stop]) -> No
     assert min(force[0], force[2], force[3]) > 5000.0
 
 
-def test_a_leak_empties_a_tank_that_is_held(stop: Callable[[str], Stop]) -> None:
+def test_a_leak_empties_a_tank_that_is_held(stop):
     leaking = stop(of_part("tank", "leak", "2e-8 m3/(s Pa)"))
     leaking.command(NOTHING, 2 * FILLED)
     before, after = leaking.command(HOLD, 200)
@@ -129,7 +117,7 @@ def test_a_leak_empties_a_tank_that_is_held(stop: Callable[[str], Stop]) -> None
     assert min((after / before)[[0, 2, 3]]) > 0.85
 
 
-def test_the_relay_valve_replaces_what_leaks_from_the_brake_line(write_scenario: Write) -> None:
+def test_the_relay_valve_replaces_what_leaks_from_the_brake_line(write_scenario):
     """The tanks fill as without; the reservoir pays."""
     fault = of_part("brake-line", "leak", "2e-8 m3/(s Pa)")
     leaking, sound = (Stop(write_scenario(f"faults: [{each}]\n")) for each in (f"{{{fault}}}", ""))
@@ -141,7 +129,7 @@ def test_the_relay_valve_replaces_what_leaks_from_the_brake_line(write_scenario:
     assert states[0].reservoir_pressure < states[1].reservoir_pressure - 2000.0
 
 
-def test_a_lost_sensor_says_so(stop: Callable[[str], Stop]) -> None:
+def test_a_lost_sensor_says_so(stop):
     lost = stop("at: 0.2 s, until: 0.4 s, wheelset: 2, part: speed-sensor, kind: lost")
     lost.command(NOTHING, 60)
     assert [each.speed_valid[1] for each in lost.inputs] == [not 20 <= k < 40 for k in range(61)]
@@ -150,7 +138,7 @@ def test_a_lost_sensor_says_so(stop: Callable[[str], Stop]) -> None:
     assert all(each.speed_valid[0] for each in lost.inputs)
 
 
-def test_a_stuck_sensor_shows_its_last_reading_and_says_nothing(stop: Callable[[str], Stop]) -> None:
+def test_a_stuck_sensor_shows_its_last_reading_and_says_nothing(stop):
     stuck = stop("at: 1 s, wheelset: 2, part: speed-sensor, kind: stuck")
     stuck.command(NOTHING, 200)
     speeds = [each.wheel_speed[1] for each in stuck.inputs]
@@ -168,16 +156,14 @@ def test_a_stuck_sensor_shows_its_last_reading_and_says_nothing(stop: Callable[[
         ("lost", "7.2 km/h", lambda speed: 2.0),
     ],
 )
-def test_a_wrong_sensor_shows_what_its_value_says(
-    stop: Callable[[str], Stop], kind: str, value: str, expected: Callable[[float], float]
-) -> None:
+def test_a_wrong_sensor_shows_what_its_value_says(stop, kind, value, expected):
     """Beside wheelset 1, which turns as fast on a good rail until the brake acts."""
     wrong = stop(of_part("speed-sensor", kind, value))
     for each in wrong.inputs:
         assert each.wheel_speed[1] == pytest.approx(expected(each.wheel_speed[0]), rel=0.01)
 
 
-def test_jumps_are_as_large_as_they_may_be_and_new_in_every_cycle(stop: Callable[[str], Stop]) -> None:
+def test_jumps_are_as_large_as_they_may_be_and_new_in_every_cycle(stop):
     jumping = stop(of_part("speed-sensor", "jumps", "7.2 km/h"))
     jumping.command(NOTHING, 60)
     errors = [each.wheel_speed[1] - each.wheel_speed[0] for each in jumping.inputs]
@@ -186,14 +172,14 @@ def test_jumps_are_as_large_as_they_may_be_and_new_in_every_cycle(stop: Callable
     assert len(set(errors)) == len(errors)
 
 
-def test_a_share_of_the_readings_drops_out(stop: Callable[[str], Stop]) -> None:
+def test_a_share_of_the_readings_drops_out(stop):
     failing = stop(of_part("speed-sensor", "drop-out", "25 %"))
     failing.command(VENT, 400)
     assert np.mean([each.wheel_speed[1] == 0.0 for each in failing.inputs]) == pytest.approx(0.25, abs=0.05)
     assert min(each.wheel_speed[0] for each in failing.inputs) > 5.0
 
 
-def test_only_the_controller_sees_a_wrong_pressure(write_scenario: Write) -> None:
+def test_only_the_controller_sees_a_wrong_pressure(write_scenario):
     """The rig computes forces from its own sensors."""
     fault = of_part("pressure-sensor", "factor", "50 %")
     wrong, sound = (Stop(write_scenario(f"faults: [{each}]\n")) for each in (f"{{{fault}}}", ""))
@@ -204,7 +190,7 @@ def test_only_the_controller_sees_a_wrong_pressure(write_scenario: Write) -> Non
     assert wrong.rig.state == sound.rig.state
 
 
-def test_a_pressure_sensor_can_stick_or_be_off(stop: Callable[[str], Stop]) -> None:
+def test_a_pressure_sensor_can_stick_or_be_off(stop):
     stuck = stop("at: 1 s, wheelset: 2, part: pressure-sensor, kind: stuck")
     stuck.command(NOTHING, 200)
     shown = [each.cylinder_pressure[1] for each in stuck.inputs]
@@ -214,9 +200,7 @@ def test_a_pressure_sensor_can_stick_or_be_off(stop: Callable[[str], Stop]) -> N
     assert {each.cylinder_pressure[1] for each in off.inputs[1:]} == {0.0}
 
 
-def test_a_silent_controller_leaves_the_last_command_then_the_valves_fill(
-    stop: Callable[[str], Stop],
-) -> None:
+def test_a_silent_controller_leaves_the_last_command_then_the_valves_fill(stop):
     silent = stop("at: 1 s, part: controller, kind: silent, value: 500 ms")
     silent.command(VENT, FILLED - 1)
     silent.command(HOLD, 1)
@@ -226,7 +210,7 @@ def test_a_silent_controller_leaves_the_last_command_then_the_valves_fill(
     assert min(filled) > 1.0
 
 
-def test_silence_ends_with_the_fault(stop: Callable[[str], Stop]) -> None:
+def test_silence_ends_with_the_fault(stop):
     silent = stop("at: 1 s, until: 1.5 s, part: controller, kind: silent")
     silent.command(NOTHING, 150)
     before, after = silent.command(VENT, 60)

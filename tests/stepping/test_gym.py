@@ -1,11 +1,6 @@
 """The gymnasium environment is the rig behind other names."""
 
-from __future__ import annotations
-
 import warnings
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -15,14 +10,12 @@ gymnasium = pytest.importorskip("gymnasium", reason="the extra gym is not instal
 import uictest.gym  # noqa: E402
 from uictest.api.stepping import RigState  # noqa: E402
 
-Write = Callable[..., Path]
 
-
-def made(path: Path, **options: Any) -> Any:
+def made(path, **options):
     return gymnasium.make("uictest/Rig-v0", scenario=path, **options).unwrapped
 
 
-def test_gymnasium_finds_nothing_to_complain_about(write_scenario: Write) -> None:
+def test_gymnasium_finds_nothing_to_complain_about(write_scenario):
     from gymnasium.utils.env_checker import check_env
 
     with warnings.catch_warnings():
@@ -30,7 +23,7 @@ def test_gymnasium_finds_nothing_to_complain_about(write_scenario: Write) -> Non
         check_env(made(write_scenario()))
 
 
-def test_an_episode_is_a_stop(write_scenario: Write) -> None:
+def test_an_episode_is_a_stop(write_scenario):
     env = made(write_scenario())
     _, start = env.reset(seed=3)
     rewards, distances, ended = [], [start["distance"]], False
@@ -46,7 +39,7 @@ def test_an_episode_is_a_stop(write_scenario: Write) -> None:
     assert sum(rewards) < -distances[-1]
 
 
-def test_an_action_vents_its_wheelset_and_no_other(write_scenario: Write) -> None:
+def test_an_action_vents_its_wheelset_and_no_other(write_scenario):
     env = made(write_scenario())
     env.reset(seed=1)
     for _ in range(300):
@@ -60,7 +53,7 @@ def test_an_action_vents_its_wheelset_and_no_other(write_scenario: Write) -> Non
     "action",
     [[3, 0, 0, 0], [0, -1, 0, 0], [0.0, 0.0, 2.9, 0.0], [1.0] * 4, [0] * 3, [[0] * 4], 2, [True] * 4],
 )
-def test_what_is_no_action_is_refused_and_leaves_the_stop(write_scenario: Write, action: Any) -> None:
+def test_what_is_no_action_is_refused_and_leaves_the_stop(write_scenario, action):
     """3 held, -1 held and 2.9 vented."""
     env = made(write_scenario())
     env.reset(seed=1)
@@ -71,8 +64,8 @@ def test_what_is_no_action_is_refused_and_leaves_the_stop(write_scenario: Write,
     assert env.rig.state == before
 
 
-def test_a_reward_of_ones_own(write_scenario: Write) -> None:
-    def shortest(before: RigState, after: RigState) -> float:
+def test_a_reward_of_ones_own(write_scenario):
+    def shortest(before, after):
         return before.time - after.time
 
     env = made(write_scenario(), reward=shortest)
@@ -80,10 +73,10 @@ def test_a_reward_of_ones_own(write_scenario: Write) -> None:
     assert env.step(np.array([0, 0, 0, 0]))[1] == pytest.approx(-0.01)
 
 
-def test_a_stop_without_a_locked_wheelset_costs_its_distance() -> None:
+def test_a_stop_without_a_locked_wheelset_costs_its_distance():
     four = (20.0, 20.0, 20.0, 20.0)
-    before = RigState(1.0, 10.0, 20.0, four, *[(0.0,) * 4] * 5, 8e5)  # type: ignore[arg-type]
-    after = RigState(1.01, 10.2, 20.0, four, *[(0.0,) * 4] * 5, 8e5)  # type: ignore[arg-type]
-    locked = RigState(1.01, 10.2, 20.0, (0.0, 0.0, 20.0, 20.0), *[(0.0,) * 4] * 5, 8e5)  # type: ignore[arg-type]
+    before = RigState(1.0, 10.0, 20.0, four, *[(0.0,) * 4] * 5, 8e5)
+    after = RigState(1.01, 10.2, 20.0, four, *[(0.0,) * 4] * 5, 8e5)
+    locked = RigState(1.01, 10.2, 20.0, (0.0, 0.0, 20.0, 20.0), *[(0.0,) * 4] * 5, 8e5)
     assert uictest.gym.distance_and_locks(before, after) == pytest.approx(-0.2)
     assert uictest.gym.distance_and_locks(before, locked) == pytest.approx(-0.4)

@@ -1,28 +1,22 @@
 """`uictest.Rig`: what a program of its own gets, and what it is told when it calls wrongly."""
 
-from __future__ import annotations
-
 import math
 import subprocess
 import sys
-from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 import uictest
 from uictest.controllers import Outputs
-from uictest.judging.evaluation import CaseResult, result_document
+from uictest.judging.evaluation import result_document
 from uictest.plans.scenario import ScenarioErrors, load
 from uictest.running import campaign
 
-Write = Callable[..., Path]
 TWO_CASES = "matrix:\n  brake.command: [80 %, 90 %]\n"
 
 
-def drive(rig: uictest.Rig, controller: Any) -> CaseResult:
+def drive(rig, controller):
     """Step a stop to its end with a controller outside."""
     inputs = rig.reset()
     while not rig.stopped:
@@ -31,25 +25,20 @@ def drive(rig: uictest.Rig, controller: Any) -> CaseResult:
     return rig.result()
 
 
-def test_a_stop_has_result_and_recording_of_run(
-    write_scenario: Write, controller_outside: Callable[[Any], Any]
-) -> None:
+def test_a_stop_has_result_and_recording_of_run(write_scenario, controller_outside):
     path = write_scenario()
     rig = uictest.Rig(path, record=100)
     [case] = load([path])
     run = campaign.run_case(case, campaign.RecordingRequest("all", every=0.01))
     assert result_document([drive(rig, controller_outside(case))]) == result_document([run.result])
     recorded, of_run = rig.recording(), run.recording
-    assert of_run is not None
     assert recorded.units == of_run.units | {"diagnosis": "1"}
     assert recorded.metadata == of_run.metadata
     for name in of_run.channels:
         np.testing.assert_array_equal(recorded[name], of_run[name])
 
 
-def test_the_controller_that_the_scenario_names_plays_no_part_but_its_cycle_time_holds(
-    write_scenario: Write,
-) -> None:
+def test_the_controller_that_the_scenario_names_plays_no_part_but_its_cycle_time_holds(write_scenario):
     marks = []
     for name in ("threshold", "slip-band"):
         rig = uictest.Rig(write_scenario(f"controller: {{extends: {name}, cycle_time: 20 ms}}\n"))
@@ -62,19 +51,16 @@ def test_the_controller_that_the_scenario_names_plays_no_part_but_its_cycle_time
     assert marks[0] == marks[1]
 
 
-def test_seed_decides_the_noise(write_scenario: Write) -> None:
+def test_seed_decides_the_noise_and_inputs_are_plain_numbers(write_scenario):
     rig = uictest.Rig(write_scenario("seed: 7\n"))
     first, again, other = rig.reset(), rig.reset(7), rig.reset(8)
     assert first == again
     assert first.wheel_speed != other.wheel_speed
-
-
-def test_inputs_are_plain_numbers(write_scenario: Write) -> None:
     inputs = uictest.Rig(write_scenario()).reset()
     assert {type(value) for value in (*inputs.wheel_speed, *inputs.cylinder_pressure)} == {float}
 
 
-def test_the_state_is_the_true_one(write_scenario: Write) -> None:
+def test_the_state_is_the_true_one(write_scenario):
     rig = uictest.Rig(write_scenario())
     rig.reset()
     assert (rig.state.time, rig.state.distance) == (0.0, 0.0)
@@ -86,7 +72,7 @@ def test_the_state_is_the_true_one(write_scenario: Write) -> None:
     assert rig.state.distance < 30 / 3.6 * rig.state.time
 
 
-def test_the_state_is_what_a_recording_shows_of_each_wheelset(write_scenario: Write) -> None:
+def test_the_state_is_what_a_recording_shows_of_each_wheelset(write_scenario):
     rig = uictest.Rig(write_scenario(), record=100)
     rig.reset()
     states = [rig.state]
@@ -106,14 +92,12 @@ def test_the_state_is_what_a_recording_shows_of_each_wheelset(write_scenario: Wr
 
 
 @pytest.mark.parametrize("record", [0, -1, math.inf, math.nan])
-def test_a_rate_that_is_no_number_of_samples_per_second_is_refused(
-    write_scenario: Write, record: float
-) -> None:
+def test_a_rate_that_is_no_number_of_samples_per_second_is_refused(write_scenario, record):
     with pytest.raises(ValueError, match="expected samples per second or None"):
         uictest.Rig(write_scenario(), record=record)
 
 
-def test_no_sample_is_recorded_more_often_than_each_step(write_scenario: Write) -> None:
+def test_no_sample_is_recorded_more_often_than_each_step(write_scenario):
     rig = uictest.Rig(write_scenario("simulation: {maximum_duration: 20 s}\n"), record=1e9)
     rig.reset()
     while not rig.stopped:
@@ -122,7 +106,7 @@ def test_no_sample_is_recorded_more_often_than_each_step(write_scenario: Write) 
     np.testing.assert_allclose(np.diff(rig.recording()["time"]), step, rtol=1e-6)
 
 
-def test_one_of_several_cases_is_chosen_by_its_id(write_scenario: Write) -> None:
+def test_one_of_several_cases_is_chosen_by_its_id(write_scenario):
     path = write_scenario(TWO_CASES)
     assert uictest.Rig(path, "stop[command=90]").case.parameters == {"brake.command": "90 %"}
     with pytest.raises(
@@ -133,12 +117,12 @@ def test_one_of_several_cases_is_chosen_by_its_id(write_scenario: Write) -> None
         uictest.Rig(path, "stop[command=91]")
 
 
-def test_an_invalid_file_is_reported_as_check_does(write_scenario: Write) -> None:
+def test_an_invalid_file_is_reported_as_check_does(write_scenario):
     with pytest.raises(ScenarioErrors, match=r"stop.yaml:5:\d+: brake.command"):
         uictest.Rig(write_scenario("brake: {command: 200 %}\n"))
 
 
-def test_calls_out_of_order_are_refused(write_scenario: Write) -> None:
+def test_calls_out_of_order_are_refused(write_scenario):
     rig = uictest.Rig(write_scenario("simulation: {maximum_duration: 60 s}\n"))
     for call in (rig.step, lambda: rig.stopped, lambda: rig.state, rig.result):
         with pytest.raises(RuntimeError, match=r"call reset\(\)"):
@@ -168,9 +152,7 @@ def test_calls_out_of_order_are_refused(write_scenario: Write) -> None:
         ({"diagnosis": 2**32}, "diagnosis is 4294967296, expected a whole number of 32 bits"),
     ],
 )
-def test_commands_that_no_valve_has_leave_the_stop_where_it_is(
-    write_scenario: Write, commands: dict[str, Any], message: str
-) -> None:
+def test_commands_that_no_valve_has_leave_the_stop_where_it_is(write_scenario, commands, message):
     rig = uictest.Rig(write_scenario())
     rig.reset()
     before = rig.state
@@ -181,18 +163,18 @@ def test_commands_that_no_valve_has_leave_the_stop_where_it_is(
 
 
 @pytest.mark.parametrize("seed", [-1, 2**32, 1.5])
-def test_a_seed_out_of_range_is_refused(write_scenario: Write, seed: Any) -> None:
+def test_a_seed_out_of_range_is_refused(write_scenario, seed):
     with pytest.raises(ValueError, match="expected a whole number from 0 to 4294967295"):
         uictest.Rig(write_scenario()).reset(seed)
 
 
 @pytest.mark.parametrize("seed", [0, 2**32 - 1])
-def test_the_least_and_the_largest_seed_are_taken(write_scenario: Write, seed: int) -> None:
+def test_the_least_and_the_largest_seed_are_taken(write_scenario, seed):
     rig = uictest.Rig(write_scenario("seed: 7\n"))
     assert rig.reset(seed).wheel_speed != rig.reset().wheel_speed
 
 
-def test_the_package_is_imported_without_the_rig() -> None:
+def test_the_package_is_imported_without_the_rig():
     program = "import sys, uictest; uictest.__version__; print({'numpy', 'pydantic'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == "set()\n"

@@ -1,12 +1,8 @@
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 
 
 @pytest.fixture
-def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def root(tmp_path, monkeypatch):
     """The user's cache, not made yet; the temporary folder can take none."""
     (tmp_path / "file").write_text("not a folder")
     monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "cache"))

@@ -1,7 +1,5 @@
 """Only what is intact and made of the same inputs is read; whatever lies there, nothing hangs or fails."""
 
-from __future__ import annotations
-
 import os
 import resource
 import signal
@@ -10,7 +8,6 @@ import subprocess
 import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import pytest
 
@@ -21,12 +18,12 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="files of other kinds
 INPUTS, CONTENT = b"sources, versions, options", bytes(range(256)) * 10
 
 
-def only_file(folder: Path) -> Path:
+def only_file(folder):
     (path,) = folder.iterdir()
     return path
 
 
-def test_content_is_read_for_its_kind_and_inputs_and_no_others(root: Path) -> None:
+def test_content_is_read_for_its_kind_and_inputs_and_no_others(root):
     assert user_cache.read("code", INPUTS) is None
     assert not root.exists(), "reading makes no folders"
     user_cache.write("code", INPUTS, CONTENT)
@@ -47,7 +44,7 @@ DAMAGE: dict[str, Callable[[bytes], bytes]] = {
 
 
 @pytest.mark.parametrize("damage", DAMAGE)
-def test_a_damaged_file_is_not_read_and_is_replaced(root: Path, damage: str) -> None:
+def test_a_damaged_file_is_not_read_and_is_replaced(root, damage):
     user_cache.write("code", INPUTS, CONTENT)
     path = only_file(root)
     path.write_bytes(DAMAGE[damage](path.read_bytes()))
@@ -56,7 +53,7 @@ def test_a_damaged_file_is_not_read_and_is_replaced(root: Path, damage: str) -> 
     assert user_cache.read("code", INPUTS) == CONTENT
 
 
-def test_an_intact_file_of_other_inputs_is_not_read(root: Path) -> None:
+def test_an_intact_file_of_other_inputs_is_not_read(root):
     """Such as one that was copied from a machine with another processor."""
     user_cache.write("code", INPUTS, CONTENT)
     path = only_file(root)
@@ -67,9 +64,7 @@ def test_an_intact_file_of_other_inputs_is_not_read(root: Path) -> None:
 
 
 @pytest.mark.parametrize("kind", ["FIFO", "socket", "link"])
-def test_what_is_no_ordinary_file_is_not_read_and_is_replaced(
-    root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
-) -> None:
+def test_what_is_no_ordinary_file_is_not_read_and_is_replaced(root, tmp_path, monkeypatch, kind):
     user_cache.write("code", INPUTS, CONTENT)
     path = only_file(root)
     path.rename(tmp_path / "elsewhere")
@@ -86,9 +81,7 @@ def test_what_is_no_ordinary_file_is_not_read_and_is_replaced(
     assert user_cache.read("code", INPUTS) == CONTENT
 
 
-def test_a_folder_in_place_of_the_file_is_left_alone_and_named_once(
-    root: Path, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_a_folder_in_place_of_the_file_is_left_alone_and_named_once(root, caplog):
     user_cache.write("code", INPUTS, CONTENT)
     path = only_file(root)
     path.unlink()
@@ -101,13 +94,10 @@ def test_a_folder_in_place_of_the_file_is_left_alone_and_named_once(
     assert "cannot be written (Is a directory)" in warning
 
 
-def test_a_file_that_others_can_write_is_not_read(root: Path) -> None:
+def test_a_file_that_others_can_write_is_not_read_and_files_are_private_whatever_the_mask(root):
     user_cache.write("code", INPUTS, CONTENT)
     only_file(root).chmod(0o666)
     assert user_cache.read("code", INPUTS) is None
-
-
-def test_files_are_private_whatever_the_mask(root: Path) -> None:
     before = os.umask(0)
     try:
         user_cache.write("code", INPUTS, CONTENT)
@@ -117,9 +107,7 @@ def test_files_are_private_whatever_the_mask(root: Path) -> None:
     assert user_cache.read("code", INPUTS) == CONTENT
 
 
-def test_where_the_first_place_takes_nothing_the_next_one_does(
-    root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_where_the_first_place_takes_nothing_the_next_one_does(root, tmp_path, monkeypatch):
     monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "file" / "cache"))
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     user_cache.write("code", INPUTS, CONTENT)
@@ -127,8 +115,8 @@ def test_where_the_first_place_takes_nothing_the_next_one_does(
     assert only_file(tmp_path / f"uictest-{os.getuid()}").read_bytes().endswith(CONTENT)
 
 
-def test_a_full_disk_is_named_once_and_leaves_nothing(tmp_path: Path) -> None:
-    def small_files() -> None:
+def test_a_full_disk_is_named_once_and_leaves_nothing(tmp_path):
+    def small_files():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
 
@@ -157,10 +145,10 @@ def test_a_full_disk_is_named_once_and_leaves_nothing(tmp_path: Path) -> None:
     assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
 
 
-def test_writers_do_not_disturb_each_other(root: Path) -> None:
+def test_writers_do_not_disturb_each_other(root):
     """Whoever comes last wins, and no reader meets half a file."""
 
-    def take_turns(number: int) -> bytes | None:
+    def take_turns(number):
         user_cache.write("code", INPUTS, CONTENT)
         return user_cache.read("code", INPUTS)
 
