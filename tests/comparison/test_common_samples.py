@@ -1,9 +1,5 @@
 """At which instants two recordings are compared, against what numpy and arithmetic say."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
@@ -18,17 +14,13 @@ from uictest.analysis.comparison.common_samples import (
 from uictest.analysis.comparison.overlay import curves_over_time, over_common_distance, sampling_remarks
 from uictest.core.recording import Recording
 
-MakeRecording = Callable[..., Recording]
 
-
-def _ramp(at: np.ndarray) -> np.ndarray:
+def _ramp(at):
     return 3.0 * at - 2.0
 
 
 @pytest.mark.parametrize("swapped", [False, True])
-def test_the_coarser_side_gives_the_instants_and_the_finer_one_is_read_between_its_samples(
-    swapped: bool,
-) -> None:
+def test_the_coarser_side_gives_the_instants_and_the_finer_one_is_read_between_its_samples(swapped):
     fine = Sampled(np.arange(0.0, 10.0, 0.03), np.sin(np.arange(0.0, 10.0, 0.03)))
     coarse = Sampled(np.arange(1.0, 12.0, 0.25), np.cos(np.arange(1.0, 12.0, 0.25)))
     both = common_samples(*((coarse, fine) if swapped else (fine, coarse)))
@@ -43,14 +35,14 @@ def test_the_coarser_side_gives_the_instants_and_the_finer_one_is_read_between_i
     arrays.arrays(np.float64, st.integers(2, 40), elements=st.floats(0.01, 5.0)),
     arrays.arrays(np.float64, st.integers(2, 40), elements=st.floats(0.01, 5.0)),
 )
-def test_the_same_straight_line_agrees_however_it_is_sampled(one: np.ndarray, other: np.ndarray) -> None:
+def test_the_same_straight_line_agrees_however_it_is_sampled(one, other):
     sides = [Sampled(np.cumsum(steps), _ramp(np.cumsum(steps))) for steps in (one, other)]
     both = common_samples(*sides)
     np.testing.assert_allclose(both.difference, 0.0, atol=1e-9)
     assert np.all(np.isin(both.at, [*sides[0].at, *sides[1].at]))
 
 
-def test_a_state_is_read_at_its_last_sample_and_not_between_two() -> None:
+def test_a_state_is_read_at_its_last_sample_and_not_between_two():
     valve = Sampled(np.array([0.0, 1.0, 2.0, 3.0]), np.array([0.0, 2.0, 2.0, 0.0]))
     other = Sampled(np.array([0.0, 1.5, 3.0]), np.array([0.0, 2.0, 0.0]))
     np.testing.assert_array_equal(common_samples(valve, other, holds=True).first, [0.0, 2.0, 0.0])
@@ -60,7 +52,7 @@ def test_a_state_is_read_at_its_last_sample_and_not_between_two() -> None:
     np.testing.assert_array_equal(common_samples(valve, late).first, [1.0, 1.0])
 
 
-def test_a_state_is_drawn_in_steps(make_recording: MakeRecording) -> None:
+def test_a_state_is_drawn_in_steps(make_recording):
     valve = np.where(np.arange(101) >= 50, 2.0, 0.0)
     first, second = make_recording(valve_command_1=valve), make_recording(valve_command_1=np.zeros(101))
     difference = channel_difference("valve_command_1", first, second)
@@ -70,7 +62,7 @@ def test_a_state_is_drawn_in_steps(make_recording: MakeRecording) -> None:
     assert curve.y[np.isclose(curve.x, 5.0)].tolist() == [0.0, 2.0]
 
 
-def test_the_worst_instant_and_the_mean_of_a_known_difference(make_recording: MakeRecording) -> None:
+def test_the_worst_instant_and_the_mean_of_a_known_difference(make_recording):
     first = make_recording(0.1)
     time = make_recording(0.5)["time"]
     # Beside the line of the first: 0 to 2 m/s too fast, the most at 6.5 s.
@@ -84,7 +76,7 @@ def test_the_worst_instant_and_the_mean_of_a_known_difference(make_recording: Ma
     np.testing.assert_allclose(found.samples.difference, shift, atol=1e-12)
 
 
-def test_over_distance_the_speed_is_compared_at_the_same_place(make_recording: MakeRecording) -> None:
+def test_over_distance_the_speed_is_compared_at_the_same_place(make_recording):
     """Both brake with 1 m/s2, the second from 1 m/s more: v2 = v0**2 - 2 a s at every place."""
     time = make_recording(0.01)["time"]
     first, second = (
@@ -99,7 +91,6 @@ def test_over_distance_the_speed_is_compared_at_the_same_place(make_recording: M
     assert 250.0 - 0.22 < curve.x[-1] <= 250.0
     assert "difference distance" not in found.curves
     worst = found.worst["speed"]
-    assert worst is not None
     assert (worst.at, worst.second - worst.first) == (curve.x[-1], pytest.approx(expected[-1]))
 
 
@@ -113,18 +104,14 @@ def test_over_distance_the_speed_is_compared_at_the_same_place(make_recording: M
         (np.arange(101.0) + 500.0, "A and B share no distance"),
     ],
 )
-def test_where_distance_makes_no_sense_it_is_said(
-    make_recording: MakeRecording, distance: np.ndarray | None, reason: str
-) -> None:
+def test_where_distance_makes_no_sense_it_is_said(make_recording, distance, reason):
     first = make_recording(distance=np.arange(101.0))
     second = make_recording() if distance is None else make_recording(distance=distance)
     found = over_common_distance(first, second, ["speed"])
     assert (dict(found.curves), found.why_not) == ({}, reason)
 
 
-def test_a_train_that_swings_back_as_it_stops_is_compared_over_distance(
-    make_recording: MakeRecording,
-) -> None:
+def test_a_train_that_swings_back_as_it_stops_is_compared_over_distance(make_recording):
     distance = np.arange(101.0)
     distance[99:] = [97.8, 97.5]
     read = over_distance(make_recording(distance=distance), "speed")
@@ -132,7 +119,7 @@ def test_a_train_that_swings_back_as_it_stops_is_compared_over_distance(
     assert len(read.at) == 99
 
 
-def test_what_was_not_compared_and_how_is_stated(make_recording: MakeRecording) -> None:
+def test_what_was_not_compared_and_how_is_stated(make_recording):
     assert list(sampling_remarks(make_recording(), make_recording())) == []
     remarks = list(sampling_remarks(make_recording(0.1), make_recording(0.25, end=8.0)))
     between = "and is read off straight lines between its samples"

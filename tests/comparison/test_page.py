@@ -1,10 +1,6 @@
 """The page of a comparison as text: what stands in it without a browser."""
 
-from __future__ import annotations
-
 import re
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,27 +8,24 @@ import pytest
 from uictest.analysis import comparison
 from uictest.analysis.comparison.page import in_page_units, quantity_title
 from uictest.core.recording import Recording, write_parquet
-from uictest.report import Difference, RunContent
-
-MakeRecording = Callable[..., Recording]
-MakeRun = Callable[..., RunContent]
+from uictest.report import Difference
 
 
-def _html(first: Recording, second: Recording, *tolerances: str) -> str:
+def _html(first, second, *tolerances):
     found = comparison.compare_recordings(
         first, second, ("a", "b"), comparison.Tolerances.read(tolerances), ["*"]
     )
     return comparison.comparison_html(found)
 
 
-def _cells(page: str, channel: str, table: str) -> list[str]:
+def _cells(page, channel, table):
     """Return the texts of the cells of a channel in a table."""
     rows = page[page.index(f'class="{table}"') :].partition("</table>")[0]
     (row,) = (each for each in rows.split("<tr") if re.search(rf"[(>]{channel}[)<]", each))
     return [re.sub("<[^>]+>", "", each).strip() for each in re.findall("<td[^>]*>(.*?)</td>", row)]
 
 
-def test_a_difference_is_signed_and_relative_in_the_units_of_the_page(make_recording: MakeRecording) -> None:
+def test_a_difference_is_signed_and_relative_in_the_units_of_the_page(make_recording):
     first = make_recording()
     time = first["time"]
     page = _html(first, make_recording(speed=30.0 - time - np.where(np.isclose(time, 5.0), 2.0, 0.0)))
@@ -43,7 +36,7 @@ def test_a_difference_is_signed_and_relative_in_the_units_of_the_page(make_recor
     assert _cells(page, "speed", "side-values") == largest
 
 
-def test_a_state_has_no_relative_figure(make_recording: MakeRecording) -> None:
+def test_a_state_has_no_relative_figure(make_recording):
     valve = np.where(np.arange(101) > 50, 2.0, 0.0)
     page = _html(make_recording(valve_command_1=valve), make_recording(valve_command_1=0.5 * valve))
     assert _cells(page, "valve_command_1", "differing")[3:5] == ["-1", "-"]
@@ -63,9 +56,7 @@ def test_a_state_has_no_relative_figure(make_recording: MakeRecording) -> None:
         ("criterion braking-distance", "", 1.0, ("criterion braking-distance", "", 1.0)),
     ],
 )
-def test_measures_stand_in_words_and_in_the_units_of_the_page(
-    quantity: str, unit: str, value: float, shown: tuple[str, str, float]
-) -> None:
+def test_measures_stand_in_words_and_in_the_units_of_the_page(quantity, unit, value, shown):
     raw = Difference("slip-120", quantity, value, 2.0 * value, False, unit, value, 0.5 * value)
     found = in_page_units(raw)
     title, shown_in, number = shown
@@ -74,7 +65,7 @@ def test_measures_stand_in_words_and_in_the_units_of_the_page(
     assert figures == pytest.approx([number, 2.0 * number, number, 0.5 * number])
 
 
-def test_recordings_that_share_no_time_have_a_page_that_says_so(make_recording: MakeRecording) -> None:
+def test_recordings_that_share_no_time_have_a_page_that_says_so(make_recording):
     first, late = make_recording(end=1.0), make_recording(end=1.0)
     page = _html(first, Recording({**late.channels, "time": late["time"] + 5.0}, late.units))
     assert "A and B share no time: nothing of their channels is compared." in page
@@ -82,7 +73,7 @@ def test_recordings_that_share_no_time_have_a_page_that_says_so(make_recording: 
     assert "B - A: Speed, km/h" not in page
 
 
-def test_every_jump_leads_somewhere_and_ids_stand_once(make_recording: MakeRecording) -> None:
+def test_every_jump_leads_somewhere_and_ids_stand_once(make_recording):
     page = _html(make_recording(), make_recording(speed=np.zeros(101)))
     ids = re.findall(r' id="([^"]+)"', page)
     assert len(ids) == len(set(ids))
@@ -92,8 +83,8 @@ def test_every_jump_leads_somewhere_and_ids_stand_once(make_recording: MakeRecor
 
 
 def test_a_stop_of_two_runs_has_a_band_only_where_a_tolerance_names_the_channel(
-    make_run: MakeRun, make_recording: MakeRecording, tmp_path: Path
-) -> None:
+    make_run, make_recording, tmp_path
+):
     folders = [tmp_path / name for name in ("one", "other")]
     for folder, shift in zip(folders, (0.0, 1.0), strict=True):
         (folder / "recordings").mkdir(parents=True)

@@ -1,17 +1,12 @@
 """The series of two runs: what is compared of them, and which of their stops pair."""
 
-from __future__ import annotations
-
 import dataclasses
-from collections.abc import Callable, Sequence
 from xml.etree import ElementTree
 
 import pytest
 
 from uictest.analysis.comparison import (
     Baseline,
-    Comparison,
-    PairedComparison,
     Scope,
     Tolerances,
     accepted_document,
@@ -21,7 +16,7 @@ from uictest.analysis.comparison import (
 )
 from uictest.core.series_measures import SeriesValue, mean_of
 from uictest.judging import series
-from uictest.judging.evaluation import CaseResult, Verdict
+from uictest.judging.evaluation import Verdict
 from uictest.report import (
     RunContent,
     document_lines,
@@ -32,22 +27,14 @@ from uictest.report import (
 )
 from uictest.report.run_folder import baseline_form, read_baseline_comparison
 
-MakeCase = Callable[..., CaseResult]
-MakeSeries = Callable[..., series.SeriesResult]
-
 
 @pytest.fixture
-def make_series(make_repeated: MakeCase) -> MakeSeries:
+def make_series(make_repeated):
     """A series of one dry and several wet stops from 120 km/h, the wet ones under two frictions."""
 
     def make(
-        wet: Sequence[float],
-        status: str = "pass",
-        name: str = "acceptance",
-        parameters: dict[str, str] | None = None,
-        not_counted: tuple[series.UncountedStop, ...] = (),
-        keys: tuple[str, str] = ("00000007", "00000009"),
-    ) -> series.SeriesResult:
+        wet, status="pass", name="acceptance", parameters=None, not_counted=(), keys=("00000007", "00000009")
+    ):
         cases = [series.SeriesCase("dry", 120.0, make_repeated({1: 460.0}, f"{name}.dry"))]
         for key, friction in zip(keys, ("0.07", "0.09"), strict=True):
             case_id = f"{name}.wet[friction={friction}]"
@@ -57,7 +44,7 @@ def make_series(make_repeated: MakeCase) -> MakeSeries:
             cases.append(series.SeriesCase("wet", 120.0, case))
         extension = SeriesValue(mean_of([each - 460.0 for each in wet], 0.95))
         measures = {"deceleration_distance_extension": extension, "k_wet": SeriesValue(None, "no wet stop")}
-        verdict = Verdict("k-wet", "requirement", 0.87, "1", 0.8, None, 0.07, status, "")  # type: ignore[arg-type]
+        verdict = Verdict("k-wet", "requirement", 0.87, "1", 0.8, None, 0.07, status, "")
         counts = series.StopCounts(1, 1), series.StopCounts(2 * len(wet), 2 * len(wet) - len(not_counted))
         return series.SeriesResult(
             *(name, "acceptance.series.yaml", "", parameters or {}, "pass", "pass", "", 0.95, 0.8, 3.0),
@@ -71,17 +58,12 @@ def make_series(make_repeated: MakeCase) -> MakeSeries:
     return make
 
 
-def _compared(first: list[series.SeriesResult], second: list[series.SeriesResult]) -> Comparison:
+def _compared(first, second):
     runs = RunContent("one", [], series=first), RunContent("other", [], series=second)
     return compare_runs(*runs, Tolerances())
 
 
-def _paired(found: Comparison) -> PairedComparison:
-    assert found.paired is not None
-    return found.paired
-
-
-def test_a_series_and_itself_agree(make_series: MakeSeries) -> None:
+def test_a_series_and_itself_agree(make_series):
     found = _compared([make_series([500.0, 510.0])], [make_series([500.0, 510.0])])
     assert found.agrees
     # The outcome, a criterion, the dry and the wet stops that count, two measures.
@@ -89,11 +71,14 @@ def test_a_series_and_itself_agree(make_series: MakeSeries) -> None:
     assert list(document_lines(comparison_document(found), None)) == []
 
 
-def test_verdicts_counts_and_measures_of_a_series_are_compared(make_series: MakeSeries) -> None:
-    left_out = (series.UncountedStop("acceptance.wet[friction=0.09]", "wet", 2, "invalid", "no test"),)
-    found = _compared(
-        [make_series([500.0, 510.0])], [make_series([500.0, 530.0], "fail", not_counted=left_out)]
-    )
+LEFT_OUT = (series.UncountedStop("acceptance.wet[friction=0.09]", "wet", 2, "invalid", "no test"),)
+
+
+def test_verdicts_counts_and_measures_of_a_series_are_compared(make_series):
+    before = [make_series([500.0, 510.0])]
+    (missing,) = _compared(before, []).beyond
+    assert (missing.case, missing.first, missing.second) == ("acceptance", "pass", "missing")
+    found = _compared(before, [make_series([500.0, 530.0], "fail", not_counted=LEFT_OUT)])
     shown = [(each.case, each.quantity, each.first, each.second, each.unit) for each in found.beyond]
     assert shown == [
         ("acceptance", "criterion k-wet", "pass", "fail", ""),
@@ -102,57 +87,38 @@ def test_verdicts_counts_and_measures_of_a_series_are_compared(make_series: Make
     ]
 
 
-def test_a_series_on_one_side_only_is_a_difference(make_series: MakeSeries) -> None:
-    found = _compared([make_series([500.0, 510.0])], [])
-    assert [(each.case, each.first, each.second) for each in found.beyond] == [
-        ("acceptance", "pass", "missing")
-    ]
-
-
-def test_the_wet_stops_that_count_on_both_sides_pair(make_series: MakeSeries) -> None:
-    left_out = (series.UncountedStop("acceptance.wet[friction=0.09]", "wet", 2, "invalid", "no test"),)
+def test_the_wet_stops_that_count_on_both_sides_pair(make_series):
     before = make_series([500.0, 510.0])
-    (group,) = _paired(_compared([before], [make_series([501.0, 513.0])])).groups
+    (group,) = _compared([before], [make_series([501.0, 513.0])]).paired.groups
     assert (group.name, group.pairs) == ("acceptance, wet stops from 120 km/h", 4)
     assert (group.draws, group.seeds) == (4, (1, 2))
     distance = next(each for each in group.differences if each.quantity == "braking_distance_m")
     assert (distance.mean.value, distance.mean.smallest, distance.mean.largest) == (2.0, 1.0, 3.0)
-    (group,) = _paired(_compared([before], [make_series([501.0, 513.0], not_counted=left_out)])).groups
+    (group,) = _compared([before], [make_series([501.0, 513.0], not_counted=LEFT_OUT)]).paired.groups
     assert (group.pairs, group.unpaired) == (3, (1, 0))
-
-
-def test_stops_of_a_series_that_met_the_same_noise_are_told_apart(make_series: MakeSeries) -> None:
-    """As those on a rail that sliding cleans and on one that it does not: their friction is the same."""
-    keys = ("00000007", "00000007")
-    found = _compared([make_series([500.0, 510.0], keys=keys)], [make_series([501.0, 513.0], keys=keys)])
-    (group,) = _paired(found).groups
-    assert (group.pairs, group.draws) == (4, 2)
-    line = next(
-        line
-        for line in document_lines(comparison_document(found), None)
-        if line.startswith("paired: acceptance")
-    )
-    assert "only 2 draws of noise, so that the intervals are too narrow" in line
-
-
-def test_a_single_stop_that_does_not_count_is_left_out(make_series: MakeSeries) -> None:
     # Of a case without repeats the list of stops that do not count has no seed.
-    left_out = (series.UncountedStop("acceptance.wet[friction=0.09]", "wet", None, "invalid", "no test"),)
-    before = make_series([500.0, 510.0])
-    (group,) = _paired(_compared([before], [dataclasses.replace(before, not_counted=left_out)])).groups
+    single = (dataclasses.replace(LEFT_OUT[0], seed=None),)
+    (group,) = _compared([before], [dataclasses.replace(before, not_counted=single)]).paired.groups
     assert (group.pairs, group.unpaired) == (2, (2, 0))
 
 
-def test_series_of_one_run_pair_over_the_keys_that_make_them(make_series: MakeSeries) -> None:
-    run = RunContent(
-        "run",
-        [],
-        series=[
-            make_series([500.0, 510.0], name="wsp[controller=a]", parameters={"controller": "a"}),
-            make_series([490.0, 500.0], name="wsp[wsp=bypassed]", parameters={"rig.wsp": "bypassed"}),
-        ],
-    )
-    (found,) = compare_variants(run, ["controller", "rig.wsp"])
+def test_stops_of_a_series_that_met_the_same_noise_are_told_apart(make_series):
+    """As those on a rail that sliding cleans and on one that it does not: their friction is the same."""
+    keys = ("00000007", "00000007")
+    found = _compared([make_series([500.0, 510.0], keys=keys)], [make_series([501.0, 513.0], keys=keys)])
+    (group,) = found.paired.groups
+    assert (group.pairs, group.draws) == (4, 2)
+    lines = document_lines(comparison_document(found), None)
+    (line,) = (each for each in lines if each.startswith("paired: acceptance"))
+    assert "only 2 draws of noise, so that the intervals are too narrow" in line
+
+
+def test_series_of_one_run_pair_over_the_keys_that_make_them(make_series):
+    variants = [
+        make_series([500.0, 510.0], name="wsp[controller=a]", parameters={"controller": "a"}),
+        make_series([490.0, 500.0], name="wsp[wsp=bypassed]", parameters={"rig.wsp": "bypassed"}),
+    ]
+    (found,) = compare_variants(RunContent("run", [], series=variants), ["controller", "rig.wsp"])
     assert (found.first, found.second) == ("controller=a", "rig.wsp=bypassed")
     (group,) = found.groups
     assert (group.name, group.pairs) == ("wsp, wet stops from 120 km/h", 4)
@@ -160,16 +126,11 @@ def test_series_of_one_run_pair_over_the_keys_that_make_them(make_series: MakeSe
     assert distance.mean.value == -10.0
 
 
-MakeBaseline = Callable[..., Baseline]
-
-
 @pytest.fixture
-def make_baseline() -> MakeBaseline:
+def make_baseline():
     """A baseline of series, and which of them a later run selects."""
 
-    def make(
-        accepted: Sequence[series.SeriesResult], selected: Sequence[str] = (), searched: Sequence[str] = ()
-    ) -> Baseline:
+    def make(accepted, selected=(), searched=()):
         run = RunContent("run", [], series=accepted)
         scope = Scope(frozenset(selected), searched)
         document = {"cases": [], "manifest": {}, "series": series.series_document(accepted)}
@@ -178,9 +139,7 @@ def make_baseline() -> MakeBaseline:
     return make
 
 
-def test_a_baseline_compares_verdicts_and_measures_of_series(
-    make_series: MakeSeries, make_baseline: MakeBaseline
-) -> None:
+def test_a_baseline_compares_verdicts_and_measures_of_series(make_series, make_baseline):
     before = make_series([500.0, 510.0])
     baseline = make_baseline([before], ["acceptance"])
     same = baseline.compare(RunContent("run", [], series=[before]))
@@ -194,9 +153,7 @@ def test_a_baseline_compares_verdicts_and_measures_of_series(
     assert found.series == {"acceptance": "acceptance.series.yaml"}
 
 
-def test_a_series_that_is_new_or_that_its_file_no_longer_has_differs(
-    make_series: MakeSeries, make_baseline: MakeBaseline
-) -> None:
+def test_a_series_that_is_new_or_that_its_file_no_longer_has_differs(make_series, make_baseline):
     new, old = make_series([500.0], name="new"), make_series([500.0], name="old")
     baseline = make_baseline([old], ["new"], ["acceptance.series.yaml"])
     found = baseline.compare(RunContent("run", [], series=[new]))
@@ -205,40 +162,34 @@ def test_a_series_that_is_new_or_that_its_file_no_longer_has_differs(
     assert (sorted(found.series), found.series_not_compared, found.compared) == (["new", "old"], [], 2)
 
 
-def test_a_series_that_was_not_selected_is_not_compared_and_stays_accepted(
-    make_series: MakeSeries, make_baseline: MakeBaseline
-) -> None:
+def test_a_series_that_was_not_selected_is_not_compared_and_stays_accepted(make_series, make_baseline):
     old, new = make_series([500.0], name="old"), make_series([500.0], name="new")
     baseline = make_baseline([old], ["new"])
     found = baseline.compare(RunContent("run", [], series=[]))
     assert (found.agrees, found.series_not_compared) == (True, ["old"])
     run = {"cases": [], "manifest": {}, "series": series.series_document([new])}
     kept = accepted_document(run, baseline)
-    results = series.series_results_of(kept["series"])
-    assert [(each.id, [stop.case.id for stop in each.cases]) for each in results] == [
-        (each.id, [stop.case.id for stop in each.cases]) for each in (old, new)
+    stops = [
+        [(each.id, stop.case.id) for each in results for stop in each.cases]
+        for results in (series.series_results_of(kept["series"]), (old, new))
     ]
+    assert stops[0] == stops[1]
     assert kept["manifest"]["cases"] == len(old.cases) + len(new.cases)
     dropping = make_baseline([old], ["new"], ["acceptance.series.yaml"])
     assert [each["id"] for each in accepted_document(run, dropping)["series"]["series"]] == ["new"]
 
 
-def test_a_series_that_differs_is_in_every_report_for_machines(
-    make_series: MakeSeries, make_baseline: MakeBaseline
-) -> None:
-    found = make_baseline([make_series([500.0])]).compare(
-        RunContent("run", [], series=[make_series([500.0], "fail")])
-    )
+def test_a_series_that_differs_is_in_every_report_for_machines(make_series, make_baseline):
+    after = [make_series([500.0], "fail")]
+    found = make_baseline([make_series([500.0])]).compare(RunContent("run", [], series=after))
     sentence = "baseline: criterion k-wet was pass, is fail"
-    failure = ElementTree.fromstring(junit_text(run_suites([], found))).find(
-        ".//testcase[@name='acceptance']/failure"
-    )
-    assert failure is not None
+    suites = ElementTree.fromstring(junit_text(run_suites([], found)))
+    failure = suites.find(".//testcase[@name='acceptance']/failure")
     assert (failure.get("type"), failure.text) == ("baseline", sentence)
     assert list(missing_lines(found)) == [f"differs acceptance reason={sentence}"]
     assert list(missing_annotations(found)) == [
         f"::error file=acceptance.series.yaml,title=differs acceptance::{sentence}"
     ]
-    content = RunContent("run", [], series=[make_series([500.0], "fail")], baseline=found)
+    content = RunContent("run", [], series=after, baseline=found)
     assert content.tally.endswith("; 1 series different from the baseline")
     assert read_baseline_comparison({"baseline": baseline_form(found)}) == found

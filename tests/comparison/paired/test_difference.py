@@ -1,7 +1,5 @@
 """Differences of pairs against SciPy, against statistics by hand, and against the truth they estimate."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -9,21 +7,21 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy import stats
 
-from uictest.analysis.comparison import Draw, PairedDifference, paired_group
+from uictest.analysis.comparison import Draw, paired_group
 
 NUMBERS = st.floats(-1e6, 1e6, allow_nan=False)
 
 
-def _stops(values: list[float], first_seed: int = 0, key: str = "ab") -> dict[Draw, dict[str, float]]:
+def _stops(values, first_seed=0, key="ab"):
     return {Draw("", key, first_seed + n): {"locked_time_s": value} for n, value in enumerate(values)}
 
 
-def _difference(first: list[float], second: list[float]) -> PairedDifference:
+def _difference(first, second):
     (difference,) = paired_group("x", _stops(first), _stops(second)).differences
     return difference
 
 
-def test_the_interval_of_the_mean_is_that_of_the_paired_t_test() -> None:
+def test_the_interval_of_the_mean_is_that_of_the_paired_t_test():
     draws = np.random.default_rng(1).normal(size=(2, 12))
     difference = _difference(draws[0].tolist(), (draws[1] + 3.0).tolist())
     test = stats.ttest_rel(draws[1] + 3.0, draws[0]).confidence_interval(0.95)
@@ -31,7 +29,7 @@ def test_the_interval_of_the_mean_is_that_of_the_paired_t_test() -> None:
     assert difference.mean.value == pytest.approx(np.mean(draws[1] + 3.0 - draws[0]))
 
 
-def test_the_median_of_ten_lies_between_the_second_and_the_ninth_difference() -> None:
+def test_the_median_of_ten_lies_between_the_second_and_the_ninth_difference():
     differences = [5.0, -1.0, 2.0, 8.0, 3.0, 13.0, 21.0, 34.0, 0.5, 1.5]
     difference = _difference([100.0] * 10, [100.0 + each for each in differences])
     ranked = sorted(differences)
@@ -41,7 +39,7 @@ def test_the_median_of_ten_lies_between_the_second_and_the_ninth_difference() ->
     assert (difference.larger, difference.smaller, difference.unit) == (9, 1, "s")
 
 
-def test_both_intervals_contain_the_true_difference_as_often_as_they_say() -> None:
+def test_both_intervals_contain_the_true_difference_as_often_as_they_say():
     generator, trials = np.random.default_rng(7), 400
     inside = np.zeros(2)
     for _ in range(trials):
@@ -53,15 +51,8 @@ def test_both_intervals_contain_the_true_difference_as_often_as_they_say() -> No
     assert inside[0] / trials < 0.98
 
 
-def test_common_noise_makes_the_interval_narrow() -> None:
-    noise = np.random.default_rng(3).normal(scale=50.0, size=10)
-    difference = _difference(noise.tolist(), (noise + np.linspace(0.9, 1.1, 10)).tolist())
-    assert difference.mean.high - difference.mean.low < 0.2
-    assert difference.mean.low > 0.9
-
-
 @given(st.lists(st.tuples(NUMBERS, NUMBERS), min_size=2, max_size=20))
-def test_sides_exchanged_the_difference_changes_its_sign(pairs: list[tuple[float, float]]) -> None:
+def test_sides_exchanged_the_difference_changes_its_sign(pairs):
     first, second = ([pair[place] for pair in pairs] for place in (0, 1))
     there, back = _difference(first, second), _difference(second, first)
     assert there.mean.value == -back.mean.value
@@ -70,7 +61,7 @@ def test_sides_exchanged_the_difference_changes_its_sign(pairs: list[tuple[float
     assert there.mean.low == pytest.approx(-back.mean.high, nan_ok=True)
 
 
-def test_differences_that_are_all_alike_have_no_interval_of_their_mean() -> None:
+def test_differences_that_are_all_alike_have_no_interval_of_their_mean():
     difference = _difference([1.0] * 8, [1.5] * 8)
     assert math.isnan(difference.mean.low)
     assert (difference.median.low, difference.median.high) == (0.5, 0.5)
@@ -79,7 +70,7 @@ def test_differences_that_are_all_alike_have_no_interval_of_their_mean() -> None
     assert not difference.is_zero
 
 
-def test_stops_pair_by_seed_and_not_by_place() -> None:
+def test_stops_pair_by_seed_and_not_by_place():
     first = {Draw("", "ab", seed): {"locked_time_s": float(seed)} for seed in (1, 2, 3)}
     second = {Draw("", "ab", seed): {"locked_time_s": 10.0 + seed} for seed in (4, 3, 2)}
     group = paired_group("x", first, second)
@@ -88,21 +79,16 @@ def test_stops_pair_by_seed_and_not_by_place() -> None:
     assert (group.seeds, group.pairs, group.unpaired) == ((2, 3), 2, (1, 1))
 
 
-def test_a_pair_without_a_number_is_left_out_and_counted() -> None:
+def test_a_pair_without_a_number_is_left_out_and_counted():
     difference = _difference([1.0, math.nan, 3.0, 4.0], [2.0, 3.0, 5.0, math.nan])
     assert (difference.pairs, difference.missing, difference.mean.value) == (2, 2, 1.5)
     assert paired_group("x", _stops([1.0, math.nan]), _stops([2.0, 2.0])).differences == ()
 
 
-def test_stops_under_other_conditions_that_met_the_same_noise_count_as_one_draw() -> None:
-    def stops(shift: float) -> dict[Draw, dict[str, float]]:
-        return {
-            Draw(name, "ab", seed): {"locked_time_s": shift + seed}
-            for name in ("wet", "cleaning")
-            for seed in (1, 2, 3)
-        }
-
-    group = paired_group("x", stops(0.0), stops(1.0))
+def test_stops_under_other_conditions_that_met_the_same_noise_count_as_one_draw():
+    draws = [Draw(name, "ab", seed) for name in ("wet", "cleaning") for seed in (1, 2, 3)]
+    sides = ({draw: {"locked_time_s": shift + draw.seed} for draw in draws} for shift in (0.0, 1.0))
+    group = paired_group("x", *sides)
     assert (group.pairs, group.draws) == (6, 3)
 
 
@@ -119,8 +105,6 @@ def test_stops_under_other_conditions_that_met_the_same_noise_count_as_one_draw(
         (_stops([]), _stops([1.0, 2.0]), "no stop of the first side has measures"),
     ],
 )
-def test_stops_that_did_not_meet_the_same_noise_are_refused(
-    first: dict[Draw, dict[str, float]], second: dict[Draw, dict[str, float]], reason: str
-) -> None:
+def test_stops_that_did_not_meet_the_same_noise_are_refused(first, second, reason):
     with pytest.raises(ValueError, match=reason):
         paired_group("x", first, second)

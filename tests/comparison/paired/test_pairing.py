@@ -1,15 +1,11 @@
 """Which stops of two runs, or of two variants, are pairs."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
-from collections.abc import Callable
 
 import pytest
 
 from uictest.analysis.comparison import (
-    Comparison,
     Tolerances,
     compare_runs,
     compare_variants,
@@ -20,19 +16,18 @@ from uictest.analysis.comparison import (
     variants_html,
     variants_json,
 )
-from uictest.judging.evaluation import CaseResult, EffectivePart, Parameter
+from uictest.judging.evaluation import EffectivePart, Parameter
 from uictest.report import RunContent, document_lines
 
-Make = Callable[..., CaseResult]
 BEFORE = {1: 500.0, 2: 510.0, 3: 520.0}
 AFTER = {1: 490.0, 2: 501.0, 3: 508.0}
 
 
-def _compared(first: list[CaseResult], second: list[CaseResult]) -> Comparison:
+def _compared(first, second):
     return compare_runs(RunContent("one", first), RunContent("other", second), Tolerances())
 
 
-def _single(case: CaseResult, seed: int, distance: float, parameters: dict[str, str]) -> CaseResult:
+def _single(case, seed, distance, parameters):
     """The case of one stop, as a matrix over `seed` makes it."""
     seed_parameter = Parameter("seed", seed, "", str(seed), "user")
     part = EffectivePart("scenario", "", "", None, (seed_parameter,))
@@ -46,9 +41,8 @@ def _single(case: CaseResult, seed: int, distance: float, parameters: dict[str, 
     )
 
 
-def test_the_stops_of_a_repeated_case_pair_between_two_runs(make_repeated: Make) -> None:
+def test_the_stops_of_a_repeated_case_pair_between_two_runs(make_repeated):
     found = _compared([make_repeated(BEFORE)], [make_repeated(AFTER)])
-    assert found.paired is not None
     (group,) = found.paired.groups
     by_name = {each.quantity: each for each in group.differences}
     distance = by_name["braking_distance_m"]
@@ -60,32 +54,24 @@ def test_the_stops_of_a_repeated_case_pair_between_two_runs(make_repeated: Make)
     assert "energy_residual" not in by_name
 
 
-def test_the_largest_wheelset_of_each_stop_is_compared(make_repeated: Make) -> None:
-    def with_slides(case: CaseResult, *slides: tuple[float, float]) -> CaseResult:
-        assert case.repeats is not None
-        stops = tuple(
-            dataclasses.replace(
-                stop,
-                wheelsets=tuple(
-                    {**wheelset, "maximum_slide": slide}
-                    for wheelset, slide in zip(stop.wheelsets, pair, strict=True)
-                ),
-            )
-            for stop, pair in zip(case.repeats.stops, slides, strict=True)
-        )
-        return dataclasses.replace(case, repeats=dataclasses.replace(case.repeats, stops=stops))
+def test_the_largest_wheelset_of_each_stop_is_compared(make_repeated):
+    def with_slides(*slides):
+        case, stops = make_repeated(BEFORE), []
+        for stop, pair in zip(case.repeats.stops, slides, strict=True):
+            wheelsets = tuple({**stop.wheelsets[0], "maximum_slide": slide} for slide in pair)
+            stops.append(dataclasses.replace(stop, wheelsets=wheelsets))
+        return dataclasses.replace(case, repeats=dataclasses.replace(case.repeats, stops=tuple(stops)))
 
-    before = with_slides(make_repeated(BEFORE), (0.1, 0.4), (0.5, 0.2), (0.3, 0.3))
-    after = with_slides(make_repeated(BEFORE), (0.5, 0.1), (0.2, 0.7), (0.6, 0.0))
+    before = with_slides((0.1, 0.4), (0.5, 0.2), (0.3, 0.3))
+    after = with_slides((0.5, 0.1), (0.2, 0.7), (0.6, 0.0))
     found = _compared([before], [after]).paired
-    assert found is not None
     slide = next(each for each in found.groups[0].differences if each.quantity == "largest_maximum_slide")
     # 0.5 - 0.4, 0.7 - 0.5, 0.6 - 0.3: wheelset by wheelset it would be another number.
     assert slide.mean.value == pytest.approx(0.2)
 
 
-def test_cases_that_differ_in_their_seed_alone_are_one_group(make_repeated: Make) -> None:
-    def run(distances: dict[int, float]) -> list[CaseResult]:
+def test_cases_that_differ_in_their_seed_alone_are_one_group(make_repeated):
+    def run(distances):
         return [
             _single(make_repeated({1: 0.0}), seed, distance + shift, {"rail.friction": friction})
             for friction, shift in (("0.07", 0.0), ("0.09", 100.0))
@@ -93,36 +79,32 @@ def test_cases_that_differ_in_their_seed_alone_are_one_group(make_repeated: Make
         ]
 
     found = _compared(run(BEFORE), run(AFTER)).paired
-    assert found is not None
     names = [group.name for group in found.groups]
     assert names == ["slip[rail.friction=0.07]", "slip[rail.friction=0.09]"]
     assert [group.pairs for group in found.groups] == [3, 3]
 
 
-def test_what_does_not_pair_is_named_with_its_reason(make_repeated: Make) -> None:
+def test_what_does_not_pair_is_named_with_its_reason(make_repeated):
     first = [make_repeated(BEFORE), make_repeated(BEFORE, "alone")]
     second = [make_repeated(AFTER, noise_key="00000001")]
     found = _compared(first, second)
-    assert found.paired is not None
     assert found.paired.groups == ()
     assert [each.name for each in found.paired.not_paired] == ["alone", "slip"]
-    lines = [
-        line for line in document_lines(comparison_document(found), None) if line.startswith("not paired")
-    ]
-    assert lines[0] == "not paired: alone: only one has it"
-    assert lines[1].startswith("not paired: slip: the stops met other noise: ")
+    lines = document_lines(comparison_document(found), None)
+    alone, other_noise = (line for line in lines if line.startswith("not paired"))
+    assert alone == "not paired: alone: only one has it"
+    assert other_noise.startswith("not paired: slip: the stops met other noise: ")
 
 
-def test_single_stops_and_runs_that_are_the_same_say_nothing_of_pairs(make_repeated: Make) -> None:
+def test_single_stops_and_runs_that_are_the_same_say_nothing_of_pairs(make_repeated):
     alone = _single(make_repeated({1: 0.0}), 1, 500.0, {})
     found = _compared([alone], [_single(make_repeated({1: 0.0}), 1, 490.0, {})])
-    assert found.paired is not None
     assert (found.paired.groups, found.paired.not_paired) == ((), ())
     same = [make_repeated(BEFORE)]
     assert list(document_lines(comparison_document(_compared(same, same)), None)) == []
 
 
-def test_terminal_json_and_page_have_the_method_and_the_numbers(make_repeated: Make) -> None:
+def test_terminal_json_and_page_have_the_method_and_the_numbers(make_repeated):
     found = _compared([make_repeated(BEFORE)], [make_repeated({**AFTER, 4: 500.0})])
     lines = list(document_lines(comparison_document(found), None))
     paired = lines.index(
@@ -135,7 +117,9 @@ def test_terminal_json_and_page_have_the_method_and_the_numbers(make_repeated: M
         *("braking_distance_m", "510", "501", "-10.333", "-2.03", "-14.128 .. -6.5388"),
         *("-10", "-", "0 of 3", "m"),
     ]
-    form = json.loads(comparison_json(found))["paired"]["groups"][0]
+    document = json.loads(comparison_json(found))
+    assert (document["kind"], document["agrees"]) == ("comparison", False)
+    form = document["paired"]["groups"][0]
     assert (form["name"], form["pairs"], form["unpaired"]) == ("slip", 3, [0, 1])
     distance = next(each for each in form["differences"] if each["quantity"] == "braking_distance_m")
     assert distance["median"]["low"] is None
@@ -145,28 +129,21 @@ def test_terminal_json_and_page_have_the_method_and_the_numbers(make_repeated: M
     assert "Student" in html
 
 
-def test_variants_of_a_run_are_compared_with_the_first(make_repeated: Make) -> None:
-    def case(controller: str, friction: str, distances: dict[int, float]) -> CaseResult:
+def test_variants_of_a_run_are_compared_with_the_first(make_repeated):
+    def case(controller, friction, distances):
         parameters = {"rail.friction": friction, "controller": controller}
         case_id = f"slip[friction={friction},controller={controller}]"
         return make_repeated(distances, case_id, f"000000{friction[-2:]}", parameters=parameters)
 
-    run = RunContent(
-        "run",
-        [
-            *(case("a", "0.07", BEFORE), case("a", "0.09", BEFORE)),
-            *(case("b", "0.07", AFTER), case("c", "0.09", AFTER), make_repeated(BEFORE, "plain")),
-        ],
-    )
-    found = compare_variants(run, ["controller"])
+    cases = [case("a", "0.07", BEFORE), case("a", "0.09", BEFORE), case("b", "0.07", AFTER)]
+    cases += [case("c", "0.09", AFTER), make_repeated(BEFORE, "plain")]
+    found = compare_variants(RunContent("run", cases), ["controller"])
     assert [(each.first, each.second) for each in found] == [
         ("controller=a", "controller=b"),
         ("controller=a", "controller=c"),
     ]
-    assert [group.name for each in found for group in each.groups] == [
-        "slip[rail.friction=0.07]",
-        "slip[rail.friction=0.09]",
-    ]
+    groups = [group.name for each in found for group in each.groups]
+    assert groups == ["slip[rail.friction=0.07]", "slip[rail.friction=0.09]"]
     assert found[0].not_paired[0].reason == "only controller=a has it"
     assert "first controller=a, second controller=b" in list(document_lines(variants_document(found), None))
     document = json.loads(variants_json("run", found))
@@ -174,7 +151,7 @@ def test_variants_of_a_run_are_compared_with_the_first(make_repeated: Make) -> N
     assert "slip[rail.friction=0.07]" in variants_html("run", found)
 
 
-def test_keys_that_tell_no_variants_apart_are_refused(make_repeated: Make) -> None:
+def test_keys_that_tell_no_variants_apart_are_refused(make_repeated):
     run = RunContent("run", [make_repeated(BEFORE, parameters={"controller": "a"})])
     with pytest.raises(ValueError, match="did you mean 'controller'"):
         compare_variants(run, ["controler"])
