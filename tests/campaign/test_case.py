@@ -1,8 +1,4 @@
-from __future__ import annotations
-
-from collections.abc import Callable
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
@@ -12,37 +8,28 @@ from uictest.controllers import ControllerError
 from uictest.judging.evaluation import CaseResult
 from uictest.running.campaign import RecordingRequest, run_case
 
-MakeCase = Callable[..., Any]
-
 
 class Rig:
     """Stands in for the rig and the judgement: remembers how it was asked to record."""
 
-    def __init__(self, outcome: str) -> None:
+    def __init__(self, outcome):
         self.outcome = outcome
-        self.asked: list[float | None] = []
+        self.asked = []
 
-    def simulate(self, case: Any, record_every: float | None, run: object) -> Any:
+    def simulate(self, case, record_every, run):
         self.asked.append(record_every)
         recording = None if record_every is None else f"every {record_every} s"
-        made_up = {"measures": None, "wheelset_measures": None, "response_times": None}
-        return SimpleNamespace(
-            **made_up,
-            recording=recording,
-            controller_version="wsp 1.2.0",
-            case_sha256="ab" * 32,
-            noise_key="00c0ffee",
-        )
+        nothing = dict.fromkeys(("measures", "wheelset_measures", "response_times"))
+        told = {"controller_version": "wsp 1.2.0", "case_sha256": "ab" * 32, "noise_key": "00c0ffee"}
+        return SimpleNamespace(recording=recording, **nothing, **told)
 
-    def evaluate(
-        self, case: Any, measures: Any, wheelsets: Any, duration: float, response_times: object
-    ) -> CaseResult:
-        return CaseResult(case.id, "a.yaml", {}, case.scenario.expect, self.outcome, duration=duration)  # type: ignore[arg-type]
+    def evaluate(self, case, measures, wheelsets, duration, response_times):
+        return CaseResult(case.id, "a.yaml", {}, case.scenario.expect, self.outcome, duration=duration)
 
 
 @pytest.fixture
-def make_rig(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Rig]:
-    def make(outcome: str) -> Rig:
+def make_rig(monkeypatch):
+    def make(outcome):
         rig = Rig(outcome)
         monkeypatch.setattr(uictest.rig, "simulate", rig.simulate)
         monkeypatch.setattr(uictest.judging.evaluation, "evaluate_simulated", rig.evaluate)
@@ -61,13 +48,8 @@ def make_rig(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Rig]:
     ],
 )
 def test_a_stop_is_simulated_again_only_for_the_recording_of_a_missed_case(
-    make_case: MakeCase,
-    make_rig: Callable[[str], Rig],
-    wish: RecordingRequest,
-    outcome: str,
-    asked: list[float | None],
-    recording: str | None,
-) -> None:
+    make_case, make_rig, wish, outcome, asked, recording
+):
     rig = make_rig(outcome)
     examined = run_case(make_case("dry"), wish)
     assert rig.asked == asked
@@ -76,9 +58,7 @@ def test_a_stop_is_simulated_again_only_for_the_recording_of_a_missed_case(
 
 
 @pytest.mark.parametrize(("outcome", "recording"), [("pass", None), ("fail", "every 0.02 s")])
-def test_a_stop_with_a_controller_from_outside_is_never_repeated(
-    make_case: MakeCase, make_rig: Callable[[str], Rig], outcome: str, recording: str | None
-) -> None:
+def test_a_stop_with_a_controller_from_outside_is_never_repeated(make_case, make_rig, outcome, recording):
     """It may answer differently another time, and the recording would be of another stop."""
     rig, case = make_rig(outcome), make_case("dry")
     case.scenario.controller.program = object()
@@ -86,41 +66,30 @@ def test_a_stop_with_a_controller_from_outside_is_never_repeated(
     assert (rig.asked, examined.recording) == ([0.02], recording)
 
 
-def test_a_result_says_which_controller_answered_in_which_stop(
-    make_case: MakeCase, make_rig: Callable[[str], Rig]
-) -> None:
+def test_a_result_says_which_controller_answered_in_which_stop(make_case, make_rig):
     make_rig("pass")
     result = run_case(make_case("dry"), RecordingRequest("none")).result
     assert (result.controller_version, result.case_sha256) == ("wsp 1.2.0", "ab" * 32)
     assert result.noise_key == "00c0ffee"
 
 
-def test_a_stop_in_which_the_controller_failed_is_named_as_well(
-    make_case: MakeCase, make_rig: Callable[[str], Rig], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A log of the controller has it, too, and is looked at first."""
+@pytest.mark.parametrize(
+    ("error", "reason", "digest"),
+    [
+        # A log of the controller has the stop, too, and is looked at first.
+        (ControllerError("no memory (cycle 7)"), "controller: no memory (cycle 7)", "ab" * 32),
+        (ZeroDivisionError("no wheel load"), "ZeroDivisionError: no wheel load", ""),
+    ],
+    ids=["controller", "rig"],
+)
+def test_a_crash_of_one_case_is_its_result(make_case, monkeypatch, error, reason, digest):
+    def crash(case, record_every, run):
+        raise error
 
-    def crash(case: Any, record_every: float | None, run: object) -> Any:
-        raise ControllerError("step failed: no memory (cycle 7)")
-
-    make_rig("pass")
     monkeypatch.setattr(uictest.rig, "simulate", crash)
     monkeypatch.setattr(uictest.rig, "sha256_of_case", lambda case: "ab" * 32)
-    result = run_case(make_case("dry"), RecordingRequest("none")).result
-    assert (result.outcome, result.reason) == ("error", "controller: step failed: no memory (cycle 7)")
-    assert (result.controller_version, result.case_sha256) == ("", "ab" * 32)
-
-
-def test_a_crash_of_one_case_is_its_result(
-    make_case: MakeCase, make_rig: Callable[[str], Rig], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def crash(case: Any, record_every: float | None, run: object) -> Any:
-        raise ZeroDivisionError("no wheel load")
-
-    make_rig("pass")
-    monkeypatch.setattr(uictest.rig, "simulate", crash)
     examined = run_case(make_case("dry"), RecordingRequest())
     result = examined.result
-    assert (result.id, result.outcome, result.reason) == ("dry", "error", "ZeroDivisionError: no wheel load")
-    assert not result.met
+    assert (result.id, result.outcome, result.reason, result.met) == ("dry", "error", reason, False)
+    assert (result.controller_version, result.case_sha256) == ("", digest)
     assert "in crash" in examined.traceback

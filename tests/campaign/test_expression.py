@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, strategies as st
 
@@ -8,37 +6,23 @@ from uictest.running.campaign.selection import ExpressionError, parse
 WORDS = frozenset({"slip", "wet", "slip-120[friction=0.10,command=90]"})
 
 
-def _holds(text: str) -> bool:
+def _holds(text):
     return parse(text)(WORDS.__contains__)
 
 
 @pytest.mark.parametrize(
-    "text",
+    ("text", "holds"),
     [
-        "",
-        "  ",
-        "slip",
-        "slip and wet",
-        "slip and not dry",
-        "dry or wet",
-        "not dry",
-        "not not slip",
-        "dry and dry or wet",
-        "wet or dry and dry",
-        "not (dry or snow)",
-        "((slip))",
-        "slip-120[friction=0.10,command=90]",
+        ("", True),
+        ("  ", True),
+        ("dry and dry or wet", True),
+        ("not (dry or wet)", False),
+        ("slip-120[friction=0.10,command=90]", True),
+        ("1==1", False),  # nothing is evaluated
     ],
 )
-def test_holds(text: str) -> None:
-    assert _holds(text)
-
-
-@pytest.mark.parametrize(
-    "text", ["dry", "slip and dry", "not slip", "not (dry or wet)", "(dry or wet) and dry"]
-)
-def test_does_not_hold(text: str) -> None:
-    assert not _holds(text)
+def test_an_expression_holds_of_the_words_that_it_names(text, holds):
+    assert _holds(text) == holds
 
 
 @pytest.mark.parametrize(
@@ -52,23 +36,19 @@ def test_does_not_hold(text: str) -> None:
         ("()", "at column 2: expected a word, 'not' or '(', found ')'"),
     ],
 )
-def test_a_malformed_expression_says_where(text: str, message: str) -> None:
+def test_a_malformed_expression_says_where(text, message):
     with pytest.raises(ExpressionError) as caught:
         parse(text)
     assert str(caught.value) == message
 
 
-def test_an_absurd_nesting_is_rejected_before_the_stack_is_full() -> None:
+def test_an_absurd_nesting_is_rejected_before_the_stack_is_full():
     with pytest.raises(ExpressionError, match="inside each other"):
         parse("(" * 100_000)
 
 
-def test_nothing_is_evaluated() -> None:
-    assert not _holds("1==1")
-
-
 @given(st.lists(st.sampled_from(["slip", "dry", "and", "or", "not", "(", ")"]), max_size=12))
-def test_it_agrees_with_python_wherever_python_can_read_it(tokens: list[str]) -> None:
+def test_it_agrees_with_python_wherever_python_can_read_it(tokens):
     text = " ".join(tokens)
     try:
         expected = eval(text, {"slip": True, "dry": False}) if text else True

@@ -1,20 +1,15 @@
 """Cases that repeat their stop: the same stops as one by one, whatever runs them in which order."""
 
-from __future__ import annotations
-
 import threading
-from collections.abc import Callable, Sequence
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from uictest import rig
-from uictest.judging.evaluation import CaseResult, json_form, result_document, to_json
+from uictest.judging.evaluation import json_form, result_document, to_json
 from uictest.plans import scenario
-from uictest.running.campaign import CaseRun, RecordingRequest, run_case, run_cases
+from uictest.running.campaign import RecordingRequest, run_case, run_cases
 
 STOP = """
 schema: uictest/scenario/1
@@ -25,14 +20,13 @@ criteria: uictest-stop
 {more}
 """
 NOTHING = RecordingRequest("none")
-Write = Callable[..., list[scenario.Case]]
 
 
 @pytest.fixture
-def cases(tmp_path: Path) -> Write:
+def cases(tmp_path):
     """Write a scenario that repeats its stop, and return its cases."""
 
-    def write(name: str = "stop", more: str = "repeat: 4", *overrides: str) -> list[scenario.Case]:
+    def write(name="stop", more="repeat: 4", *overrides):
         path = tmp_path / f"{name}.yaml"
         path.write_text(STOP.format(name=name, more=more), "utf-8")
         return scenario.load([path], overrides)
@@ -40,17 +34,16 @@ def cases(tmp_path: Path) -> Write:
     return write
 
 
-def without_names(result: CaseResult) -> CaseResult:
+def without_names(result):
     return replace(result, id="", scenario="", parameters={}, duration=0.0)
 
 
-def document(results: Sequence[CaseResult]) -> str:
+def document(results):
     return to_json(result_document(results))
 
 
-def test_each_stop_is_the_one_with_its_seed_alone(cases: Write) -> None:
+def test_each_stop_is_the_one_with_its_seed_alone(cases):
     (result,) = run_cases(cases(more="repeat: 3\nseed: 5"), recording=NOTHING).results
-    assert result.repeats is not None
     for stop, seed in zip(result.repeats.stops, (5, 6, 7), strict=True):
         (alone,) = cases(more=f"seed: {seed}")
         single = run_case(alone, NOTHING).result
@@ -59,16 +52,17 @@ def test_each_stop_is_the_one_with_its_seed_alone(cases: Write) -> None:
         assert [verdict.value for verdict in stop.criteria] == [verdict.value for verdict in single.criteria]
 
 
-def test_measures_are_medians_and_seeds_differ(cases: Write) -> None:
-    (result,) = run_cases(cases(more="repeat: 5"), recording=NOTHING).results
-    assert result.repeats is not None
-    assert result.measures is not None
+def test_measures_are_medians_and_seeds_differ(cases):
+    stops = []
+    repeated = cases(more="repeat: 5")
+    (result,) = run_cases(repeated, recording=NOTHING, on_stop=lambda: stops.append(None)).results
+    assert len(stops) == 5  # counted as they finish
     distances = result.repeats.values("braking_distance_m")
     assert len(set(distances)) == 5
     assert result.measures["braking_distance_m"] == sorted(distances)[2]
 
 
-def test_neither_threads_nor_order_nor_name_change_a_digit(cases: Write) -> None:
+def test_neither_threads_nor_order_nor_name_change_a_digit(cases):
     more = "repeat: 3\nmatrix: {brake.command: [80 %, 100 %]}"
     here = cases(more=more)
     results = run_cases(here, jobs=1, recording=NOTHING).results
@@ -77,12 +71,10 @@ def test_neither_threads_nor_order_nor_name_change_a_digit(cases: Write) -> None
     backwards = run_cases(here[::-1], jobs=2, recording=NOTHING).results
     assert document(backwards[::-1]) == document(results)
     renamed = run_cases(cases("another", more), jobs=2, recording=NOTHING).results
-    assert [document([without_names(each)]) for each in renamed] == [
-        document([without_names(each)]) for each in results
-    ]
+    assert document([*map(without_names, renamed)]) == document([*map(without_names, results)])
 
 
-def test_two_controllers_meet_the_same_noise_until_one_of_them_acts(cases: Write) -> None:
+def test_two_controllers_meet_the_same_noise_until_one_of_them_acts(cases):
     """With every seed; what they estimate differs from the first cycle on."""
     (first,), (second,) = (
         cases("stop", "repeat: 2", f"controller={name}") for name in ("threshold", "slip-band")
@@ -97,19 +89,19 @@ def test_two_controllers_meet_the_same_noise_until_one_of_them_acts(cases: Write
             assert np.array_equal(samples[:until], other.channels[name][:until], equal_nan=True), name
 
 
-def _with_seed(case: scenario.Case, seed: int) -> scenario.Case:
+def _with_seed(case, seed):
     return replace(case, scenario=case.scenario.model_copy(update={"seed": seed}))
 
 
-def _commands(recording: Any) -> Any:
+def _commands(recording):
     return np.array([recording.channels[f"valve_command_{n}"] for n in (1, 2, 3, 4)])
 
 
-def test_only_the_first_stop_is_recorded_and_says_so(cases: Write, monkeypatch: pytest.MonkeyPatch) -> None:
-    runs: list[CaseRun] = []
+def test_only_the_first_stop_is_recorded_and_says_so(cases, monkeypatch):
+    runs = []
     simulate, recorded = rig.simulate, []
 
-    def asked(case: scenario.Case, record_every: float | None, *arguments: Any) -> Any:
+    def asked(case, record_every, *arguments):
         recorded.append((case.scenario.seed, record_every is not None))
         return simulate(case, record_every, *arguments)
 
@@ -117,28 +109,26 @@ def test_only_the_first_stop_is_recorded_and_says_so(cases: Write, monkeypatch: 
     run_cases(cases(more="repeat: 3"), recording=RecordingRequest("all"), on_result=runs.append)
     (run,) = runs
     assert recorded == [(0, True), (1, False), (2, False)]
-    assert run.recording is not None
     assert run.recording.metadata["seed"] == "0, the first of 3 stops"
     stop = run.result.drawn_stop
-    assert stop.measures is not None
     assert run.recording["distance"][-1] == pytest.approx(stop.measures["braking_distance_m"], abs=0.5)
 
 
 @pytest.mark.parametrize(("expect", "recorded"), [("pass", False), ("fail", True)])
-def test_a_case_is_recorded_for_what_all_its_stops_come_to(cases: Write, expect: str, recorded: bool) -> None:
-    runs: list[CaseRun] = []
+def test_a_case_is_recorded_for_what_all_its_stops_come_to(cases, expect, recorded):
+    runs = []
     written = cases(more=f"repeat: 2\nexpect: {expect}")
     run_cases(written, recording=RecordingRequest("failed"), on_result=runs.append)
     assert [run.recording is not None for run in runs] == [recorded]
 
 
 @pytest.fixture
-def fails_with(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], None]:
+def fails_with(monkeypatch):
     """Let the stop of one seed end in an exception."""
     simulate = rig.simulate
 
-    def let_fail(seed: int) -> None:
-        def failing(case: scenario.Case, *arguments: Any) -> Any:
+    def let_fail(seed):
+        def failing(case, *arguments):
             if case.scenario.seed == seed:
                 raise ZeroDivisionError("no wheel load")
             return simulate(case, *arguments)
@@ -148,7 +138,7 @@ def fails_with(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], None]:
     return let_fail
 
 
-def test_a_result_names_the_noise_that_its_stops_met(cases: Write, fails_with: Callable[[int], None]) -> None:
+def test_a_result_names_the_noise_that_its_stops_met(cases, fails_with):
     keys = set()
     for controller in ("threshold", "slip-band"):
         written = cases("stop", "repeat: 2", f"controller={controller}")
@@ -163,33 +153,26 @@ def test_a_result_names_the_noise_that_its_stops_met(cases: Write, fails_with: C
 
 
 @pytest.mark.parametrize("rule", ["all", "median", "{at_least: 50 %}"])
-def test_an_error_with_one_seed_never_vanishes(
-    cases: Write, fails_with: Callable[[int], None], rule: str
-) -> None:
+def test_an_error_with_one_seed_never_vanishes(cases, fails_with, rule):
     fails_with(2)
-    runs: list[CaseRun] = []
+    runs = []
     run_cases(cases(more=f"repeat: 4\noutcome_of_repeats: {rule}"), recording=NOTHING, on_result=runs.append)
     (run,) = runs
-    assert run.result.outcome == "error"
-    assert run.result.reason == (
-        "error in 1 of 4 stops (seed 2), with seed 2: ZeroDivisionError: no wheel load"
-    )
+    told = "error in 1 of 4 stops (seed 2), with seed 2: ZeroDivisionError: no wheel load"
+    assert (run.result.outcome, run.result.reason) == ("error", told)
     assert "ZeroDivisionError: no wheel load" in run.traceback
-    assert run.result.repeats is not None
     assert [stop.outcome for stop in run.result.repeats.stops] == ["pass", "pass", "error", "pass"]
 
 
-def test_an_interrupt_keeps_cases_all_of_whose_stops_are_finished(
-    cases: Write, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_interrupt_keeps_cases_all_of_whose_stops_are_finished(cases, monkeypatch):
     released, simulate = threading.Event(), rig.simulate
 
-    def slow(case: scenario.Case, *arguments: Any) -> Any:
+    def slow(case, *arguments):
         if case.scenario.brake.command < 0.95 and case.scenario.seed == 1:
             released.wait(60.0)
         return simulate(case, *arguments)
 
-    def interrupt(run: CaseRun) -> None:
+    def interrupt(run):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(rig, "simulate", slow)
@@ -200,14 +183,7 @@ def test_an_interrupt_keeps_cases_all_of_whose_stops_are_finished(
         released.set()
     assert batch.interrupted
     assert [result.id for result in batch.results] == ["stop[command=100]"]
-    assert batch.results[0].repeats is not None
     assert len(batch.results[0].repeats.stops) == 2
-
-
-def test_stops_are_counted_as_they_finish(cases: Write) -> None:
-    stops: list[None] = []
-    run_cases(cases(more="repeat: 3"), recording=NOTHING, on_stop=lambda: stops.append(None))
-    assert len(stops) == 3
 
 
 WSP = """
@@ -223,17 +199,13 @@ class Wsp:
 
 
 @pytest.mark.parametrize("in_process", [False, True])
-def test_controllers_from_outside_repeat_their_stops_as_well(
-    cases: Write, tmp_path: Path, in_process: bool
-) -> None:
+def test_controllers_from_outside_repeat_their_stops_as_well(cases, tmp_path, in_process):
     (tmp_path / "wsp.py").write_text(WSP, "utf-8")
     controller = "controller: {python: wsp.py, class: Wsp, version: 1.2.0, time_limit: 600 s}"
     written = cases("outside", f"repeat: 3\n{controller}")
     (result,) = run_cases(written, jobs=2, recording=NOTHING, in_process=in_process).results
-    assert result.repeats is not None
     ends = [(stop.outcome, stop.reason) for stop in result.repeats.stops]
     assert ends == ends[:1] * 3
     (bypassed,) = run_cases(cases("inside", "repeat: 3\nrig: {wsp: bypassed}"), recording=NOTHING).results
-    assert bypassed.repeats is not None
     distances = result.repeats.values("braking_distance_m")
     assert distances == bypassed.repeats.values("braking_distance_m")

@@ -1,11 +1,6 @@
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import pytest
 
-from uictest.plans.scenario import Case, load, named_requirements
+from uictest.plans.scenario import load, named_requirements
 from uictest.plans.series import load_series
 from uictest.running.campaign import CoveredRequirement, Verifier, requirement_coverage
 
@@ -20,14 +15,13 @@ criteria:
       applies: {rail_condition: [dry]}
       requirements: [BR-2]
 """
-LoadCases = Callable[..., list[Case]]
 
 
 @pytest.fixture
-def cases(tmp_path: Path) -> LoadCases:
+def cases(tmp_path):
     """The cases of scenarios called a, b, ..., one per text."""
 
-    def write_and_load(*texts: str) -> list[Case]:
+    def write_and_load(*texts):
         for name, text in zip("abc", texts, strict=False):
             head = f"schema: uictest/scenario/1\nname: {name}\ninitial_speed: 120 km/h\n"
             (tmp_path / f"{name}.yaml").write_text(head + text)
@@ -36,20 +30,20 @@ def cases(tmp_path: Path) -> LoadCases:
     return write_and_load
 
 
-def test_a_scenario_covers_its_requirements_in_all_of_its_cases(cases: LoadCases) -> None:
+def test_a_scenario_covers_its_requirements_in_all_of_its_cases(cases):
     matrix = "requirements: [BR-1]\nmatrix: {brake.command: [80 %, 90 %]}\n"
     coverage = requirement_coverage(cases(matrix, "requirements: [BR-1]\n"))
     of_matrix = Verifier("scenario", "a", cases=("a[command=80]", "a[command=90]"))
     assert coverage == [CoveredRequirement("BR-1", (of_matrix, Verifier("scenario", "b", cases=("b",))))]
 
 
-def test_a_criterion_covers_its_requirement_only_where_it_applies(cases: LoadCases) -> None:
+def test_a_criterion_covers_its_requirement_only_where_it_applies(cases):
     coverage = requirement_coverage(cases(PROFILE, f"{PROFILE}rail: {{condition: wet}}\n"))
     assert coverage == [CoveredRequirement("BR-2", (Verifier("criterion", "short", "own", ("a",)),))]
 
 
 @pytest.mark.parametrize("text", ["rail: {condition: wet}\n", "expect: fail\n"])
-def test_a_requirement_that_no_case_tests_is_not_covered(cases: LoadCases, text: str) -> None:
+def test_a_requirement_that_no_case_tests_is_not_covered(cases, text):
     (requirement,) = requirement_coverage(cases(PROFILE + text))
     assert requirement == CoveredRequirement("BR-2", (Verifier("criterion", "short", "own"),))
     assert not requirement.covered
@@ -59,9 +53,7 @@ def test_a_requirement_that_no_case_tests_is_not_covered(cases: LoadCases, text:
     "bound",
     ["scope: series, measure: k_wet, lower: 0.8", "measure: braking_time, upper: 120 % of the dry stop"],
 )
-def test_a_criterion_that_a_series_is_judged_by_covers_nothing_in_a_case(
-    cases: LoadCases, bound: str
-) -> None:
+def test_a_criterion_that_a_series_is_judged_by_covers_nothing_in_a_case(cases, bound):
     own = f"{{id: own, layer: requirement, {bound}, requirements: [BR-2]}}"
     (case,) = cases(f"criteria: {{name: own, criteria: [{own}]}}\n")
     (requirement,) = requirement_coverage([case])
@@ -69,13 +61,10 @@ def test_a_criterion_that_a_series_is_judged_by_covers_nothing_in_a_case(
     assert named_requirements(case.scenario) == ()
 
 
-def test_listed_requirements_that_nothing_names_are_there_in_the_order_of_ids(cases: LoadCases) -> None:
+def test_listed_requirements_that_nothing_names_are_there_in_the_order_of_ids(cases):
     coverage = requirement_coverage(cases("requirements: [BR-9]\n"), ["BR-10", "BR-9", "BR-8"])
-    assert [(each.id, each.covered) for each in coverage] == [
-        ("BR-8", False),
-        ("BR-9", True),
-        ("BR-10", False),
-    ]
+    covered = [(each.id, each.covered) for each in coverage]
+    assert covered == [("BR-8", False), ("BR-9", True), ("BR-10", False)]
 
 
 SERIES = """\
@@ -95,7 +84,7 @@ criteria:
 """
 
 
-def verifiers(folder: Path, limit: str, applies: str, text: str) -> dict[str, tuple[Verifier, ...]]:
+def verifiers(folder, limit, applies, text):
     for name in ("dry", "wet"):
         content = f"rail: {{condition: {name}}}\ncriteria: uictest-stop\nrequirements: [BR-OF-STOP]\n"
         head = f"schema: uictest/scenario/1\nname: {name}\ninitial_speed: 120 km/h\n"
@@ -106,9 +95,7 @@ def verifiers(folder: Path, limit: str, applies: str, text: str) -> dict[str, tu
     return {each.id: each.verifiers for each in requirement_coverage([], series=load_series(path))}
 
 
-def test_a_series_covers_its_requirements_and_those_of_criteria_that_it_has_a_verdict_on(
-    tmp_path: Path,
-) -> None:
+def test_a_series_covers_its_requirements_and_those_of_criteria_that_it_has_a_verdict_on(tmp_path):
     """A criterion of validity decides which stops count; requirements of stops are none of the series."""
     ids = ("acceptance",)
     assert verifiers(tmp_path, "900 m", "", "requirements: [BR-9]\n") == {
@@ -130,15 +117,13 @@ def test_a_series_covers_its_requirements_and_those_of_criteria_that_it_has_a_ve
     ],
 )
 def test_a_criterion_of_stops_covers_where_it_applies_to_a_stop_that_it_judges(
-    tmp_path: Path, limit: str, condition: str, covered: bool
-) -> None:
+    tmp_path, limit, condition, covered
+):
     (verifier,) = verifiers(tmp_path, limit, f", applies: {{rail_condition: [{condition}]}}", "")["BR-2"]
     assert bool(verifier.series) is covered
 
 
-def test_the_series_of_a_file_are_one_verifier_and_one_that_must_not_pass_verifies_as_a_whole(
-    tmp_path: Path,
-) -> None:
+def test_the_series_of_a_file_are_one_verifier_and_one_that_must_not_pass_verifies_as_a_whole(tmp_path):
     text = "requirements: [BR-9]\nexpect: fail\nmatrix: {controller: [threshold, slip-band]}\n"
     found = verifiers(tmp_path, "900 m", "", text)
     ids = ("acceptance[controller=threshold]", "acceptance[controller=slip-band]")

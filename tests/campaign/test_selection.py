@@ -1,17 +1,10 @@
-from __future__ import annotations
-
-from collections.abc import Callable
-from typing import Any
-
 import pytest
 
 from uictest.running.campaign import ExpressionError, by_expression, by_id, by_tag
 
-MakeCase = Callable[..., Any]
-
 
 @pytest.fixture
-def cases(make_case: MakeCase) -> list[Any]:
+def cases(make_case):
     return [
         make_case("dry-120", "uic-541-05", "dry", file="stops.yaml"),
         make_case("slip-120[friction=0.10]", "uic-541-05", "slip", file="slip.yaml"),
@@ -19,7 +12,7 @@ def cases(make_case: MakeCase) -> list[Any]:
     ]
 
 
-def _ids(cases: list[Any]) -> list[str]:
+def _ids(cases):
     return [case.id for case in cases]
 
 
@@ -35,7 +28,7 @@ def _ids(cases: list[Any]) -> list[str]:
         ("snow", []),
     ],
 )
-def test_a_word_is_sought_in_id_file_name_and_tags(cases: list[Any], expression: str, ids: list[str]) -> None:
+def test_a_word_is_sought_in_id_file_name_and_tags(cases, expression, ids):
     assert _ids(by_expression(cases, expression)) == ids
 
 
@@ -47,14 +40,11 @@ def test_a_word_is_sought_in_id_file_name_and_tags(cases: list[Any], expression:
         ("slip and not long", ["slip-120[friction=0.10]"]),
     ],
 )
-def test_a_tag_is_matched_whole(cases: list[Any], tag: str, ids: list[str]) -> None:
+def test_a_tag_is_matched_whole(cases, tag, ids):
     assert _ids(by_tag(cases, tag)) == ids
 
 
-def test_ids_keep_the_order_of_the_cases(cases: list[Any]) -> None:
+def test_ids_keep_the_order_of_the_cases_and_a_malformed_expression_is_an_error_without_any(cases):
     assert _ids(by_id(cases, frozenset({"slide-80", "dry-120", "gone"}))) == ["dry-120", "slide-80"]
-
-
-def test_a_malformed_expression_is_an_error_even_without_cases() -> None:
     with pytest.raises(ExpressionError):
         by_expression([], "and")

@@ -1,32 +1,29 @@
 """Results in order whatever the threads do, few calls ahead, and an end that does not wait after an error."""
 
-from __future__ import annotations
-
 import threading
 import time
-from collections.abc import Iterator
 
 import pytest
 
 from uictest.running.campaign import ThreadedMap, map_on_threads
 
 
-def late_first(number: int) -> int:
+def late_first(number):
     time.sleep(0.02 if number == 0 else 0.0)
     return number
 
 
 @pytest.mark.parametrize("jobs", [1, 2, 5])
-def test_results_come_in_the_order_of_the_arguments(jobs: int) -> None:
+def test_results_come_in_the_order_of_the_arguments(jobs):
     assert list(map_on_threads(late_first, range(30), jobs=jobs)) == list(range(30))
     assert list(map_on_threads(late_first, [], jobs=jobs)) == []
 
 
 @pytest.mark.parametrize(("pending", "most"), [(3, 3), (None, 8)])
-def test_no_more_calls_are_submitted_than_stated(pending: int | None, most: int) -> None:
+def test_no_more_calls_are_submitted_than_stated(pending, most):
     taken = 0
 
-    def arguments() -> Iterator[int]:
+    def arguments():
         nonlocal taken
         for number in range(40):
             taken += 1
@@ -38,13 +35,13 @@ def test_no_more_calls_are_submitted_than_stated(pending: int | None, most: int)
             assert taken == min(most + returned, 40)
 
 
-def test_an_exception_is_raised_where_its_result_would_be_returned() -> None:
-    def fail_at_two(number: int) -> int:
+def test_an_exception_is_raised_where_its_result_would_be_returned():
+    def fail_at_two(number):
         if number == 2:
             raise ZeroDivisionError
         return number
 
-    results: list[int] = []
+    results = []
     with pytest.raises(ZeroDivisionError):
         results.extend(map_on_threads(fail_at_two, range(9), jobs=3))
     results.clear()
@@ -54,17 +51,17 @@ def test_an_exception_is_raised_where_its_result_would_be_returned() -> None:
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt, OSError])
-def test_an_error_of_the_caller_waits_for_nothing_and_loses_no_result(error: type[BaseException]) -> None:
+def test_an_error_of_the_caller_waits_for_nothing_and_loses_no_result(error):
     released, started = threading.Event(), []
 
-    def work(number: int) -> int:
+    def work(number):
         started.append(number)
         if number == 3:
             released.wait(60.0)
         return number
 
     calls = ThreadedMap(work, range(20), jobs=1, pending=8)
-    results: list[int] = []
+    results = []
     try:
         with pytest.raises(error), calls:
             for number in calls:
@@ -81,10 +78,10 @@ def test_an_error_of_the_caller_waits_for_nothing_and_loses_no_result(error: typ
     assert started == [0, 1, 2, 3]
 
 
-def test_leaving_early_starts_nothing_more_and_waits_for_what_runs() -> None:
-    ended: list[int] = []
+def test_leaving_early_starts_nothing_more_and_waits_for_what_runs():
+    ended = []
 
-    def work(number: int) -> int:
+    def work(number):
         time.sleep(0.005)
         ended.append(number)
         return number
