@@ -4,8 +4,6 @@ import subprocess
 import sys
 import threading
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 from urllib.parse import unquote, urlsplit
 
 import pytest
@@ -14,36 +12,30 @@ from uictest.core import files
 from uictest.core.files import FolderLock
 from uictest.runs.history import page, refresh_index
 
-from .conftest import Publish, case, part
+from .conftest import case, part
 
 HOSTILE = "<script>alert(1)</script>'\"&\u202e"
 
 
-def links(page: Path) -> list[str]:
+def links(page):
     return re.findall(r'href="([^"]*)"', page.read_text("utf-8"))
 
 
-def test_every_run_stands_in_the_index_the_newest_first(publish: Publish, reports: Path) -> None:
-    runs = [publish(case("a")), publish(case("b")), publish(case("c", "fail"))]
-    to_runs = [link for link in links(reports / "index.html") if link.endswith("index.html")]
+def test_every_run_stands_in_the_index_the_newest_first_and_every_case_by_the_newest_that_has_it(
+    publish, reports
+):
+    assert refresh_index(reports.parent) == ""
+    assert "There is no finished run here." in (reports.parent / "index.html").read_text("utf-8")
+    runs = [publish(case("slip[friction=0.09]")), publish(case("b")), publish(case("c", "fail"))]
+    found = links(reports / "index.html")
+    to_runs = [link for link in found if link.endswith("index.html")]
     assert to_runs[:3] == [f"./{run.name}/index.html" for run in reversed(runs)]
+    assert f"./{runs[0].name}/index.html#case-slip%5Bfriction%3D0.09%5D" in found
+    # Nothing half written and no lock is left.
+    assert {path.name for path in reports.iterdir()} == {run.name for run in runs} | {"latest", "index.html"}
 
 
-def test_a_case_leads_to_itself_on_the_page_of_the_newest_run_that_has_it(
-    publish: Publish, reports: Path
-) -> None:
-    run = publish(case("slip-120[friction=0.09]"))
-    publish(case("other"))
-    link = f"./{run.name}/index.html#case-slip-120%5Bfriction%3D0.09%5D"
-    assert link in links(reports / "index.html")
-
-
-def test_without_runs_the_index_says_so(tmp_path: Path) -> None:
-    assert refresh_index(tmp_path) == ""
-    assert "There is no finished run here." in (tmp_path / "index.html").read_text("utf-8")
-
-
-def test_older_runs_are_folded_and_counted(publish: Publish, reports: Path) -> None:
+def test_older_runs_are_folded_and_counted(publish, reports):
     for _ in range(21):
         publish(formats=())
     page = (reports / "index.html").read_text("utf-8")
@@ -51,7 +43,7 @@ def test_older_runs_are_folded_and_counted(publish: Publish, reports: Path) -> N
     assert all(run.name in page for run in reports.glob("2*Z-*"))
 
 
-def test_what_is_no_run_is_stated_with_its_reason(publish: Publish, reports: Path) -> None:
+def test_what_is_no_run_is_stated_with_its_reason(publish, reports):
     publish()
     (reports / "notes").mkdir()
     (reports / "half").mkdir()
@@ -64,7 +56,7 @@ def test_what_is_no_run_is_stated_with_its_reason(publish: Publish, reports: Pat
     assert "1 folder being filled, or left by a killed run." in page
 
 
-def test_hostile_names_are_text(publish: Publish, reports: Path) -> None:
+def test_hostile_names_are_text(publish, reports):
     publish(case(HOSTILE.replace("/", "|")), command=("run", HOSTILE))
     (reports / HOSTILE.replace("/", "|")).mkdir()
     (reports / "javascript:alert(1)").mkdir()
@@ -76,7 +68,7 @@ def test_hostile_names_are_text(publish: Publish, reports: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["a b", "javascript:x", "per%cent", "q?a=b#c", "ü", "a%2f.."])
-def test_a_renamed_run_is_still_found_by_its_link(publish: Publish, reports: Path, name: str) -> None:
+def test_a_renamed_run_is_still_found_by_its_link(publish, reports, name):
     publish().rename(reports / name)
     assert refresh_index(reports) == ""
     found = [link for link in links(reports / "index.html") if "/index.html" in link]
@@ -88,7 +80,7 @@ def test_a_renamed_run_is_still_found_by_its_link(publish: Publish, reports: Pat
 
 
 @pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="every name of a file is Unicode")
-def test_names_that_are_no_unicode_are_spelled_out(publish: Publish, reports: Path) -> None:
+def test_names_that_are_no_unicode_are_spelled_out(publish, reports):
     publish().rename(reports / os.fsdecode(b"L\xe4ufe"))
     (reports / os.fsdecode(b"Entw\xfcrfe")).mkdir()
     assert refresh_index(reports) == ""
@@ -97,7 +89,7 @@ def test_names_that_are_no_unicode_are_spelled_out(publish: Publish, reports: Pa
     assert "Entw\\udcfcrfe" in page
 
 
-def test_a_page_of_somebody_else_is_left_alone(publish: Publish, reports: Path) -> None:
+def test_a_page_of_somebody_else_is_left_alone(publish, reports):
     reports.mkdir()
     index = reports / "index.html"
     index.write_text("my own page")
@@ -112,10 +104,8 @@ def test_a_page_of_somebody_else_is_left_alone(publish: Publish, reports: Path) 
     assert not (reports.parent / "elsewhere.html").exists()
 
 
-def test_an_index_that_cannot_be_written_undoes_no_run(
-    publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(*_: object) -> None:
+def test_an_index_that_cannot_be_written_undoes_no_run(publish, reports, monkeypatch):
+    def fail(*_):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(page, "list_runs", fail)
@@ -125,20 +115,13 @@ def test_an_index_that_cannot_be_written_undoes_no_run(
     assert "No space left on device" in refresh_index(reports)
 
 
-def test_nothing_half_written_and_no_lock_is_left(publish: Publish, reports: Path) -> None:
-    run = publish()
-    assert {path.name for path in reports.iterdir()} == {run.name, "latest", "index.html"}
-
-
-def test_an_index_waits_for_the_one_that_is_being_written(
-    publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_index_waits_for_the_one_that_is_being_written(publish, reports, monkeypatch):
     """The second starts to read only when the first has written: neither can miss the other's run."""
     publish()
-    order: list[str] = []
+    order = []
     write = files.write
 
-    def noted(path: Path, name: str, text: str) -> None:
+    def noted(path, name, text):
         order.append("written")
         write(path, name, text)
 
@@ -152,9 +135,7 @@ def test_an_index_waits_for_the_one_that_is_being_written(
     assert order == ["written"]
 
 
-def test_a_lock_that_is_never_released_is_said_and_not_waited_for_forever(
-    publish: Publish, reports: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_lock_that_is_never_released_is_said_and_not_waited_for_forever(publish, reports, monkeypatch):
     publish()
     monkeypatch.setattr(page, "_PATIENCE", 0.0)
     with FolderLock(reports):
@@ -175,8 +156,8 @@ for n in range(4):
 """
 
 
-def test_runs_that_end_at_once_all_stand_in_the_index(reports: Path) -> None:
-    processes: list[Any] = [
+def test_runs_that_end_at_once_all_stand_in_the_index(reports):
+    processes = [
         subprocess.Popen([sys.executable, "-c", AT_ONCE, str(each)], cwd=reports.parent) for each in range(3)
     ]
     assert [process.wait() for process in processes] == [0, 0, 0]
@@ -184,7 +165,7 @@ def test_runs_that_end_at_once_all_stand_in_the_index(reports: Path) -> None:
     assert [f"case-{each}-{n}" in page for each in range(3) for n in range(4)] == [True] * 12
 
 
-def test_of_a_recorded_stop_the_index_says_what_it_does_not_compare(publish: Publish, reports: Path) -> None:
+def test_of_a_recorded_stop_the_index_says_what_it_does_not_compare(publish, reports):
     stop = replace(case("a"), scenario="a.mf4", parts={"conditions": part("conditions", "")})
     for result in (stop, stop, case("b"), case("b")):
         publish(result, command=("evaluate", "a.mf4"), inputs={"a.mf4": "00"})

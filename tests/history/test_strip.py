@@ -5,15 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest import report
-from uictest.runs.history.case_history import (
-    HEIGHT,
-    CaseHistory,
-    case_histories,
-    shape,
-    strip,
-    summary,
-    width,
-)
+from uictest.runs.history.case_history import HEIGHT, case_histories, shape, strip, summary, width
 from uictest.runs.history.entry import CaseEntry
 from uictest.runs.history.page import _change
 from uictest.runs.history.run_in_folder import ListedRun
@@ -22,25 +14,23 @@ START = datetime(2026, 11, 22, tzinfo=UTC)
 stops = st.none() | st.tuples(st.sampled_from(report.CASE_WORDS), st.none() | st.floats(0.0, 1e5))
 
 
-def history(*stops: tuple[str, float | None] | None) -> CaseHistory:
+def history(*stops):
     cases = [() if each is None else (CaseEntry("a", *each),) for each in stops]
     runs = [ListedRun(str(n), "run", START, cases=each) for n, each in enumerate(cases)]
     [found] = case_histories(runs)
     return found
 
 
-def corners(path: str) -> list[tuple[float, float]]:
+def corners(path):
     return [(float(x), float(y)) for x, y in re.findall(r"[ML]([\d.]+) ([\d.]+)", path)]
 
 
-def heights(path: str) -> list[float]:
+def heights(path):
     return [y for _, y in corners(path)]
 
 
 @given(stops=st.lists(stops, min_size=1, max_size=40).filter(any))
-def test_every_run_has_its_mark_and_everything_lies_inside(
-    stops: list[tuple[str, float | None] | None],
-) -> None:
+def test_every_run_has_its_mark_and_everything_lies_inside(stops):
     drawn = strip(history(*stops))
     run = [each for each in stops if each is not None]
     assert sum(path.count("M") for path in drawn.marks.values()) == len(run)
@@ -49,22 +39,19 @@ def test_every_run_has_its_mark_and_everything_lies_inside(
     assert all(0.0 < x < width(len(stops)) and 0.0 < y < HEIGHT for x, y in places)
 
 
-def test_a_longer_distance_lies_higher_and_the_range_fills_the_height() -> None:
+def test_a_longer_distance_lies_higher_and_the_range_fills_the_height():
     low, high, middle = heights(strip(history(("pass", 400.0), ("pass", 500.0), ("pass", 450.0))).line)
     assert low > middle > high
     assert middle == pytest.approx((low + high) / 2.0, abs=0.1)
 
 
-def test_a_change_of_a_tenth_of_a_permille_looks_flat() -> None:
+def test_a_change_of_a_tenth_of_a_permille_looks_flat():
     first, second = heights(strip(history(("pass", 500.0), ("pass", 500.05))).line)
     assert abs(first - second) < 1.0
-
-
-def test_equal_distances_lie_on_one_level() -> None:
     assert len(set(heights(strip(history(*[("pass", 500.0)] * 3)).line))) == 1
 
 
-def test_words_say_what_the_drawing_shows() -> None:
+def test_words_say_what_the_drawing_shows():
     found = history(("pass", 470.0), None, ("fail", 480.0), ("fail", 475.0))
     assert summary(found) == "3 runs: 1 pass, 2 fail; the verdict turned 1 time; distance 470.0 .. 480.0 m"
 
@@ -72,5 +59,5 @@ def test_words_say_what_the_drawing_shows() -> None:
 @pytest.mark.parametrize(
     ("change", "text"), [(0.0, "0"), (5.5, "+5.50"), (-0.5, "-0.50"), (0.004, "+0.004"), (-1e-9, "-1e-09")]
 )
-def test_a_change_is_0_only_where_there_is_none(change: float, text: str) -> None:
+def test_a_change_is_0_only_where_there_is_none(change, text):
     assert _change(change) == text
