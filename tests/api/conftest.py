@@ -1,18 +1,14 @@
 """Short stops in a working folder of their own, run by the command and in Python."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from uictest.cli.entry import execute
 
-Write = Callable[..., Path]
-Command = Callable[..., int]
-
 
 @pytest.fixture(autouse=True)
-def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def workplace(tmp_path, monkeypatch):
     """A working folder of its own."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("GITHUB_STEP_SUMMARY", raising=False)
@@ -20,12 +16,12 @@ def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def write(workplace: Path) -> Write:
+def write(workplace):
     """Write a short stop below scenarios/ of the working folder."""
     return write_stop
 
 
-def write_stop(name: str = "stop", text: str = "", rail: str = "{condition: wet, friction: 0.06}") -> Path:
+def write_stop(name="stop", text="", rail="{condition: wet, friction: 0.06}"):
     """Write a short stop below scenarios/, with more lines of YAML where a test wants them."""
     path = Path("scenarios", f"{name}.yaml")
     path.parent.mkdir(exist_ok=True)
@@ -35,10 +31,10 @@ def write_stop(name: str = "stop", text: str = "", rail: str = "{condition: wet,
 
 
 @pytest.fixture
-def command(capsys: pytest.CaptureFixture[str]) -> Command:
+def command(capsys):
     """Call the program in this process and return its exit code; what it prints is dropped."""
 
-    def call(*arguments: str | Path) -> int:
+    def call(*arguments):
         code = int(execute([str(argument) for argument in arguments]))
         capsys.readouterr()
         return code

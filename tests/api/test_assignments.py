@@ -3,7 +3,6 @@
 import math
 from decimal import Decimal
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -14,7 +13,7 @@ from uictest.api.arguments import override_texts
 from uictest.plans.scenario.yaml import parse_overrides, plain
 
 
-def read(assignments: dict[str, Any]) -> dict[str, Any]:
+def read(assignments):
     """Return the values as the parser of `--set` reads them: one, or a tuple of several."""
     overrides = parse_overrides(override_texts(assignments), None)
     values = {each.key: tuple(map(plain, each.values)) for each in overrides}
@@ -47,27 +46,27 @@ def read(assignments: dict[str, Any]) -> dict[str, Any]:
         (Path("parts/my.yaml"), "parts/my.yaml"),
     ],
 )
-def test_a_value_is_read_as_it_is_meant(value: object, meant: object) -> None:
+def test_a_value_is_read_as_it_is_meant(value, meant):
     assert read({"a.b": value}) == {"a.b": meant}
 
 
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=2))
-def test_numbers_keep_every_digit(numbers: list[float]) -> None:
+def test_numbers_keep_every_digit(numbers):
     assert read({"key": numbers})["key"] == tuple(numbers)
 
 
 @pytest.mark.parametrize("value", [math.nan, [0.1, math.inf], np.float64("nan")])
-def test_numbers_are_finite(value: object) -> None:
+def test_numbers_are_finite(value):
     with pytest.raises(ValueError, match=r"set: rail\.friction is (nan|inf), expected a finite number"):
         override_texts({"rail.friction": value})
 
 
-def test_another_type_is_named() -> None:
+def test_another_type_is_named():
     with pytest.raises(TypeError, match="set: rail is a object; write a text, a number or a list of them"):
         override_texts({"rail": object()})
 
 
 @pytest.mark.parametrize("repeat", [0, 1001, 1.5, True, "3"])
-def test_repeat_is_a_count(repeat: Any) -> None:
+def test_repeat_is_a_count(repeat):
     with pytest.raises(ValueError, match=r"repeat is .*, expected a whole number from 1 to 1000"):
         override_texts(None, repeat)

@@ -2,7 +2,6 @@
 
 import json
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -13,13 +12,11 @@ from uictest.core.recording import write_parquet
 from uictest.core.recording.formats import writer_of
 from uictest.judging import evaluation
 
-from .conftest import Command, Write
-
-STATED: dict[str, Any] = {"rail": "dry", "position": "R", "wsp": "active", "criteria": "uictest-stop"}
+STATED = {"rail": "dry", "position": "R", "wsp": "active", "criteria": "uictest-stop"}
 
 
 @pytest.fixture
-def train(workplace: Path) -> Path:
+def train(workplace):
     """The record of a train of rolling wheels that stops from 10 m/s within ten seconds."""
     time = np.arange(0.0, 10.5, 0.01)
     speed = np.maximum(10.0 - time, 0.0)
@@ -30,7 +27,7 @@ def train(workplace: Path) -> Path:
     return path
 
 
-def test_digits_are_those_of_the_command(train: Path, command: Command) -> None:
+def test_digits_are_those_of_the_command(train, command):
     options = ["--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop"]
     assert command("evaluate", train, *options, "-o", "out") == 0
     folder = latest_run(Path("out"))
@@ -41,14 +38,14 @@ def test_digits_are_those_of_the_command(train: Path, command: Command) -> None:
     assert {path.name for path in Path().iterdir()} == {train.name, "out"}
 
 
-def test_output_gets_the_reports(train: Path) -> None:
+def test_output_gets_the_reports(train):
     results = uictest.evaluate([train], **STATED, output="out", record="all")
     files = {path.relative_to(results.folder).as_posix() for path in results.folder.rglob("*")}
     assert {"index.html", "results.json", "recordings/stop-1.parquet"} <= files
     assert uictest.read_results("out/latest")[0].outcome == results[0].outcome
 
 
-def test_a_scenario_or_a_case_states_the_conditions(train: Path, write: Write) -> None:
+def test_a_scenario_or_a_case_states_the_conditions(train, write):
     path = write(rail="{condition: dry}")
     one = uictest.evaluate(train, scenario=path)
     other = uictest.evaluate(train, scenario=uictest.load(path)[0])
@@ -57,7 +54,7 @@ def test_a_scenario_or_a_case_states_the_conditions(train: Path, write: Write) -
         uictest.evaluate(train, scenario=uictest.load(path)[0], rail="wet")
 
 
-def test_missing_statements_are_named_as_arguments(train: Path) -> None:
+def test_missing_statements_are_named_as_arguments(train):
     with pytest.raises(
         ValueError, match="state it with scenario=, or with position=, wsp=, criteria="
     ) as raised:
@@ -74,9 +71,7 @@ def test_missing_statements_are_named_as_arguments(train: Path) -> None:
         ({"record": "every"}, "record is 'every'; accepted: all, failed, none"),
     ],
 )
-def test_an_argument_that_cannot_be_used_is_named(
-    train: Path, arguments: dict[str, Any], message: str
-) -> None:
+def test_an_argument_that_cannot_be_used_is_named(train, arguments, message):
     with pytest.raises(ValueError, match=message):
         uictest.evaluate(train, **STATED, **arguments)
 
@@ -88,13 +83,13 @@ def test_an_argument_that_cannot_be_used_is_named(
         (["a.csv", "b.csv"], r"(?s)a\.csv: .*b\.csv: No such file"),
     ],
 )
-def test_every_file_that_cannot_be_read_is_named(files: list[str], message: str) -> None:
+def test_every_file_that_cannot_be_read_is_named(files, message):
     Path("a.csv").write_text("nothing")
     with pytest.raises(ValueError, match=message):
         uictest.evaluate(files, **STATED)
 
 
-def test_the_manifest_names_the_command_that_does_the_same(train: Path, write: Write) -> None:
+def test_the_manifest_names_the_command_that_does_the_same(train, write):
     path = write(rail="{condition: dry}")
     folder = uictest.evaluate(train.name, scenario=path, low_pass="5 Hz", record="all", output="out").folder
     words = ["evaluate", "Stop 1.csv", "--scenario", "scenarios/stop.yaml", "--low-pass", "5 Hz"]
@@ -102,7 +97,7 @@ def test_the_manifest_names_the_command_that_does_the_same(train: Path, write: W
     assert command == ["uictest", *words, "--record", "all", "-o", "out"]
 
 
-def test_a_simulated_stop_comes_out_as_it_was_judged(write: Write) -> None:
+def test_a_simulated_stop_comes_out_as_it_was_judged(write):
     path = write()
     results = uictest.run(path, record="all", rate=1000)
     Path("recordings").mkdir()
@@ -113,7 +108,7 @@ def test_a_simulated_stop_comes_out_as_it_was_judged(write: Write) -> None:
 
 
 @pytest.mark.parametrize(("suffix", "digits"), [("parquet", 0.0), ("csv", 1e-5)])
-def test_recordings_are_read_as_they_were_written(write: Write, suffix: str, digits: float) -> None:
+def test_recordings_are_read_as_they_were_written(write, suffix, digits):
     written = uictest.simulate(write())
     path = Path(f"stop.{suffix}")
     write_parquet(written, path) if suffix == "parquet" else writer_of(suffix)(written, path)
@@ -124,7 +119,7 @@ def test_recordings_are_read_as_they_were_written(write: Write, suffix: str, dig
         np.testing.assert_allclose(read[name], samples, rtol=digits, atol=digits)
 
 
-def test_a_channel_map_prepares_the_stop(workplace: Path) -> None:
+def test_a_channel_map_prepares_the_stop(workplace):
     # 1 s at 36 km/h before the brake command, then 1 m/s2.
     rows = (f"{n / 10:.1f},{36.0 - 3.6 * max(n / 10 - 1.0, 0.0):.3f}\n" for n in range(111))
     Path("train.csv").write_text("time [s],V_ACTUAL [km/h]\n" + "".join(rows))
@@ -138,7 +133,7 @@ def test_a_channel_map_prepares_the_stop(workplace: Path) -> None:
     assert "stated" in recording.metadata["trigger"]
 
 
-def test_what_is_no_recording_is_an_error(workplace: Path) -> None:
+def test_what_is_no_recording_is_an_error(workplace):
     Path("a.parquet").write_bytes(b"PAR1")
     for name, message in (("a.parquet", "a.parquet: "), ("b.csv", "b.csv: No such file")):
         with pytest.raises(ValueError, match=message):

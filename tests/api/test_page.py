@@ -23,17 +23,17 @@ uictest.run("stop.yaml").frames()
 """
 
 
-def words(text: str) -> set[str]:
+def words(text):
     return set(re.findall(r"\w+", text))
 
 
 @pytest.mark.parametrize("name", uictest.__all__)
-def test_every_public_name_is_on_the_page(name: str) -> None:
+def test_every_public_name_is_on_the_page(name):
     assert f"`{name}`" in PAGE or f"`uictest.{name}" in PAGE or f"a `{name}`" in PAGE
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_every_argument_is_on_the_page_and_in_the_docstring(name: str) -> None:
+def test_every_argument_is_on_the_page_and_in_the_docstring(name):
     function = getattr(uictest, name)
     arguments = set(inspect.signature(function).parameters)
     (signature,) = re.findall(rf"`uictest\.{name}\(([^`]*)\)`", PAGE)
@@ -41,33 +41,28 @@ def test_every_argument_is_on_the_page_and_in_the_docstring(name: str) -> None:
     assert arguments - words(function.__doc__) == set()
 
 
-def split(signature: str) -> list[str]:
+def split(signature):
     """Return the arguments of a signature, at commas outside brackets."""
     return re.split(r",\s*(?![^()]*\))", signature)
 
 
 @pytest.mark.parametrize(("name", "public"), CLASSES.items())
-def test_every_member_is_on_the_page(name: str, public: type) -> None:
+def test_every_member_is_on_the_page(name, public):
     members = {member for member in vars(public) if not member.startswith("_")} - {"read"}
     assert members - words(PAGE) == set(), name
 
 
-def test_scripts_are_checked_in_strict_mode(tmp_path: Path) -> None:
+def test_scripts_are_checked_in_strict_mode(tmp_path):
     sys.path.insert(0, str(REPOSITORY / "docs" / "tools"))
     try:
-        from markup import blocks  # type: ignore[import-not-found]
+        from markup import blocks
     finally:
         sys.path.pop(0)
     scripts = {block.file_name: block.text for block in blocks(PAGE, "python")} | {"misuse.py": MISUSE}
     for name, text in scripts.items():
         (tmp_path / name).write_text(text)
-    done = subprocess.run(
-        [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--cache-dir=cache", *scripts],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    mypy = [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--cache-dir=cache", *scripts]
+    done = subprocess.run(mypy, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.stderr == ""
     errors = [line for line in done.stdout.splitlines() if ": error:" in line]
     assert [line.split(":")[:2] for line in errors] == [["misuse.py", f"{number}"] for number in (3, 4, 5, 6)]

@@ -6,9 +6,7 @@ import io
 import math
 from html.parser import HTMLParser
 from pathlib import Path
-from typing import Any
 
-import pandas as pd
 import pytest
 
 import uictest
@@ -16,13 +14,13 @@ from uictest import report
 from uictest.api.results import column_units
 from uictest.core import measures
 
-from .conftest import Write, write_stop
+from .conftest import write_stop
 
 HOSTILE = "<script>alert(1)</script> & \x1b[31m"
 
 
 @pytest.fixture(scope="module")
-def results(tmp_path_factory: pytest.TempPathFactory) -> uictest.Results:
+def results(tmp_path_factory):
     """Two cases, one of them repeated, one not as expected."""
     with contextlib.chdir(tmp_path_factory.mktemp("results")):
         write_stop("many", "repeat: 3\nrequirements: [BR-1]\n")
@@ -30,12 +28,11 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> uictest.Results:
         return uictest.run()
 
 
-def cells(frame: pd.DataFrame) -> list[dict[str, Any]]:
-    rows: list[dict[str, Any]] = frame.reset_index().to_dict("records")
-    return rows
+def cells(frame):
+    return frame.reset_index().to_dict("records")
 
 
-def as_csv(value: object) -> str:
+def as_csv(value):
     """Return a value as the CSV files write it."""
     if value is None or value != value:
         return ""
@@ -43,7 +40,7 @@ def as_csv(value: object) -> str:
 
 
 @pytest.mark.parametrize("name", ["summary", "wheelsets", "criteria", "repeats", "requirements"])
-def test_a_table_has_every_cell_of_its_file(results: uictest.Results, name: str) -> None:
+def test_a_table_has_every_cell_of_its_file(results, name):
     text = (results.save("out") / f"{name}.csv").read_text()
     written = list(csv.DictReader(io.StringIO(text)))
     rows = cells(results.table(name))
@@ -53,43 +50,38 @@ def test_a_table_has_every_cell_of_its_file(results: uictest.Results, name: str)
             assert as_csv(value) == line[column] or float(value) == float(line[column]), column
 
 
-def test_numbers_are_numbers_and_texts_are_as_written(results: uictest.Results) -> None:
+def test_numbers_are_numbers_and_texts_are_as_written(results):
     frame = results.frame()
     assert frame.index.name == "id"
     assert {str(frame[name].dtype) for name in measures.STOP_COLUMNS} == {"float64"}
     assert frame["met"].dtype == bool
     assert list(frame["parameters.rail.friction"].dropna()) == ["0.06", "0.1"]
-    assert (
-        frame.loc["one[friction=0.1]", "braking_distance_m"]
-        == results["one[friction=0.1]"].measures[  # type: ignore[index]
-            "braking_distance_m"
-        ]
-    )
+    distance = results["one[friction=0.1]"].measures["braking_distance_m"]
+    assert frame.loc["one[friction=0.1]", "braking_distance_m"] == distance
+    crashed = uictest.CaseResult("a", "a.yaml", {}, "pass", "error", reason="no wheel load")
+    frame = uictest.Results(report.RunContent("run", [crashed])).frame()
+    assert math.isnan(frame.loc["a", "braking_distance_m"])
+    assert frame["braking_distance_m"].dtype == float
 
 
-def test_units_stand_beside_the_columns(results: uictest.Results) -> None:
+def test_units_stand_beside_the_columns(results):
     units = results.frame().attrs["units"]
     assert units["braking_distance_m"] == units["braking_distance_m_highest"] == "m"
     assert "outcome" not in units
     assert results.wheelsets().attrs["units"]["locked_time_s"] == "s"
+    for name, column in {**measures.STOP_COLUMNS, **measures.WHEELSET_COLUMNS}.items():
+        names = (name, f"{name}_lowest")
+        assert column_units(names) == dict.fromkeys(names, column.unit)
 
 
-@pytest.mark.parametrize("name", [*measures.STOP_COLUMNS, *measures.WHEELSET_COLUMNS])
-def test_every_measure_has_its_unit(name: str) -> None:
-    columns = {**measures.STOP_COLUMNS, **measures.WHEELSET_COLUMNS}
-    assert column_units([name, f"{name}_lowest"]) == dict.fromkeys(
-        (name, f"{name}_lowest"), columns[name].unit
-    )
-
-
-def test_the_index_tells_rows_apart(results: uictest.Results) -> None:
+def test_the_index_tells_rows_apart(results):
     for frame in (results.frame(), results.wheelsets(), results.criteria(), results.repeats()):
         assert frame.index.is_unique
     assert list(results.wheelsets().loc["many"].index) == [1, 2, 3, 4]
     assert list(results.repeats().index.get_level_values("seed")) == [0, 1, 2]
 
 
-def test_a_table_that_is_not_there_is_named(write: Write) -> None:
+def test_a_table_that_is_not_there_is_named(write):
     results = uictest.run(write())
     with pytest.raises(KeyError, match="no table 'repeats' in this run; accepted: criteria, summary"):
         results.repeats()
@@ -97,7 +89,7 @@ def test_a_table_that_is_not_there_is_named(write: Write) -> None:
         results.table("criterias")
 
 
-def test_cases_by_place_by_slice_and_by_id(results: uictest.Results) -> None:
+def test_cases_by_place_by_slice_and_by_id(results):
     assert len(results) == 3
     assert results[0] is results["many"] is next(iter(results))
     assert [each.id for each in results[1:]] == ["one[friction=0.06]", "one[friction=0.1]"]
@@ -106,9 +98,12 @@ def test_cases_by_place_by_slice_and_by_id(results: uictest.Results) -> None:
         results["one[friction=0.05]"]
     with pytest.raises(IndexError):
         results[3]
+    with pytest.raises(KeyError, match=r"many was not recorded: run it with record='all'"):
+        results.recording("many")
+    assert len(results.recording("one[friction=0.06]")) > 100
 
 
-def test_met_and_tally(results: uictest.Results) -> None:
+def test_met_and_tally(results):
     assert not results.met
     assert results.tally == "3 cases: 1 pass, 2 unexpected pass; 2 not as expected"
     assert repr(results).splitlines()[0] == results.tally
@@ -116,15 +111,15 @@ def test_met_and_tally(results: uictest.Results) -> None:
 
 
 class _Page(HTMLParser):
-    def __init__(self) -> None:
+    def __init__(self):
         super().__init__()
-        self.tags: set[str] = set()
+        self.tags = set()
 
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+    def handle_starttag(self, tag, attrs):
         self.tags.add(tag)
 
 
-def test_the_table_for_notebooks_escapes_what_users_wrote() -> None:
+def test_the_table_for_notebooks_escapes_what_users_wrote():
     hostile = uictest.CaseResult(HOSTILE, "a.yaml", {}, "pass", "fail", reason=HOSTILE)
     page = _Page()
     text = uictest.Results(report.RunContent("run", [hostile]))._repr_html_()
@@ -133,7 +128,7 @@ def test_the_table_for_notebooks_escapes_what_users_wrote() -> None:
     assert "\x1b" not in text + repr(uictest.Results(report.RunContent("run", [hostile])))
 
 
-def test_the_table_for_notebooks_has_what_failed_first_and_an_end() -> None:
+def test_the_table_for_notebooks_has_what_failed_first_and_an_end():
     many = [uictest.CaseResult(f"case-{n}", "a.yaml", {}, "pass", "pass") for n in range(200)]
     failed = uictest.CaseResult("failed", "a.yaml", {}, "pass", "fail", reason="locked")
     text = uictest.Results(report.RunContent("run", [*many, failed]))._repr_html_()
@@ -142,27 +137,14 @@ def test_the_table_for_notebooks_has_what_failed_first_and_an_end() -> None:
     assert text.count("<tr>") == 51
 
 
-def test_a_case_without_measures_is_a_row_of_nan() -> None:
-    crashed = uictest.CaseResult("a", "a.yaml", {}, "pass", "error", reason="no wheel load")
-    frame = uictest.Results(report.RunContent("run", [crashed])).frame()
-    assert math.isnan(float(frame.loc["a", "braking_distance_m"]))  # type: ignore[arg-type]
-    assert frame["braking_distance_m"].dtype == float
-
-
-def test_what_was_not_recorded_says_how_to(results: uictest.Results) -> None:
-    with pytest.raises(KeyError, match=r"many was not recorded: run it with record='all'"):
-        results.recording("many")
-    assert len(results.recording("one[friction=0.06]")) > 100
-
-
-def test_saving_in_an_unknown_format_names_the_nearest(results: uictest.Results) -> None:
+def test_saving_in_an_unknown_format_names_the_nearest(results):
     with pytest.raises(ValueError, match="no format 'xslx'; did you mean 'xlsx'"):
         results.save(formats=["xslx"])
     assert not Path("reports").exists()
     assert (results.save(formats=["xlsx", "md"]) / "report.xlsx").is_file()
 
 
-def test_a_table_of_a_series_without_criteria_is_empty(write: Write) -> None:
+def test_a_table_of_a_series_without_criteria_is_empty(write):
     write("dry", rail="{condition: dry}")
     path = write("wet").with_name("free.series.yaml")
     path.write_text("schema: uictest/series/1\nname: free\ndry: dry.yaml\nwet: wet.yaml\ncriteria: []\n")

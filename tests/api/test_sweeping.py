@@ -2,14 +2,11 @@
 
 import csv
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 import uictest
 from uictest.running.chunked import ChunkStore
-
-from .conftest import Command, Write
 
 TEXT = """schema: uictest/sweep/1
 name: study
@@ -20,21 +17,21 @@ grid:
 
 
 @pytest.fixture
-def study(write: Write) -> Path:
+def study(write):
     write()
     path = Path("study.sweep.yaml")
     path.write_text(f"{TEXT}  brake.command: [80 %, 100 %]\n")
     return path
 
 
-def same(value: Any, text: str) -> bool:
+def same(value, text):
     """Return whether a cell of a CSV file is this value."""
     if isinstance(value, str | bool):
         return text.lower() == str(value).lower()
     return text == "" if value != value else float(text) == value
 
 
-def test_rows_are_those_of_the_command(study: Path, command: Command) -> None:
+def test_rows_are_those_of_the_command(study, command):
     assert command("sweep", study, "-o", "out") == 0
     frame = uictest.sweep(study).frame()
     with Path("out/study/summary.csv").open(newline="") as file:
@@ -45,13 +42,11 @@ def test_rows_are_those_of_the_command(study: Path, command: Command) -> None:
     for row, line in zip(rows, written, strict=True):
         for column, value in row.items():
             assert same(value, line[column]), column
-    assert (
-        frame.attrs["units"]["braking_distance_m"] == frame.attrs["units"]["deceleration_distance_m"] == "m"
-    )
+    assert {frame.attrs["units"][f"{name}_distance_m"] for name in ("braking", "deceleration")} == {"m"}
     assert list(frame["values.brake.command"]) == [0.8, 1.0, 0.8, 1.0]
 
 
-def test_nothing_is_left_behind_without_output(study: Path, workplace: Path) -> None:
+def test_nothing_is_left_behind_without_output(study, workplace):
     before = sorted(workplace.rglob("*"))
     results = uictest.sweep(study, jobs=1)
     assert (len(results), results.met, results.folder) == (4, True, None)
@@ -59,18 +54,17 @@ def test_nothing_is_left_behind_without_output(study: Path, workplace: Path) -> 
     assert repr(results).startswith("study: 4 cases")
 
 
-def test_one_measure_may_stand_alone(study: Path) -> None:
-    alone, listed = (
-        uictest.sweep(study, measures=each).result.maps for each in ("braking_time_s", ["braking_time_s"])
-    )
+def test_one_measure_may_stand_alone(study):
+    name = "braking_time_s"
+    alone, listed = (uictest.sweep(study, measures=each).result.maps for each in (name, [name]))
     assert alone == listed
 
 
-def test_a_finished_sweep_is_not_run_again(study: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_finished_sweep_is_not_run_again(study, monkeypatch):
     first = uictest.sweep(study, output="out")
     assert first.folder == Path("out/study").absolute()
 
-    def fail(*_: object) -> None:
+    def fail(*_):
         raise AssertionError("a chunk was computed again")
 
     monkeypatch.setattr(ChunkStore, "write", fail)
@@ -88,14 +82,12 @@ def test_a_finished_sweep_is_not_run_again(study: Path, monkeypatch: pytest.Monk
         ({"frontier": "rail.friction", "tolerance": "wide"}, "wide"),
     ],
 )
-def test_an_argument_that_cannot_be_used_is_named(
-    study: Path, arguments: dict[str, object], message: str
-) -> None:
+def test_an_argument_that_cannot_be_used_is_named(study, arguments, message):
     with pytest.raises(ValueError, match=message):
-        uictest.sweep(study, **arguments)  # type: ignore[arg-type]
+        uictest.sweep(study, **arguments)
 
 
-def test_errors_of_the_file_have_their_places(study: Path) -> None:
+def test_errors_of_the_file_have_their_places(study):
     study.write_text(f"{TEXT}  brake.comand: [80 %]\n")
     with pytest.raises(uictest.ScenarioErrors, match=r"study\.sweep\.yaml:6:3: .*brake\.comand"):
         uictest.sweep(study)

@@ -7,13 +7,18 @@ import pytest
 
 import uictest
 
-from .conftest import Command, Write
-
 ENTRY = "{scenario: scenarios/stop.yaml, map: map.yaml, recordings: [run-1.csv, run-2.csv]}"
 
 
+STUDY = """schema: uictest/sweep/1
+name: study
+scenario: scenarios/stop.yaml
+grid: {{{}}}
+"""
+
+
 @pytest.fixture
-def file(write: Write) -> Path:
+def file(write):
     """A validation of one scenario by two of its own stops under other seeds."""
     scenario = write()
     for seed in (1, 2):
@@ -30,7 +35,7 @@ def file(write: Write) -> Path:
     return path
 
 
-def test_figures_are_those_of_the_command(file: Path, command: Command) -> None:
+def test_figures_are_those_of_the_command(file, command):
     assert command("validate", file, "-o", "out") == 0
     [written] = Path("out").iterdir()
     validation = uictest.validate(file, jobs=1)
@@ -48,23 +53,20 @@ def test_figures_are_those_of_the_command(file: Path, command: Command) -> None:
     assert "my-train: 2 of 2 recorded stops counted" in validation._repr_html_()
 
 
-def test_what_is_written_flags_runs_and_sweeps(file: Path) -> None:
+def test_what_is_written_flags_runs_and_sweeps(file):
     validation = uictest.validate(file, output="validations")
     assert {path.name for path in validation.folder.iterdir()} >= {"validation.json", "stops.csv"}
     changes = {"initial_speed": ["30 km/h", "36 km/h"]}
     results = uictest.run("scenarios/stop.yaml", set=changes, validated=validation.file)
-    outside = [[each.key for each in result.domain_of_validity.outside] for result in results]  # type: ignore[union-attr]
+    outside = [[each.key for each in result.domain_of_validity.outside] for result in results]
     assert outside == [[], ["initial_speed"]]
-    Path("study.sweep.yaml").write_text(
-        "schema: uictest/sweep/1\nname: study\nscenario: scenarios/stop.yaml\n"
-        "grid: {initial_speed: [30 km/h, 36 km/h]}\n"
-    )
+    Path("study.sweep.yaml").write_text(STUDY.format("initial_speed: [30 km/h, 36 km/h]"))
     swept = uictest.sweep("study.sweep.yaml", validated=validation.file)
     assert swept.result.domain_of_validity.outside == 1
     assert list(swept.frame()["outside"]) == ["", "initial_speed"]
 
 
-def test_a_file_of_several_series_is_refused(file: Path, write: Write, command: Command) -> None:
+def test_a_file_of_several_series_is_refused(file, write, command):
     """Each series is a validation of its own: one result, or one JSON document, cannot have them all."""
     assert file.exists()  # its recordings are those of the series
     write("reference", rail="{condition: dry}")
@@ -77,7 +79,7 @@ def test_a_file_of_several_series_is_refused(file: Path, write: Write, command: 
     assert command("validate", "two.series.yaml", "--format", "json") == 4
 
 
-def test_a_file_that_is_no_validation_is_refused(write: Write) -> None:
+def test_a_file_that_is_no_validation_is_refused(write):
     with pytest.raises(uictest.ScenarioErrors, match="expected uictest/validation/1"):
         uictest.validate(write())
     Path("other.json").write_text("{}")
@@ -85,12 +87,10 @@ def test_a_file_that_is_no_validation_is_refused(write: Write) -> None:
         uictest.run("scenarios/stop.yaml", validated="other.json")
 
 
-def test_errors_of_a_sweep_name_what_the_caller_can_do_and_no_option(write: Write) -> None:
+def test_errors_of_a_sweep_name_what_the_caller_can_do_and_no_option(write):
     scenario = write()
     sweep = Path("study.sweep.yaml")
-    sweep.write_text(
-        "schema: uictest/sweep/1\nname: study\nscenario: scenarios/stop.yaml\ngrid: {rail.friction: [0.06]}\n"
-    )
+    sweep.write_text(STUDY.format("rail.friction: [0.06]"))
     uictest.sweep(sweep, output="out")
     scenario.write_text(f"{scenario.read_text()}seed: 3\n")
     with pytest.raises(ValueError, match="restart it to discard them") as error:
