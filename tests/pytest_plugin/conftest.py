@@ -5,7 +5,6 @@ import io
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from unittest.mock import patch
@@ -43,26 +42,22 @@ class Outcome:
     lines: list[str]
 
     @property
-    def node_ids(self) -> list[str]:
+    def node_ids(self):
         """The collected tests, after `--collect-only -q`."""
         return [line for line in self.lines if "::" in line]
 
     @property
-    def summary(self) -> str:
+    def summary(self):
         """The last line without the time."""
         return self.lines[-1].strip("= ").partition(" in ")[0]
 
 
-Run = Callable[..., Outcome]
-Write = Callable[[str, str], Path]
-
-
 @pytest.fixture
-def write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Write:
+def write(tmp_path, monkeypatch):
     """Write a file of the project."""
     monkeypatch.chdir(tmp_path)
 
-    def to(name: str, text: str) -> Path:
+    def to(name, text):
         path = Path(name)
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, "utf-8")
@@ -73,26 +68,26 @@ def write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Write:
 
 
 @pytest.fixture
-def scenario(write: Write) -> Callable[..., Path]:
+def scenario(write):
     """Write a scenario of the project; the text is appended to what every scenario needs."""
 
-    def to(name: str, text: str = "") -> Path:
+    def to(name, text=""):
         return write(f"scenarios/{name}.yaml", SCENARIO.format(name=name, text=text))
 
     return to
 
 
 @pytest.fixture
-def run(write: Write) -> Run:
+def run(write):
     """Run pytest in the project: in this process, unless it starts workers."""
 
-    def call(*arguments: str) -> Outcome:
+    def call(*arguments):
         return in_process_of_its_own(*arguments) if "xdist" in arguments else _here(arguments)
 
     return call
 
 
-def in_process_of_its_own(*arguments: str) -> Outcome:
+def in_process_of_its_own(*arguments):
     """Run pytest in the project as its users do."""
     command = [sys.executable, "-m", "pytest", *_PLUGIN, *arguments]
     environment = {**os.environ, **_ENVIRONMENT}
@@ -102,7 +97,7 @@ def in_process_of_its_own(*arguments: str) -> Outcome:
     return Outcome(done.returncode, [*done.stdout.splitlines(), *done.stderr.splitlines()])
 
 
-def _here(arguments: Sequence[str]) -> Outcome:
+def _here(arguments):
     """Run pytest as that process would, and forget the modules of the project."""
     out, err = io.StringIO(), io.StringIO()
     modules, places = set(sys.modules), list(sys.path)
@@ -120,11 +115,11 @@ def _here(arguments: Sequence[str]) -> Outcome:
     return Outcome(int(code), [*out.getvalue().splitlines(), *err.getvalue().splitlines()])
 
 
-def junit_testcases(junit: Path) -> dict[str, ElementTree.Element]:
+def junit_testcases(junit):
     """Return the testcases of a JUnit file by name."""
     return {str(each.get("name")): each for each in ElementTree.parse(junit).iter("testcase")}
 
 
-def properties(testcase: ElementTree.Element) -> dict[str, str]:
+def properties(testcase):
     """Return the properties of a testcase."""
     return {str(each.get("name")): str(each.get("value")) for each in testcase.iter("property")}

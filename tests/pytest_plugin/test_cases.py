@@ -1,7 +1,7 @@
 """One item per case: outcomes, messages, selection."""
 
 import json
-from collections.abc import Callable
+import re
 from pathlib import Path
 
 import pytest
@@ -11,9 +11,8 @@ from uictest.plans.scenario import load
 from uictest.running.campaign import run_cases
 
 from ..runs.test_acceptance import TURNING
-from .conftest import SHORT_STOPS, Run, Write, in_process_of_its_own, junit_testcases, properties
+from .conftest import SHORT_STOPS, in_process_of_its_own, junit_testcases, properties
 
-Scenario = Callable[..., Path]
 BROKEN = """\
 class Broken:
     def __init__(self, config): pass
@@ -23,25 +22,24 @@ class Broken:
 
 
 @pytest.fixture
-def five(scenario: Scenario, write: Write) -> None:
+def five(scenario, write):
     """Scenarios with every outcome."""
     write("short-stops.yaml", SHORT_STOPS)
     write("broken.py", BROKEN)
     scenario("full", "tags: [dry, uic-541-05, skip]\nrequirements: [BR-1]\ntest_case: TC-7\n")
-    scenario(
-        "weak",
-        "tags: [dry]\ncriteria: ../short-stops.yaml\nmatrix: {brake.command: [80 %, 100 %]}\n",
-    )
+    scenario("weak", "tags: [dry]\ncriteria: ../short-stops.yaml\nmatrix: {brake.command: [80 %, 100 %]}\n")
     scenario("known", "criteria: ../short-stops.yaml\nbrake: {command: 80 %}\nexpect: fail\n")
     scenario("crash", "controller: {python: ../broken.py, class: Broken}\n")
     scenario("dry", "criteria: uic-541-05-appendix-b\nexpect: skipped\n")
 
 
 @pytest.mark.usefixtures("five")
-def test_outcomes(run: Run) -> None:
-    done = run("-rs", "--junitxml", "junit.xml")
+@pytest.mark.parametrize("workers", [[], ["-p", "xdist", "-n", "2"]], ids=["alone", "xdist"])
+def test_outcomes(run, workers):
+    done = run("-rs", "--junitxml", "junit.xml", *workers)
     assert done.code == 1
     assert done.summary == "1 failed, 3 passed, 1 skipped, 1 error"
+    assert any("distance (requirement) fail:" in line for line in done.lines)
     found = junit_testcases(Path("junit.xml"))
     # The tag `skip` of the first one is a word to select it by, not an order to pytest.
     tags = {name: [child.tag for child in each if child.tag != "properties"] for name, each in found.items()}
@@ -59,7 +57,7 @@ def test_outcomes(run: Run) -> None:
 
 
 @pytest.mark.usefixtures("five")
-def test_a_missed_expectation_reads_as_in_the_report_of_the_command(run: Run) -> None:
+def test_a_missed_expectation_reads_as_in_the_report_of_the_command(run):
     [result] = run_cases(load([Path("scenarios/weak.yaml")], ["brake.command=80 %"])).results
     done = run("scenarios/weak.yaml::weak[command=80]")
     outcome, reason = report.explanation(result)
@@ -70,7 +68,7 @@ def test_a_missed_expectation_reads_as_in_the_report_of_the_command(run: Run) ->
 
 
 @pytest.mark.usefixtures("five")
-def test_figures_and_test_ids_are_properties(run: Run) -> None:
+def test_figures_and_test_ids_are_properties(run):
     [result] = run_cases(load([Path("scenarios/full.yaml")])).results
     run("-k", "full or weak", "--junitxml", "junit.xml")
     found = {name: properties(each) for name, each in junit_testcases(Path("junit.xml")).items()}
@@ -94,34 +92,27 @@ def test_figures_and_test_ids_are_properties(run: Run) -> None:
         (["scenarios/weak.yaml::weak[command=100]"], ["weak.yaml::weak[command=100]"]),
     ],
 )
-def test_selection(run: Run, arguments: list[str], selected: list[str]) -> None:
+def test_selection(run, arguments, selected):
     done = run("--collect-only", "-q", "--strict-markers", *arguments)
     assert done.code == 0
     assert done.node_ids == [f"scenarios/{name}" for name in selected]
 
 
 @pytest.mark.usefixtures("five")
-def test_x_and_lf(run: Run) -> None:
+def test_x_and_lf(run):
     assert run("-x", "-k", "known or weak").summary == "1 failed, 1 passed, 3 deselected"
     lines = run("--lf", "--collect-only", "-q").node_ids
     assert lines == ["scenarios/weak.yaml::weak[command=80]"]
 
 
-def test_a_stop_that_nothing_judged_fails(run: Run, scenario: Scenario) -> None:
+def test_a_stop_that_nothing_judged_fails(run, scenario):
     scenario("unjudged", "criteria: uic-541-05-appendix-b\n")
     done = run()
     assert done.summary == "1 failed"
     assert any("skipped. Expected: pass" in line for line in done.lines)
 
 
-@pytest.mark.usefixtures("five")
-def test_xdist_gives_the_same_outcomes(run: Run) -> None:
-    done = run("-p", "xdist", "-n", "2")
-    assert done.summary == "1 failed, 3 passed, 1 skipped, 1 error"
-    assert any("distance (requirement) fail:" in line for line in done.lines)
-
-
-def test_options_change_every_scenario(run: Run, scenario: Scenario) -> None:
+def test_options_change_every_scenario(run, scenario):
     scenario("stop", "rail: {condition: wet, friction: 0.05}\n")
     options = ["--uictest-set", "brake.command=80 %,90 %", "--uictest-seed", "7", "--uictest-repeat", "2"]
     assert run("--collect-only", "-q", *options).node_ids == [
@@ -135,7 +126,7 @@ def test_options_change_every_scenario(run: Run, scenario: Scenario) -> None:
     assert properties(testcase)["braking_time_s"] == report.number(result.measures["braking_time_s"])
 
 
-def test_a_verdict_that_is_not_settled_fails_where_strictness_is_asked_for(run: Run, write: Write) -> None:
+def test_a_verdict_that_is_not_settled_fails_where_strictness_is_asked_for(run, write):
     as_requirement = TURNING.replace("layer: validity", "layer: requirement")
     write("scenarios/turning.yaml", as_requirement.replace("expect: invalid", "expect: fail"))
     assert run().summary == "1 passed"
@@ -146,23 +137,24 @@ def test_a_verdict_that_is_not_settled_fails_where_strictness_is_asked_for(run: 
     assert command[-1] == "--strict"
 
 
-def test_an_invalid_file_is_an_error_of_collection_with_its_place(run: Run, scenario: Scenario) -> None:
+def test_an_invalid_file_is_an_error_of_collection_with_its_place(run, scenario):
     scenario("good")
     scenario("bad", "brake: {command: 200 %}\nrail: {friction: 0,1}\n")
     done = run()
     assert done.code == 2
     assert "ERROR scenarios/bad.yaml" in done.lines
-    first = next(
-        index for index, line in enumerate(done.lines) if line.startswith("scenarios/bad.yaml:4:18:")
-    )
-    assert done.lines[first + 1] == "    4 | brake: {command: 200 %}"
-    assert done.lines[first + 2].rstrip() == "      |                  ^"
-    assert any(line.startswith("scenarios/bad.yaml:5:") for line in done.lines)
-    assert "Traceback" not in "\n".join(done.lines)
+    text = "\n".join(done.lines)
+    excerpt = r"    4 \| brake: {command: 200 %}\n      \|                  \^"
+    assert re.search(rf"^scenarios/bad\.yaml:4:18:.*\n{excerpt}", text, re.MULTILINE)
+    assert "\nscenarios/bad.yaml:5:" in text
+    assert "Traceback" not in text
 
 
-def test_an_option_without_effect_is_an_error_of_usage(run: Run, scenario: Scenario) -> None:
+def test_an_option_that_is_wrong_or_has_no_effect_is_an_error_of_usage(run, scenario):
     scenario("stop")
+    wrong = run("--uictest-set", "seed")
+    assert wrong.code == pytest.ExitCode.USAGE_ERROR
+    assert any("'seed' is not a key and a value" in line for line in wrong.lines)
     options = ("set=rail.friction=0.06", "seed=0", "repeat=1", "strict", "output=out")
     for option in (f"--uictest-{each}" for each in options):
         outcome = run("-o", "uictest_files=", option)
@@ -170,28 +162,17 @@ def test_an_option_without_effect_is_an_error_of_usage(run: Run, scenario: Scena
         assert f"{option.partition('=')[0]} has no effect" in "\n".join(outcome.lines)
 
 
-def test_a_wrong_option_is_an_error_of_usage(run: Run, scenario: Scenario) -> None:
-    scenario("stop")
-    done = run("--uictest-set", "seed")
-    assert done.code == 4
-    assert any("'seed' is not a key and a value" in line for line in done.lines)
-
-
-def test_references_may_lead_anywhere_below_the_root(
-    run: Run, write: Write, scenario: Scenario, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_references_may_lead_anywhere_below_the_root(run, write, scenario, monkeypatch):
     write("short-stops.yaml", SHORT_STOPS)
     path = scenario("stop", "criteria: ../short-stops.yaml\n")
     monkeypatch.chdir(path.parent)
     assert run("stop.yaml").summary == "1 passed"
 
 
-def test_a_run_that_asks_for_no_scenario_loads_nothing(write: Write, scenario: Scenario) -> None:
+def test_a_run_that_asks_for_no_scenario_loads_nothing(write, scenario):
     scenario("stop")
     write("pytest.ini", "[pytest]\n")
     names = ["numpy", "pydantic", "numba", "yaml", "typer", "uictest.plans.scenario", "uictest.rig"]
-    write(
-        "test_own.py",
-        f"import sys\ndef test_own(): assert [n for n in {json.dumps(names)} if n in sys.modules] == []\n",
-    )
+    own = f"assert [name for name in {json.dumps(names)} if name in sys.modules] == []"
+    write("test_own.py", f"import sys\ndef test_own(): {own}\n")
     assert in_process_of_its_own().summary == "1 passed"

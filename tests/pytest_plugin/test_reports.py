@@ -1,20 +1,18 @@
 """`--uictest-output`: the reports of a session are those of the command."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 import uictest
 from uictest.core import files
 
-from .conftest import SCENARIO, SHORT_STOPS, Run, Write
+from .conftest import SCENARIO, SHORT_STOPS
 
 
 @pytest.fixture
-def project(scenario: Callable[..., Path], write: Write) -> None:
+def project(scenario, write):
     write("short-stops.yaml", SHORT_STOPS)
     scenario(
         "weak", "criteria: ../short-stops.yaml\nmatrix: {brake.command: [80 %, 100 %]}\nrequirements: [A]\n"
@@ -26,16 +24,16 @@ def project(scenario: Callable[..., Path], write: Write) -> None:
     )
 
 
-def document(folder: Path) -> dict[str, Any]:
+def document(folder):
     """Return results.json without what says which command wrote it."""
-    content: dict[str, Any] = json.loads((folder / "results.json").read_text("utf-8"))
+    content = json.loads((folder / "results.json").read_text("utf-8"))
     del content["manifest"]["command"]
     return content
 
 
 @pytest.mark.usefixtures("project")
 @pytest.mark.parametrize("workers", [[], ["-p", "xdist", "-n", "2"]], ids=["alone", "xdist"])
-def test_they_are_those_of_the_command(run: Run, workers: list[str]) -> None:
+def test_they_are_those_of_the_command(run, workers):
     done = run("--uictest-output", "out", *workers)
     assert done.code == 1
     [place] = [line.split()[-1] for line in done.lines if line.startswith("uictest: reports in ")]
@@ -48,14 +46,14 @@ def test_they_are_those_of_the_command(run: Run, workers: list[str]) -> None:
 
 
 @pytest.mark.usefixtures("project")
-def test_a_part_of_the_tests_gives_a_part_of_the_results(run: Run) -> None:
+def test_a_part_of_the_tests_gives_a_part_of_the_results(run):
     run("--uictest-output", "out", "-x", "-k", "weak")
     content = document(Path("out/latest"))
     assert ([case["id"] for case in content["cases"]], content["complete"]) == (["weak[command=80]"], False)
 
 
 @pytest.mark.usefixtures("project")
-def test_an_interrupt_keeps_what_is_finished(run: Run, write: Write) -> None:
+def test_an_interrupt_keeps_what_is_finished(run, write):
     write("test_own.py", "def test_own(): raise KeyboardInterrupt\n")
     assert run("--uictest-output", "out", "scenarios/weak.yaml", "test_own.py").code == 2
     content = document(Path("out/latest"))
@@ -63,7 +61,7 @@ def test_an_interrupt_keeps_what_is_finished(run: Run, write: Write) -> None:
     assert ([case["id"] for case in content["cases"]], content["complete"]) == (ids, False)
 
 
-def test_two_cases_of_one_id_are_not_reported(run: Run, scenario: Callable[..., Path]) -> None:
+def test_two_cases_of_one_id_are_not_reported(run, scenario):
     scenario("stop")
     scenario("stop").rename("scenarios/again.yaml")
     scenario("stop")
@@ -74,7 +72,7 @@ def test_two_cases_of_one_id_are_not_reported(run: Run, scenario: Callable[..., 
 
 
 @pytest.mark.usefixtures("project")
-def test_two_series_of_one_id_are_not_reported(run: Run, write: Write) -> None:
+def test_two_series_of_one_id_are_not_reported(run, write):
     write("scenarios/again.series.yaml", Path("scenarios/wsp.series.yaml").read_text("utf-8"))
     done = run("--uictest-output", "out", "-k", "k-wet")
     assert done.code == 3

@@ -1,11 +1,6 @@
 """`uictest_run`: the results of scenarios in tests that people write."""
 
-from collections.abc import Callable
-from pathlib import Path
-
-import pytest
-
-from .conftest import SHORT_STOPS, Run, Write
+from .conftest import SHORT_STOPS
 
 TEST = """\
 def test_distance_falls_with_the_command(uictest_run):
@@ -16,9 +11,7 @@ def test_distance_falls_with_the_command(uictest_run):
 """
 
 
-def test_results_in_a_test(
-    run: Run, write: Write, scenario: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_results_in_a_test(run, write, scenario, monkeypatch):
     write("pytest.ini", "[pytest]\n")
     write("short-stops.yaml", SHORT_STOPS)
     scenario("stop", "criteria: ../short-stops.yaml\n")

@@ -1,8 +1,6 @@
 """Which files are collected."""
 
-from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, cast
 
 import pytest
 
@@ -27,46 +25,43 @@ FILES = {
 SCENARIOS = {"stop.yaml", "quoted.yml", "flow.yaml", "deep/stop.yaml"}
 
 
-def project(folder: Path, *, files: tuple[str, ...] = (), every: bool = False) -> Selection:
+def project(folder, *, files=(), every=False):
     """Return the selection of a project in a folder, whose settings are as pytest hands them over."""
     config = SimpleNamespace(
         rootpath=folder, getini={"uictest_files": list(files)}.get, getoption={"uictest": every}.get
     )
-    return Selection.of(cast(Any, config))
+    return Selection.of(config)
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path):
     for name, text in FILES.items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(text, "utf-8")
     return tmp_path
 
 
-def collected(selection: Selection, folder: Path, kind: str = "scenario") -> set[str]:
+def collected(selection, folder, kind="scenario"):
     return {name for name in FILES if selection.kind_of(folder / name) == kind}
 
 
 @pytest.mark.parametrize("settings", [{"files": (".",)}, {"files": ("**/*",)}, {"every": True}])
-def test_the_scenarios_are_those_that_the_command_finds(folder: Path, settings: dict[str, Any]) -> None:
+def test_the_scenarios_are_those_that_the_command_finds(folder, settings):
     selection = project(folder, **settings)
     of_command = {case.path.relative_to(folder).as_posix() for case in load([folder])}
     assert collected(selection, folder) == of_command == SCENARIOS
     assert collected(selection, folder, "series") == {"wsp.series.yaml"}
 
 
-def test_a_glob_selects_what_it_matches(folder: Path) -> None:
-    assert collected(project(folder, files=("*.yml", "deep")), folder) == {"quoted.yml", "deep/stop.yaml"}
-
-
-def test_yaml_of_other_programs_is_left_alone_unless_it_is_named(folder: Path) -> None:
+def test_a_glob_selects_what_it_matches_and_yaml_of_other_programs_only_if_it_is_named(folder):
     other = folder / "compose.yaml"
     other.write_text("services:\n  schema: uictest/scenario/1\n", "utf-8")
     assert project(folder, every=True).kind_of(other) is None
     assert project(folder, files=("compose.yaml",)).kind_of(other) == "scenario"
+    assert collected(project(folder, files=("*.yml", "deep")), folder) == {"quoted.yml", "deep/stop.yaml"}
 
 
 @pytest.mark.parametrize("pattern", ["scenaros", "none/*.yaml", "/none/*.yaml"])
-def test_a_pattern_without_a_match_is_an_error(folder: Path, pattern: str) -> None:
+def test_a_pattern_without_a_match_is_an_error(folder, pattern):
     with pytest.raises(pytest.UsageError, match="matches nothing below"):
         project(folder, files=(pattern,))
