@@ -1,14 +1,9 @@
 """What junit-10.xsd of Jenkins' xUnit plugin (its release of November 2025) asks of a file."""
 
-from __future__ import annotations
-
 import re
-from collections.abc import Mapping
-from typing import Final
-from xml.etree import ElementTree
 
-_REASON: Final = {"type", "message"}
-_ATTRIBUTES: Final = {
+_REASON = {"type", "message"}
+_ATTRIBUTES = {
     "testsuites": {"name", "time", "tests", "failures", "errors"},
     "testsuite": {"name", "tests", "failures", "errors", "group", "time", "skipped", "timestamp", "hostname"}
     | {"id", "package", "file", "log", "url", "version"},
@@ -22,25 +17,25 @@ _ATTRIBUTES: Final = {
 }
 """Attributes that an element can have."""
 
-_REQUIRED: Final = {
+_REQUIRED = {
     "testsuite": {"name", "tests", "failures", "errors"},
     "testcase": {"name"},
     "property": {"name", "value"},
 }
-CHILDREN: Final = {
+CHILDREN = {
     "testsuites": {"testsuite"},
     "testsuite": {"testsuite", "properties", "testcase", "system-out", "system-err"},
     "testcase": {"skipped", "error", "failure", "system-out", "system-err"},
     "properties": {"property"},
 }
-_TIME: Final = re.compile(r"(([0-9]{0,3},)*[0-9]{3}|[0-9]{0,3})*(\.[0-9]*)?")
+_TIME = re.compile(r"(([0-9]{0,3},)*[0-9]{3}|[0-9]{0,3})*(\.[0-9]*)?")
 
 
-WITH_TEST_PROPERTIES: Final = CHILDREN | {"testcase": CHILDREN["testcase"] | {"properties"}}
+WITH_TEST_PROPERTIES = CHILDREN | {"testcase": CHILDREN["testcase"] | {"properties"}}
 """The one thing in which `junit-properties.xml` goes beyond that schema."""
 
 
-def check(element: ElementTree.Element, children: Mapping[str, set[str]] = CHILDREN) -> None:
+def check(element, children=CHILDREN):
     """Hold an element, and what is below it, to these rules."""
     assert set(element.attrib) <= _ATTRIBUTES[element.tag]
     assert set(element.attrib) >= _REQUIRED.get(element.tag, set())

@@ -1,65 +1,45 @@
 """Sweeps with the rows of all their cases, of which everything on a map or a scatter plot is known."""
 
-from __future__ import annotations
-
-from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from uictest.report.sweep.result import SweepResult, read_sweep_document
+from uictest.report.sweep.result import read_sweep_document
 
 DISTANCE = {"measure": "braking distance", "unit": "m", "columns": ["braking_distance_m"]}
 SLIDE = {"measure": "largest slide", "unit": "%", "columns": ["maximum_slide_1", "maximum_slide_2"]}
 
-Row = Mapping[str, Any]
 
-
-def row(case: str, outcome: str = "pass", met: bool | None = None, **others: Any) -> dict[str, Any]:
+def row(case, outcome="pass", met=None, **others):
     """Return the row of a case; what is not stated has no value."""
     figures = dict.fromkeys(("braking_distance_m", "maximum_slide_1", "maximum_slide_2"))
-    return (
-        {"id": case, "outcome": outcome, "met": outcome == "pass" if met is None else met} | figures | others
-    )
+    own = {"id": case, "outcome": outcome, "met": outcome == "pass" if met is None else met}
+    return own | figures | others
 
 
-def write_rows(folder: Path, rows: Iterable[Row]) -> None:
+def write_rows(folder, rows):
     """Write the rows of all cases as a sweep does."""
     pq.write_table(pa.Table.from_pylist([dict(each) for each in rows]), folder / "summary.parquet")
 
 
-def sweep_result(values: Mapping[str, Sequence[str]], cases: int, **changes: Any) -> SweepResult:
+def sweep_result(values, cases, **changes):
     """Return the result of a sweep over some values of its parameters."""
     outcomes = dict.fromkeys(("pass", "fail", "invalid", "inconclusive", "error", "skipped"), 0)
     distribution = {"cases": cases, "minimum": 0.0, "mean": 0.5, "maximum": 1.0, "edges": [0.0, 1.0]}
-    form = {
-        "schema": "uictest/result/2",
-        "kind": "sweep",
-        "name": "study",
-        "title": "",
-        "cases": cases,
-        "met": cases,
-        "outcomes": outcomes | {"pass": cases},
-        "missed": [],
-        "rates": {
-            key: [{"value": value, "cases": 1, "met": 1, "outcomes": outcomes} for value in own]
-            for key, own in values.items()
-        },
-        "varied": list(values),
-        "distributions": [
-            {**each, **distribution, "counts": {"pass": [cases]}} for each in (DISTANCE, SLIDE)
-        ],
-        **{name: [] for name in ("maps", "trends", "worst", "sensitivities", "notes")},
-        "subjects": {},
-        "frontier": None,
+    distribution |= {"counts": {"pass": [cases]}}
+    rates = {
+        key: [{"value": value, "cases": 1, "met": 1, "outcomes": outcomes} for value in own]
+        for key, own in values.items()
     }
+    form = {"schema": "uictest/result/2", "kind": "sweep", "name": "study", "title": ""}
+    form |= {"cases": cases, "met": cases, "outcomes": outcomes | {"pass": cases}, "rates": rates}
+    form |= {"varied": list(values), "distributions": [DISTANCE | distribution, SLIDE | distribution]}
+    form |= {name: [] for name in ("missed", "maps", "trends", "worst", "sensitivities", "notes")}
+    form |= {"subjects": {}, "frontier": None}
     return read_sweep_document(form | changes)
 
 
-def drawn_rows(cases: int, failing: Sequence[int] = ()) -> list[dict[str, Any]]:
+def drawn_rows(cases, failing=()):
     """Return the rows of a sample of a friction and, log-uniformly, a gain; `failing` fail."""
     generator = np.random.default_rng(4)
     frictions, gains = generator.uniform(0.1, 0.2, cases), 10.0 ** generator.uniform(-2.0, 0.0, cases)

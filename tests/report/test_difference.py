@@ -1,11 +1,9 @@
-from __future__ import annotations
-
 import math
 
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.report import percent_text, relative_percent
+from uictest.report import relative_percent
 from uictest.report.difference import Difference, difference_sentences, relative_text, worst_of_wheelsets
 
 
@@ -22,29 +20,24 @@ from uictest.report.difference import Difference, difference_sentences, relative
         (20.0, 30.0, "degC", "-"),
         ("pass", "fail", "", "-"),
         ("none", 1.0, "", "-"),
+        (1.0, 10.994, "m", "+999"),
         (0.001, 1.0, "km/h", "> 1000"),
         (0.001, -1.0, "km/h", "< -1000"),
     ],
 )
-def test_a_relative_figure_is_per_cent_of_the_size_of_a(
-    first: float | str, second: float | str, unit: str, text: str
-) -> None:
+def test_a_relative_figure_is_per_cent_of_the_size_of_a(first, second, unit, text):
     assert relative_text(first, second, unit) == text
 
 
 @given(st.floats(1e-3, 1e6), st.floats(-1e6, 1e6), st.sampled_from([-1.0, 1.0]))
-def test_a_relative_figure_gives_the_second_side_back(size: float, second: float, sign: float) -> None:
+def test_a_relative_figure_gives_the_second_side_back(size, second, sign):
     percent = relative_percent(sign * size, second)
     assert percent is not None
     assert sign * size + percent / 100.0 * size == pytest.approx(second, rel=1e-9, abs=1e-6 * size)
     assert math.copysign(1.0, percent) == math.copysign(1.0, second - sign * size)
 
 
-def test_a_figure_that_says_little_is_not_written_out() -> None:
-    assert [percent_text(each) for each in (None, 999.4, 1000.0, -1e9)] == ["-", "+999", "> 1000", "< -1000"]
-
-
-def test_the_trains_own_measure_is_no_wheelset_of_the_measure_of_the_same_name() -> None:
+def test_the_trains_own_measure_is_no_wheelset_of_the_measure_of_the_same_name():
     names = ["adhesion_utilisation", *(f"adhesion_utilisation_{n}" for n in range(1, 5))]
     differences = [
         Difference("case", name, 0.8, 0.7, within=False, deviation=0.1 + place, allowed=0.01)
@@ -55,7 +48,7 @@ def test_the_trains_own_measure_is_no_wheelset_of_the_measure_of_the_same_name()
     assert (wheelsets.quantity, wheelsets.remark) == ("adhesion_utilisation_4", "worst of 4 wheelsets")
 
 
-def test_of_many_differences_the_furthest_out_are_shown_and_the_others_counted() -> None:
+def test_of_many_differences_the_furthest_out_are_shown_and_the_others_counted():
     differences = [
         Difference("case", f"quantity-{n}", 1.0, 1.0 + n, within=False, deviation=float(n), allowed=0.5)
         for n in range(1, 31)

@@ -1,15 +1,12 @@
-from __future__ import annotations
-
-from uictest.judging.evaluation import CaseResult, Sensitivity, VerdictInterval
+from uictest.judging.evaluation import Sensitivity, VerdictInterval
 from uictest.report.content import DRAWN, MOST_DRAWN, drawn_cases, worst_first
 
 from .builders import make_result, make_verdict
 
 
-def test_cases_not_met_come_first_then_narrow_margins_and_verdicts_that_flip() -> None:
-    flips = Sensitivity(
-        "d", "s", 0.0, 1.0, (VerdictInterval(0.0, 0.5, "pass"), VerdictInterval(0.6, 1.0, "fail"))
-    )
+def test_cases_not_met_come_first_then_narrow_margins_and_verdicts_that_flip():
+    intervals = (VerdictInterval(0.0, 0.5, "pass"), VerdictInterval(0.6, 1.0, "fail"))
+    flips = Sensitivity("d", "s", 0.0, 1.0, intervals)
     results = [
         make_result(id="wide", criteria=(make_verdict(margin=200.0),)),
         make_result(id="narrow", criteria=(make_verdict(margin=2.0),)),
@@ -18,41 +15,25 @@ def test_cases_not_met_come_first_then_narrow_margins_and_verdicts_that_flip() -
         make_result(id="expected", outcome="fail", expect="fail"),
         make_result(id="missed", outcome="invalid"),
     ]
-    assert [result.id for result in worst_first(results)] == [
-        "missed",
-        "expected",
-        "flips",
-        "narrow",
-        "wide",
-        "nothing",
-    ]
+    order = ["missed", "expected", "flips", "narrow", "wide", "nothing"]
+    assert [result.id for result in worst_first(results)] == order
 
 
-def _ids(results: list[CaseResult]) -> list[str]:
-    return [result.id for result in results]
-
-
-def test_a_page_draws_from_every_scenario_in_turn() -> None:
+def test_a_page_draws_from_every_scenario_in_turn():
     """A hundred narrow cases of one scenario leave room for the only one of another."""
-    narrow = [
-        make_result(id=f"a{n}", scenario="a.yaml", criteria=(make_verdict(margin=1.0 + n),))
-        for n in range(100)
-    ]
+    margins = [(make_verdict(margin=1.0 + n),) for n in range(100)]
+    narrow = [make_result(id=f"a{n}", scenario="a.yaml", criteria=own) for n, own in enumerate(margins)]
     wide = make_result(id="b", scenario="b.yaml", criteria=(make_verdict(margin=200.0),))
     missed = [make_result(id=f"c{n}", scenario="c.yaml", outcome="fail") for n in range(2)]
-    drawn = _ids(drawn_cases([*narrow, wide, *missed]))
+    drawn = [result.id for result in drawn_cases([*narrow, wide, *missed])]
     assert len(drawn) == DRAWN
     assert drawn[:5] == ["c0", "c1", "a0", "b", "a1"]
 
 
-def test_chosen_cases_are_drawn_before_all_others() -> None:
+def test_chosen_cases_are_drawn_before_all_others_more_if_more_are_chosen_and_not_without_end():
     results = [make_result(id=f"case-{n}", outcome="fail" if n < 50 else "pass") for n in range(100)]
-    drawn = _ids(drawn_cases(results, {"case-98", "case-99"}))
-    assert drawn[:2] == ["case-98", "case-99"]
+    drawn = drawn_cases(results, {"case-98", "case-99"})
+    assert [result.id for result in drawn[:2]] == ["case-98", "case-99"]
     assert len(drawn) == DRAWN
-
-
-def test_more_cases_are_drawn_if_more_are_chosen_and_no_page_without_end() -> None:
-    results = [make_result(id=f"case-{n}") for n in range(100)]
     assert len(drawn_cases(results, {f"case-{n}" for n in range(30)})) == 30
     assert len(drawn_cases(results, {result.id for result in results})) == MOST_DRAWN

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import base64
 import hashlib
 import itertools
@@ -9,8 +7,8 @@ from html.parser import HTMLParser
 
 import pytest
 
-from uictest.judging.evaluation import CaseResult, Sensitivity, VerdictInterval
-from uictest.report import DRAWN, CaseDescription, RunContent, RunManifest
+from uictest.judging.evaluation import Sensitivity, VerdictInterval
+from uictest.report import DRAWN, CaseDescription, RunManifest
 from uictest.report.page import page_html
 from uictest.report.traces.trace import trace_of
 
@@ -20,36 +18,37 @@ from .builders import HOSTILE, make_content, make_recording, make_result, make_v
 class Page(HTMLParser):
     """The elements of a page, its text outside scripts, and the texts of its scripts."""
 
-    def __init__(self, html: str) -> None:
+    def __init__(self, html):
         super().__init__()
-        self.elements: list[tuple[str, dict[str, str | None]]] = []
+        self.elements = []
         self.text = ""
-        self.scripts: list[tuple[dict[str, str | None], str]] = []
+        self.scripts = []
         self.feed(html)
 
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+    def handle_starttag(self, tag, attrs):
         self.elements.append((tag, dict(attrs)))
         if tag == "script":
             self.scripts.append((dict(attrs), ""))
 
-    def handle_data(self, data: str) -> None:
+    def handle_data(self, data):
         if self.elements and self.elements[-1][0] == "script" and self.cdata_elem == "script":
             attributes, text = self.scripts[-1]
             self.scripts[-1] = (attributes, text + data)
         else:
             self.text += data
 
-    def count(self, tag: str) -> int:
+    def count(self, tag):
         return sum(1 for name, _ in self.elements if name == tag)
 
 
-@pytest.fixture
-def drawn() -> str:
+@pytest.fixture(scope="module")
+def drawn():
+    """The page of one stop that is drawn."""
     result = make_result()
     return page_html(make_content(result, traces={result.id: trace_of(make_recording(sliding_time="5"))}))
 
 
-def test_every_case_has_a_row_with_its_figures() -> None:
+def test_every_case_has_a_row_with_its_figures():
     missed = make_result(id="b", outcome="invalid", criteria=(), reason="the rail was too dry")
     page = Page(page_html(make_content(make_result(), missed)))
     assert "2 cases: 1 pass, 1 invalid; 1 not as expected" in page.text
@@ -58,7 +57,7 @@ def test_every_case_has_a_row_with_its_figures() -> None:
     assert page.count("th") >= 12
 
 
-def test_a_drawn_case_can_be_read_without_javascript(drawn: str) -> None:
+def test_a_drawn_case_can_be_read_without_javascript(drawn):
     page = Page(drawn)
     assert page.count("path") > 60
     for title in ("Speed of train", "Slide", "Pressures", "Clamping force", "Deceleration", "WSP valves"):
@@ -69,24 +68,20 @@ def test_a_drawn_case_can_be_read_without_javascript(drawn: str) -> None:
     assert titles == sorted(titles)
 
 
-@pytest.mark.parametrize("magnet", ["hold", "vent"])
-def test_each_wheelset_has_a_lane_for_each_magnet_of_its_valve(drawn: str, magnet: str) -> None:
+def test_each_wheelset_has_a_lane_for_each_magnet_of_its_valve(drawn):
     """The valves of the drawn case vent, with both magnets, in one stretch."""
     page = Page(drawn)
-    assert {f"{n} {magnet}" for n in (1, 2, 3, 4)} <= set(page.text.split("\n"))
-    for n in (1, 2, 3, 4):
-        kind = f"magnet {magnet} role-wheelset-{n}"
-        (bars,) = (a["d"] for tag, a in page.elements if tag == "path" and a.get("class") == kind)
-        assert bars is not None
-        assert bars.count("z") == 1
+    paths = {a.get("class"): a["d"] for tag, a in page.elements if tag == "path"}
+    for n, magnet in itertools.product((1, 2, 3, 4), ("hold", "vent")):
+        assert f"{n} {magnet}" in page.text.split("\n")
+        assert paths[f"magnet {magnet} role-wheelset-{n}"].count("z") == 1
 
 
-def test_the_page_loads_nothing_and_runs_only_its_own_scripts(drawn: str) -> None:
+def test_the_page_loads_nothing_and_runs_only_its_own_scripts(drawn):
     page = Page(drawn)
     places = [attributes.get(name) for _, attributes in page.elements for name in ("src", "href", "action")]
     assert all(place is None or place.startswith("#") for place in places)
     policy = next(a["content"] for tag, a in page.elements if tag == "meta" and "http-equiv" in a)
-    assert policy is not None
     assert policy.startswith("default-src 'none'; ")
     of_page = [text for attributes, text in page.scripts if not attributes]
     deflated = [text for attributes, text in page.scripts if attributes.get("id") == "plotly"]
@@ -96,14 +91,14 @@ def test_the_page_loads_nothing_and_runs_only_its_own_scripts(drawn: str) -> Non
     assert set(re.findall(r"'sha256-([^']+)'", policy)) == digests
 
 
-def test_without_anything_to_draw_the_plotting_script_stays_out() -> None:
+def test_without_anything_to_draw_the_plotting_script_stays_out():
     html = page_html(make_content(make_result()))
     assert len(html) < 200_000  # plotly has millions
     assert "1 case not drawn" in html
     assert 'id="requirements"' not in html
 
 
-def test_hostile_texts_are_shown_and_make_no_element(drawn: str) -> None:
+def test_hostile_texts_are_shown_and_make_no_element(drawn):
     bad = f"{HOSTILE}</script></td><img src=x onerror=alert(1)>"
     verdict = make_verdict(id=bad, reason=bad, definition={bad: bad}, status="fail", margin=-1.0)
     named = {"requirements": (bad,), "test_case": bad}  # a results.json from elsewhere may hold anything
@@ -127,7 +122,7 @@ def test_hostile_texts_are_shown_and_make_no_element(drawn: str) -> None:
     assert "\\u202e" in page.text
 
 
-def test_a_thousand_cases_stay_below_ten_megabytes_and_say_what_is_not_drawn() -> None:
+def test_a_thousand_cases_stay_below_ten_megabytes_and_say_what_is_not_drawn():
     reason = "0 of 4 wheelsets within the limit of 1 s (4 needed): 1.27, 1.24, 1.29, 1.32 s"
     broken = make_verdict(status="fail", margin=-10.0, reason=reason)
     results = [
@@ -180,11 +175,11 @@ _NOT_DRAWN = make_verdict(id="short-flats", measure="flat_length", status="fail"
     ],
     ids=["verdict-that-turns", "map-of-two-keys", "incomplete", "command", "criterion-without-a-drawing"],
 )
-def test_the_page_says(content: RunContent, words: str) -> None:
+def test_the_page_says(content, words):
     assert words in Page(page_html(content)).text
 
 
-def test_requirements_stand_in_a_table_and_at_the_cases_and_criteria_that_name_them() -> None:
+def test_requirements_stand_in_a_table_and_at_the_cases_and_criteria_that_name_them():
     verdict = make_verdict(requirements=("BR-CRITERION",))
     named = make_result(requirements=("BR-CASE",), test_case="WSP-TC-7", criteria=(verdict,))
     failed = make_result(id="b", outcome="fail", requirements=("BR-CASE",), criteria=())
@@ -200,7 +195,7 @@ def test_requirements_stand_in_a_table_and_at_the_cases_and_criteria_that_name_t
     assert re.search(r"test case\s*WSP-TC-7\s*requirements\s*BR-CASE", stop)
 
 
-def test_the_page_says_how_many_of_the_chosen_cases_it_draws() -> None:
+def test_the_page_says_how_many_of_the_chosen_cases_it_draws():
     results = [make_result(id=f"case-{n}") for n in range(30)]
     trace = trace_of(make_recording())
     traces = {result.id: trace for result in results[:20]}
@@ -211,8 +206,8 @@ def test_the_page_says_how_many_of_the_chosen_cases_it_draws() -> None:
     assert '<details class="stop" id="case-case-19"' in html
 
 
-def test_what_is_not_as_expected_comes_first_then_the_narrowest_margins() -> None:
-    def case(name: str, margin: float, **changes: object) -> CaseResult:
+def test_what_is_not_as_expected_comes_first_then_the_narrowest_margins():
+    def case(name, margin, **changes):
         verdict = make_verdict(margin=margin, status="pass" if margin > 0 else "fail")
         return make_result(id=name, criteria=(verdict,), **changes)
 

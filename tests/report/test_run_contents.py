@@ -1,7 +1,4 @@
-from __future__ import annotations
-
 import json
-from pathlib import Path
 
 import pytest
 
@@ -19,9 +16,9 @@ from uictest.report import (
 from .builders import make_recording, make_result
 
 
-def test_a_run_comes_back_from_its_folder(tmp_path: Path) -> None:
-    result, subject = make_result(), CaseDescription("A title", ("a",), {"rail": "dry"})
+def test_a_run_comes_back_from_its_folder(tmp_path):
     # The name of a file that is no UTF-8 holds lone surrogates.
+    result, subject = make_result(scenario="b\udcff"), CaseDescription("A title", ("a",), {"rail": "dry"})
     manifest = RunManifest(seed=3, inputs={"a\udcff.yaml": "00"})
     written = RunContent("a-run", [result], manifest, complete=False, subjects={result.id: subject})
     write_reports(tmp_path, written)
@@ -46,16 +43,31 @@ def test_a_run_comes_back_from_its_folder(tmp_path: Path) -> None:
         ("[" * 200_000, "maximum recursion depth"),
     ],
 )
-def test_what_is_no_run_is_rejected_with_its_file(tmp_path: Path, text: str, reason: str) -> None:
+def test_what_is_no_run_is_rejected_with_its_file(tmp_path, text, reason):
     (tmp_path / "results.json").write_text(text)
     with pytest.raises(ValueError, match=rf"results\.json: not the results of a run: .*{reason}"):
         read_run(tmp_path)
 
 
 @pytest.mark.parametrize(
+    ("written", "changed", "reason"),
+    [
+        ('"complete": true', '"complete": "no"', "'complete' must be true or false, found 'no'"),
+        ('"subjects": {}', '"subjects": {"a": {"title": 1}}', "subject"),
+    ],
+)
+def test_what_is_damaged_is_named(tmp_path, written, changed, reason):
+    write_reports(tmp_path, RunContent("a-run", [make_result()]))
+    text = (tmp_path / "results.json").read_text()
+    (tmp_path / "results.json").write_text(text.replace(written, changed))
+    with pytest.raises(ValueError, match=reason):
+        read_run(tmp_path)
+
+
+@pytest.mark.parametrize(
     "case_id", ["../escaped", "/etc/passwd", "a/b", "..", "", ".", r"..\escaped", r"C:\a", "C:a", "a\0b"]
 )
-def test_an_id_that_leads_out_of_the_folder_is_refused(tmp_path: Path, case_id: str) -> None:
+def test_an_id_that_leads_out_of_the_folder_is_refused(tmp_path, case_id):
     folder = tmp_path / "run"
     folder.mkdir()
     write_reports(folder, RunContent("a-run", [make_result(id="fine")], RunManifest()))
@@ -72,21 +84,5 @@ def test_an_id_that_leads_out_of_the_folder_is_refused(tmp_path: Path, case_id: 
 
 
 @pytest.mark.parametrize("case_id", ["slip-120[friction=0.10,command=90]", "my.train run (2)", "..a"])
-def test_ids_of_cases_and_names_of_recorded_files_are_names(tmp_path: Path, case_id: str) -> None:
+def test_ids_of_cases_and_names_of_recorded_files_are_names(tmp_path, case_id):
     assert recording_path(tmp_path, case_id) == tmp_path / "recordings" / f"{case_id}.parquet"
-
-
-def test_complete_is_true_or_false(tmp_path: Path) -> None:
-    write_reports(tmp_path, RunContent("a-run", [make_result()]))
-    text = (tmp_path / "results.json").read_text()
-    (tmp_path / "results.json").write_text(text.replace('"complete": true', '"complete": "no"'))
-    with pytest.raises(ValueError, match="'complete' must be true or false, found 'no'"):
-        read_run(tmp_path)
-
-
-def test_a_subject_of_another_form_is_refused(tmp_path: Path) -> None:
-    write_reports(tmp_path, RunContent("a-run", [make_result()]))
-    text = (tmp_path / "results.json").read_text()
-    (tmp_path / "results.json").write_text(text.replace('"subjects": {}', '"subjects": {"a": {"title": 1}}'))
-    with pytest.raises(ValueError, match="subject"):
-        read_run(tmp_path)

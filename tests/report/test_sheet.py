@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import errno
 import io
 
@@ -13,7 +11,7 @@ openpyxl = pytest.importorskip("openpyxl")
 
 
 @pytest.mark.parametrize("streaming", [True, False])
-def test_rows_beyond_the_most_are_not_written(streaming: bool) -> None:
+def test_rows_beyond_the_most_are_not_written(streaming):
     buffer = io.BytesIO()
     with open_workbook(buffer, streaming=streaming) as workbook:
         sheet = workbook.add_worksheet("Cases")
@@ -29,7 +27,7 @@ _ACTIVE = st.sampled_from(["=1+1", "+1", "-1", "@SUM(A1)", "http://example.org",
 
 @given(st.lists(st.text(st.characters(codec=None, exclude_categories=[])) | _ACTIVE, min_size=1))
 @settings(max_examples=20)
-def test_text_stays_text(texts: list[str]) -> None:
+def test_text_stays_text(texts):
     buffer = io.BytesIO()
     with open_workbook(buffer, streaming=True) as workbook:
         rows = [{"text": text} for text in [*texts, "x" * 40_000]]
@@ -41,7 +39,7 @@ def test_text_stays_text(texts: list[str]) -> None:
     assert cells[-1].value == f"{'x' * (LONGEST_TEXT - 1)}…"
 
 
-def test_header_and_first_column_stand_on_every_printed_page() -> None:
+def test_header_and_first_column_stand_on_every_printed_page():
     buffer = io.BytesIO()
     with open_workbook(buffer) as workbook:
         write_table(workbook.add_worksheet("Cases"), ["case"], [{"case": "dry"}], styles_of(workbook))
@@ -52,8 +50,8 @@ def test_header_and_first_column_stand_on_every_printed_page() -> None:
 
 
 @pytest.mark.parametrize("streaming", [True, False])
-def test_a_full_disk_is_an_error_of_the_system(streaming: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    def store(workbook: object) -> None:
+def test_a_full_disk_is_an_error_of_the_system(streaming, monkeypatch):
+    def store(workbook):
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr("xlsxwriter.Workbook._store_workbook", store)

@@ -1,13 +1,11 @@
 """JUnit of a run, as servers, importers and junitparser read it."""
 
-from __future__ import annotations
-
 import io
 from xml.etree import ElementTree
 
 import pytest
 
-from uictest.judging.evaluation import CaseResult, EffectivePart, Parameter
+from uictest.judging.evaluation import EffectivePart, Parameter
 from uictest.report import junit_text, run_suites
 from uictest.report.formats.junit import FORMAT
 
@@ -15,23 +13,17 @@ from ..builders import HOSTILE, make_content, make_result, make_verdict
 from ..junit_schema import check
 
 
-def _suite(results: list[CaseResult]) -> ElementTree.Element:
-    suite = ElementTree.fromstring(junit_text(run_suites(results))).find("testsuite")
-    assert suite is not None
-    return suite
+def _suite(results):
+    return ElementTree.fromstring(junit_text(run_suites(results))).find("testsuite")
 
 
-def test_one_testcase_per_case_named_after_file_and_id() -> None:
+def test_one_testcase_per_case_named_after_file_and_id():
     (testcase,) = _suite([make_result()])
-    assert testcase.attrib == {
-        "classname": "scenarios.dry.120",
-        "name": "dry-120[command=90]",
-        "time": "0.250",
-    }
-    assert len(testcase) == 0
+    shown = {"classname": "scenarios.dry.120", "name": "dry-120[command=90]", "time": "0.250"}
+    assert (testcase.attrib, len(testcase)) == (shown, 0)
 
 
-def test_a_missed_case_is_a_failure_whose_text_says_everything() -> None:
+def test_a_missed_case_is_a_failure_whose_text_says_everything():
     broken = make_verdict(status="fail", value=500.0, margin=-10.0, reason="500 m misses 440 .. 490 m")
     suite = _suite([make_result(outcome="invalid", criteria=(broken,), reason="braking-distance: ...")])
     text = suite.findtext("testcase/failure")
@@ -40,7 +32,7 @@ def test_a_missed_case_is_a_failure_whose_text_says_everything() -> None:
     assert "braking-distance (validity) fail: 500 m misses 440 .. 490 m" in text
 
 
-def test_an_expected_failure_is_no_failure() -> None:
+def test_an_expected_failure_is_no_failure():
     suite = _suite([make_result(expect="fail", outcome="fail"), make_result(expect="fail", outcome="pass")])
     assert [len(testcase) for testcase in suite] == [0, 1]
 
@@ -49,13 +41,13 @@ def test_an_expected_failure_is_no_failure() -> None:
     ("expect", "tag", "text"),
     [("skipped", "skipped", "skipped (as expected)"), ("pass", "failure", "skipped. Expected: pass")],
 )
-def test_a_case_that_nothing_judged_is_skipped_only_if_expected(expect: str, tag: str, text: str) -> None:
+def test_a_case_that_nothing_judged_is_skipped_only_if_expected(expect, tag, text):
     ((child,),) = _suite([make_result(expect=expect, outcome="skipped")]).findall("testcase")
     assert child.tag == tag
     assert text in (child.text or "")
 
 
-def test_counts_agree_with_the_elements() -> None:
+def test_counts_agree_with_the_elements():
     outcomes = ("pass", "fail", "invalid", "inconclusive", "error", "skipped")
     suite = _suite([make_result(outcome=outcome) for outcome in outcomes])
     counts = {name: suite.get(name) for name in ("tests", "failures", "errors", "skipped")}
@@ -63,13 +55,13 @@ def test_counts_agree_with_the_elements() -> None:
     assert suite.get("time") == "1.500"
 
 
-def _controller(name: str, **facts: str) -> EffectivePart:
+def _controller(name, **facts):
     parameters = (Parameter(f"controller.{key}", text, "", text, "user") for key, text in facts.items())
     return EffectivePart("controller", "controller", name, None, tuple(parameters))
 
 
 @pytest.fixture
-def results() -> list[CaseResult]:
+def results():
     outcomes = ("pass", "fail", "invalid", "error", "skipped")
     expected = {"skipped": "skipped"}
     ordinary = [
@@ -87,9 +79,7 @@ def results() -> list[CaseResult]:
     ]
 
 
-def test_the_file_with_test_properties_is_the_other_one_with_nothing_but_these(
-    results: list[CaseResult],
-) -> None:
+def test_the_file_with_test_properties_is_the_other_one_with_nothing_but_these(results):
     """The other one keeps to the schema of Jenkins' plugin, which has none."""
     root = ElementTree.fromstring(junit_text(run_suites(results, with_properties=True)))
     for testcase in root.iter("testcase"):
@@ -102,7 +92,7 @@ def test_the_file_with_test_properties_is_the_other_one_with_nothing_but_these(
     assert ElementTree.tostring(root) == ElementTree.tostring(other)
 
 
-def _test_properties(text: str) -> dict[str, list[tuple[str, str]]]:
+def _test_properties(text):
     """What importers see: the `property` elements right below `testcase/properties`."""
     return {
         testcase.attrib["name"]: [
@@ -112,7 +102,7 @@ def _test_properties(text: str) -> dict[str, list[tuple[str, str]]]:
     }
 
 
-def test_polarion_and_xray_find_the_test_case_and_xray_the_requirements() -> None:
+def test_polarion_and_xray_find_the_test_case_and_xray_the_requirements():
     """Names: Polarion's xUnit importer; Xray, "Import Execution Results", a comma list of requirements."""
     criteria = (make_verdict(requirements=("BR-2", "BR-1")),)
     results = [
@@ -121,87 +111,50 @@ def test_polarion_and_xray_find_the_test_case_and_xray_the_requirements() -> Non
         make_result(id="test-case", test_case="WSP-8"),
         make_result(id="neither"),
     ]
-    assert _test_properties(junit_text(run_suites(results, with_properties=True))) == {
+    text = junit_text(run_suites(results, with_properties=True))
+    assert _test_properties(text) == {
         "both": [("polarion-testcase-id", "WSP-7"), ("test_key", "WSP-7"), ("requirements", "BR-1,BR-2")],
         "requirements": [("requirements", "BR-10,BR-9")],
         "test-case": [("polarion-testcase-id", "WSP-8"), ("test_key", "WSP-8")],
         "neither": [],
     }
-    first = ElementTree.fromstring(junit_text(run_suites(results, with_properties=True))).findall(
-        "testsuite/testcase"
-    )[0]
-    assert first[0].tag == "properties"  # where pytest writes them
+    assert ElementTree.fromstring(text).find("testsuite/testcase")[0].tag == "properties"  # as pytest does
     assert not any(_test_properties(junit_text(run_suites(results))).values())
-    suite = ElementTree.fromstring(junit_text(run_suites(results))).find("testsuite/properties/property")
-    assert suite is not None
+    suite = _suite(results).find("properties/property")
     assert suite.attrib == {"name": "requirements", "value": "BR-1,BR-2,BR-9,BR-10"}
 
 
-def test_junitparser_reads_the_test_properties() -> None:
-    junitparser = pytest.importorskip("junitparser")
-    text = junit_text(
-        run_suites([make_result(test_case="WSP-7", requirements=("BR-1",))], with_properties=True)
-    )
-    ((testcase,),) = junitparser.JUnitXml.fromfile(io.StringIO(text.partition("\n")[2]))
-    found = {
-        each.name: each.value
-        for properties in testcase.iterchildren(junitparser.Properties)
-        for each in properties
-    }
-    assert found == {"polarion-testcase-id": "WSP-7", "test_key": "WSP-7", "requirements": "BR-1"}
-
-
-def test_the_second_file_is_there_only_where_an_importer_finds_something_in_it() -> None:
-    def files(**changes: object) -> set[str]:
+def test_the_second_file_is_there_only_where_an_importer_finds_something_in_it():
+    def files(**changes):
         return set(FORMAT.files(make_content(make_result(**changes))))
 
     assert files() == {"junit.xml"}
     assert files(test_case="TC-1") == files(requirements=("BR-1",)) == {"junit.xml", "junit-properties.xml"}
 
 
-def test_cases_of_each_controller_from_outside_have_a_suite_that_says_which_it_is() -> None:
+def test_cases_of_each_controller_from_outside_have_a_suite_that_says_which_it_is():
     one = _controller("Wsp", python="wsp.py", sha256="1" * 64, version="2.1")
     other = _controller("tcp://rig:5025", connect="tcp://rig:5025")
     own = _controller("threshold", algorithm="threshold")
     parts = {"a": one, "b": own, "c": other, "d": one}
-    text = junit_text(
-        run_suites([make_result(id=name, parts={"controller": part}) for name, part in parts.items()])
-    )
-    suites = {
-        suite.get("name"): (
-            [case.get("name") for case in suite.iter("testcase")],
-            {each.get("name"): each.get("value") for each in suite.iter("property")},
-        )
-        for suite in ElementTree.fromstring(text)
-    }
-    assert suites == {
-        "uictest: Wsp": (
-            ["a", "d"],
-            {
-                "controller": "Wsp",
-                "controller.kind": "python",
-                "controller.source": "wsp.py",
-                "controller.version": "2.1",
-                "controller.sha256": "1" * 64,
-            },
-        ),
-        "uictest": (["b"], {"controller": "threshold"}),
-        "uictest: tcp://rig:5025": (
-            ["c"],
-            {
-                "controller": "tcp://rig:5025",
-                "controller.kind": "connect",
-                "controller.source": "tcp://rig:5025",
-            },
-        ),
-    }
+    results = [make_result(id=name, parts={"controller": part}) for name, part in parts.items()]
+    suites = list(ElementTree.fromstring(junit_text(run_suites(results))))
+    cases = {suite.get("name"): [case.get("name") for case in suite.iter("testcase")] for suite in suites}
+    assert cases == {"uictest: Wsp": ["a", "d"], "uictest": ["b"], "uictest: tcp://rig:5025": ["c"]}
+    told = [{each.get("name"): each.get("value") for each in suite.iter("property")} for suite in suites]
+    python = {"kind": "python", "source": "wsp.py", "version": "2.1", "sha256": "1" * 64}
+    at_socket = {"kind": "connect", "source": "tcp://rig:5025"}
+    assert told == [
+        {"controller": "Wsp"} | {f"controller.{key}": text for key, text in python.items()},
+        {"controller": "threshold"},
+        {"controller": "tcp://rig:5025"} | {f"controller.{key}": text for key, text in at_socket.items()},
+    ]
 
 
-def test_junitparser_reads_back_what_was_written(results: list[CaseResult]) -> None:
+def test_junitparser_reads_back_what_was_written(results):
     junitparser = pytest.importorskip("junitparser")
-    suites = list(
-        junitparser.JUnitXml.fromfile(io.StringIO(junit_text(run_suites(results)).partition("\n")[2]))
-    )
+    text = junit_text(run_suites(results, with_properties=True)).partition("\n")[2]
+    suites = list(junitparser.JUnitXml.fromfile(io.StringIO(text)))
     counts = [(suite.tests, suite.failures, suite.errors, suite.skipped) for suite in suites]
     assert counts == [(7, 3, 2, 1), (1, 0, 1, 0)]
     found = {case.name: case for suite in suites for case in suite}
@@ -211,3 +164,6 @@ def test_junitparser_reads_back_what_was_written(results: list[CaseResult]) -> N
     assert found["error"].is_error
     assert "invalid. Expected: pass" in found["invalid"].result[0].text
     assert any("<b>&" in name for name in found)
+    (properties,) = found["named"].iterchildren(junitparser.Properties)
+    named = {each.name: each.value for each in properties}
+    assert named == {"polarion-testcase-id": "TC-7", "test_key": "TC-7", "requirements": "BR-1"}

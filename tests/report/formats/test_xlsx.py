@@ -1,11 +1,8 @@
-from __future__ import annotations
-
 import io
-from typing import Any
 
 import pytest
 
-from uictest.report import CaseDescription, RunContent
+from uictest.report import CaseDescription
 from uictest.report.escaping import printable
 from uictest.report.formats.xlsx import workbook_bytes
 
@@ -14,33 +11,38 @@ from ..builders import HOSTILE, make_content, make_result, make_verdict
 openpyxl = pytest.importorskip("openpyxl")
 
 
-def _read(content: RunContent) -> Any:
+def _read(content):
     return openpyxl.load_workbook(io.BytesIO(workbook_bytes(content)))
 
 
-def _table(sheet: Any) -> list[dict[str, Any]]:
+def _table(sheet):
     """Return the rows below the headings, and below the units, which freeze with them."""
     header, *rows = ([cell.value for cell in row] for row in sheet.iter_rows())
     rows = rows[1:] if sheet.freeze_panes == "B3" else rows
     return [dict(zip(header, row, strict=True)) for row in rows]
 
 
-def test_the_sheets_hold_what_the_run_found() -> None:
+def test_the_sheets_hold_what_the_run_found():
     subject = CaseDescription("A dry stop", ("dry", "stop"))
-    workbook = _read(make_content(make_result(), subjects={"dry-120[command=90]": subject}))
+    infinite = make_verdict(value=float("inf"), margin=None)
+    crashed = make_result(id="crashed", outcome="error", measures=None, wheelsets=(), criteria=())
+    stop = make_result(criteria=(make_verdict(), infinite))
+    workbook = _read(make_content(stop, crashed, subjects={stop.id: subject}))
     assert workbook.sheetnames == ["Cover", "Cases", "Wheelsets", "Criteria", "Provenance"]
-    (case,) = _table(workbook["Cases"])
+    case, without_figures = _table(workbook["Cases"])
+    assert without_figures["braking distance"] is None
     assert (case["case"], case["title"], case["tags"]) == ("dry-120[command=90]", "A dry stop", "dry stop")
     assert (case["verdict"], case["braking distance"], case["brake.command"]) == ("pass", 465.25, "90 %")
     assert case["initial adhesion"] is None
     assert [row["wheelset"] for row in _table(workbook["Wheelsets"])] == [1, 2, 3, 4]
-    (criterion,) = _table(workbook["Criteria"])
+    criterion, of_infinity = _table(workbook["Criteria"])
+    assert of_infinity["value"] is None
     assert (criterion["lower"], criterion["upper"], criterion["verdict"]) == (440.0, 490.0, "pass")
     assert {"what": "versions: uictest", "value": "0.1.0"} in _table(workbook["Provenance"])
 
 
 @pytest.mark.parametrize("text", [f"=1+1{HOSTILE}", "http://example.org"])
-def test_text_stays_text_on_every_sheet(text: str) -> None:
+def test_text_stays_text_on_every_sheet(text):
     verdict = make_verdict(id=text, reason=text, definition={text: text})
     result = make_result(id=text, parameters={text: text}, criteria=(verdict,), reason=text, scenario=text)
     workbook = _read(make_content(result, name=text, subjects={text: CaseDescription(text, (text,))}))
@@ -55,15 +57,7 @@ def test_text_stays_text_on_every_sheet(text: str) -> None:
         assert sheet.oddFooter.right.text == "&P / &N"
 
 
-def test_no_number_is_an_empty_cell_and_a_failed_case_a_row() -> None:
-    infinite = make_verdict(value=float("inf"), margin=None)
-    failed = make_result(id="crashed", outcome="error", measures=None, wheelsets=(), criteria=())
-    workbook = _read(make_content(make_result(criteria=(infinite,)), failed))
-    assert _table(workbook["Criteria"])[0]["value"] is None
-    assert _table(workbook["Cases"])[1]["braking distance"] is None
-
-
-def test_requirements_are_a_matrix_over_the_cases() -> None:
+def test_requirements_are_a_matrix_over_the_cases():
     own = make_verdict(id="own", layer="requirement", status="fail", requirements=("BR-2",))
     results = [
         make_result(id="a", requirements=("BR-1",)),
@@ -82,7 +76,7 @@ def test_requirements_are_a_matrix_over_the_cases() -> None:
     assert coloured == {"B2:B3", "E2:F3"}
 
 
-def test_measures_have_units_and_the_digits_that_are_compared() -> None:
+def test_measures_have_units_and_the_digits_that_are_compared():
     sheet = _read(make_content(make_result()))["Cases"]
     heading, unit, values = sheet.iter_rows(max_row=3)
     shown = {
@@ -98,7 +92,7 @@ def test_measures_have_units_and_the_digits_that_are_compared() -> None:
     assert sheet.print_title_rows == "$1:$2"
 
 
-def test_the_cover_names_what_is_not_as_expected_and_draws_every_case() -> None:
+def test_the_cover_names_what_is_not_as_expected_and_draws_every_case():
     failed = make_verdict(status="fail", reason="too long", margin=-98.0)
     results = [make_result(id="a"), make_result(id="b", outcome="fail", criteria=(failed,))]
     workbook = _read(make_content(*results))
@@ -117,19 +111,18 @@ def test_the_cover_names_what_is_not_as_expected_and_draws_every_case() -> None:
     ]
 
 
-def test_charts_hold_what_they_draw_for_programs_that_compute_nothing() -> None:
+def test_charts_hold_what_they_draw_for_programs_that_compute_nothing():
     """The sheets are streamed, so that the library cannot read back what it wrote."""
-    content = make_content(make_result(id="a"), make_result(id="b", measures={}))
-    for chart in _read(content)["Cover"]._charts:
+    charts = _read(make_content(make_result(id="a"), make_result(id="b", measures={})))["Cover"]._charts
+    for chart in charts:
         [series] = chart.series
         assert [each.v for each in series.cat.strRef.strCache.pt] == ["a", "b"]
         assert series.val.numRef.numCache.ptCount == 2
-    distance = _read(content)["Cover"]._charts[0].series[0].val.numRef.numCache
-    [shown] = [float(each.v) for each in distance.pt if each.v]
-    assert shown == content.results[0].measures["braking_distance_m"]
+    distances = charts[0].series[0].val.numRef.numCache.pt
+    assert [float(each.v) for each in distances if each.v] == [465.25]
 
 
-def test_a_cover_names_so_many_cases_and_counts_the_rest() -> None:
+def test_a_cover_names_so_many_cases_and_counts_the_rest():
     failed = [make_result(id=f"case-{k}", outcome="fail", criteria=()) for k in range(25)]
     cover = [row[0].value for row in _read(make_content(*failed))["Cover"].iter_rows()]
     assert "case-19" in cover

@@ -1,12 +1,8 @@
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 
 
 @pytest.fixture
-def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def cache(tmp_path, monkeypatch):
     """An empty cache of its own; what earlier programs left in the temporary folder is not seen."""
     (tmp_path / "file").write_text("not a folder")
     (tmp_path / "cache").mkdir()

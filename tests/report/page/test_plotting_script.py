@@ -1,10 +1,6 @@
-from __future__ import annotations
-
 import base64
 import hashlib
 import zlib
-from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
@@ -13,19 +9,16 @@ from uictest.report.page.rendering import packed_script, plotting_script
 
 
 @pytest.fixture
-def place(cache: Path) -> Iterator[Path]:
+def place(cache):
     plotting_script.cache_clear()
     yield cache
     plotting_script.cache_clear()
 
 
-def test_a_packed_script_is_the_script() -> None:
+def test_the_script_is_packed_once_and_kept(place, monkeypatch):
     found = packed_script("draw();\n")
     assert zlib.decompress(base64.b64decode(found.packed)) == b"draw();\n"
     assert base64.b64decode(found.digest) == hashlib.sha256(b"draw();\n").digest()
-
-
-def test_the_script_is_packed_once_and_kept(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     first = plotting_script()
     assert len(list(place.iterdir())) == 1
     plotting_script.cache_clear()
@@ -33,7 +26,7 @@ def test_the_script_is_packed_once_and_kept(place: Path, monkeypatch: pytest.Mon
     assert plotting_script() == first
 
 
-def test_another_version_of_the_script_is_packed_anew(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_another_version_of_the_script_is_packed_anew(place, monkeypatch):
     for version in ("draw();", "drawn();"):
         source = place / "plotly.min.js"
         source.write_text(version)
@@ -42,7 +35,7 @@ def test_another_version_of_the_script_is_packed_anew(place: Path, monkeypatch: 
         assert plotting_script() == packed_script(version)
 
 
-def test_a_damaged_script_is_packed_anew(place: Path) -> None:
+def test_a_damaged_script_is_packed_anew(place):
     first = plotting_script()
     (kept,) = place.iterdir()
     kept.write_bytes(kept.read_bytes()[:-100])
@@ -50,7 +43,7 @@ def test_a_damaged_script_is_packed_anew(place: Path) -> None:
     assert plotting_script() == first
 
 
-def test_without_plotly_the_reason_is_named(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_plotly_the_reason_is_named(place, monkeypatch):
     monkeypatch.setattr(module, "find_spec", lambda name: None)
     with pytest.raises(ModuleNotFoundError, match="plotly is not installed"):
         plotting_script()

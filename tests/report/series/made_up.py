@@ -1,9 +1,6 @@
 """Series to report on, judged from results that are written down."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import Final
 
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.series_measures import SERIES_MEASURES, SpeedStops
@@ -11,7 +8,7 @@ from uictest.judging import evaluation, series
 from uictest.judging.evaluation import CaseResult, RepeatedStop, Repeats, Verdict
 
 
-def _stop(seed: int, distance: float, outcome: str = "pass") -> RepeatedStop:
+def _stop(seed, distance, outcome="pass"):
     measures = dict.fromkeys(STOP_COLUMNS, 1.0) | {
         "braking_distance_m": distance,
         "mean_deceleration_mps2": (120.0 / 3.6) ** 2 / (2.0 * distance),
@@ -19,17 +16,17 @@ def _stop(seed: int, distance: float, outcome: str = "pass") -> RepeatedStop:
     }
     wheelsets = (dict.fromkeys(WHEELSET_COLUMNS, 0.0),) * 4
     reason = "" if outcome == "pass" else "energy-balance: 3 % misses < 0.1 %"
-    return RepeatedStop(seed, outcome, reason, (), measures, wheelsets)  # type: ignore[arg-type]
+    return RepeatedStop(seed, outcome, reason, (), measures, wheelsets)
 
 
-def _case(name: str, stops: tuple[RepeatedStop, ...], role: series.Role) -> series.SeriesCase:
+def _case(name, stops, role):
     first = stops[0]
     result = CaseResult(name, "wet.yaml", {"rail.friction": "0.08"}, "pass", first.outcome, first.reason)
     case = replace(result, measures=first.measures, wheelsets=first.wheelsets, repeats=Repeats("all", stops))
     return series.SeriesCase(role, 120.0, case)
 
 
-def make_series(**changes: object) -> series.SeriesResult:
+def make_series(**changes):
     """A series of one dry stop and six wet ones, the last of them no test, with whatever is to be different.
 
     Its K_wet is 0.870; the criterion `k-wet` wants 0.80.
@@ -41,24 +38,17 @@ def make_series(**changes: object) -> series.SeriesResult:
     speed = SpeedStops(120.0 / 3.6, (series.observed_stops([dry], 3.0)[0].figures,), tuple(figures))
     measures = {name: each.of_series([speed], 0.95) for name, each in SERIES_MEASURES.items()}
     k_wet = measures["k_wet"].estimate
-    assert k_wet is not None
     margin = k_wet.value - 0.8
     verdict = Verdict(
         *("k-wet", "requirement", k_wet.value, "1", 0.8, None, margin, "pass", ""),
         definition={"measure": SERIES_MEASURES["k_wet"].meaning},
         measure="k_wet",
     )
-    content: dict[str, object] = {
-        "id": "acceptance",
-        "file": "tests/acceptance.series.yaml",
-        "title": "Acceptance of a WSP",
-        "parameters": {"controller": "threshold"},
-        "expect": "pass",
-        "outcome": "pass",
-        "reason": "",
-        "confidence": 0.95,
-        "valid_stops": 0.8,
-        "speed_tolerance_kmh": 3.0,
+    content = {"id": "acceptance", "file": "tests/acceptance.series.yaml", "title": "Acceptance of a WSP"}
+    content |= {"parameters": {"controller": "threshold"}}
+    content |= {"expect": "pass", "outcome": "pass", "reason": ""}
+    content |= {"confidence": 0.95, "valid_stops": 0.8, "speed_tolerance_kmh": 3.0}
+    content |= {
         "criteria": (series.SeriesVerdict(verdict, k_wet, confident=True, speed_kmh=120.0),),
         "measures": measures,
         "speeds": (series.SpeedResult(120.0, series.StopCounts(1, 1), series.StopCounts(6, 5), measures),),
@@ -67,10 +57,10 @@ def make_series(**changes: object) -> series.SeriesResult:
         ),
         "cases": (dry, wet),
     }
-    return series.SeriesResult(**(content | changes))  # type: ignore[arg-type]
+    return series.SeriesResult(**(content | changes))
 
 
-def _missed() -> series.SeriesResult:
+def _missed():
     result = make_series()
     (each,) = result.criteria
     verdict = replace(
@@ -81,5 +71,5 @@ def _missed() -> series.SeriesResult:
     return make_series(criteria=criteria, outcome=outcome, reason=reason)
 
 
-MISSED: Final = _missed()
+MISSED = _missed()
 """The series with a criterion that it misses."""

@@ -1,9 +1,6 @@
 """Series in the index of a folder of runs."""
 
-from __future__ import annotations
-
 import re
-from pathlib import Path
 from urllib.parse import unquote
 
 from uictest import report, runs
@@ -12,7 +9,7 @@ from ..builders import make_result
 from .made_up import make_series
 
 
-def test_a_series_stands_apart_from_a_case_of_its_id_and_leads_to_itself(tmp_path: Path) -> None:
+def test_a_series_stands_apart_from_a_case_of_its_id_and_leads_to_itself(tmp_path):
     content = report.RunContent("", [make_result(id="acceptance", outcome="fail")], series=[make_series()])
     folder = runs.publish_run(content, {}, tmp_path, ("html",)).place
     index = (tmp_path / "index.html").read_text("utf-8")

@@ -1,19 +1,14 @@
 """Series are evidence on requirements, like cases, in every report."""
 
-from __future__ import annotations
-
 import csv
 import io
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import openpyxl
 import pytest
 
-from uictest.judging import series
-from uictest.report import junit_text, read_run, run_suites, write_formats, write_reports
+from uictest.report import junit_text, run_suites, write_formats
 from uictest.report.formats.junit import FORMAT
 from uictest.report.formats.md import markdown_summary
 from uictest.report.requirements import Evidence, verified_requirements
@@ -24,15 +19,15 @@ from .made_up import make_series
 BY_CRITERION = ("BR-1",)
 
 
-def naming(result: series.SeriesResult, status: str = "pass", **changes: Any) -> series.SeriesResult:
+def naming(result, status="pass", **changes):
     """The series with a criterion of this status that names BR-1."""
     (each,) = result.criteria
-    verdict = replace(each.verdict, status=status, requirements=BY_CRITERION)  # type: ignore[arg-type]
+    verdict = replace(each.verdict, status=status, requirements=BY_CRITERION)
     return replace(result, criteria=(replace(each, verdict=verdict),), **changes)
 
 
 @pytest.fixture
-def named() -> series.SeriesResult:
+def named():
     """A series that names BR-9 and the test case WSP-TC-7, with a criterion that names BR-1."""
     return naming(make_series(requirements=("BR-9",), test_case="WSP-TC-7"))
 
@@ -49,9 +44,7 @@ def named() -> series.SeriesResult:
         ("fail", "fail", "expected fail", "met"),
     ],
 )
-def test_a_requirement_of_a_series_follows_its_outcome_against_the_expectation(
-    expect: str, outcome: str, word: str, status: str
-) -> None:
+def test_a_requirement_of_a_series_follows_its_outcome_against_the_expectation(expect, outcome, word, status):
     result = make_series(expect=expect, outcome=outcome, requirements=("BR-9",))
     (requirement,) = verified_requirements([], [result])
     assert requirement.evidence == (Evidence("series", "acceptance", word),)
@@ -69,26 +62,19 @@ def test_a_requirement_of_a_series_follows_its_outcome_against_the_expectation(
         ("pass", "error", "error"),
     ],
 )
-def test_a_requirement_of_a_criterion_follows_its_verdict_unless_stops_failed_to_run(
-    status: str, outcome: str, word: str
-) -> None:
+def test_a_requirement_of_a_criterion_follows_its_verdict_unless_stops_failed_to_run(status, outcome, word):
     (requirement,) = verified_requirements([], [naming(make_series(), status, outcome=outcome)])
     assert requirement.evidence == (Evidence("series", "acceptance", word, ("k-wet",)),)
 
 
-def test_criteria_of_a_series_that_must_not_pass_say_nothing() -> None:
+def test_stops_of_a_series_and_criteria_of_one_that_must_not_pass_are_no_evidence():
     assert not verified_requirements([], [naming(make_series(), "fail", expect="fail", outcome="fail")])
-
-
-def test_stops_of_a_series_are_no_evidence_of_their_own() -> None:
     result = make_series()
     cases = tuple(replace(each, case=replace(each.case, requirements=("BR-5",))) for each in result.cases)
     assert not verified_requirements([], [replace(result, cases=cases)])
 
 
-def test_a_case_and_a_series_of_the_same_id_stand_apart_in_every_table(
-    named: series.SeriesResult, tmp_path: Path
-) -> None:
+def test_a_case_and_a_series_of_the_same_id_stand_apart_in_every_table(named, tmp_path):
     case = make_result(id="acceptance", requirements=("BR-9",), outcome="fail")
     content = make_content(case, series=[named])
     write_formats(tmp_path, content, ["csv", "xlsx", "html"])
@@ -109,7 +95,7 @@ def test_a_case_and_a_series_of_the_same_id_stand_apart_in_every_table(
     assert "WSP-TC-7: BR-9" in page
 
 
-def test_tables_of_series_name_test_case_and_requirements(named: series.SeriesResult, tmp_path: Path) -> None:
+def test_tables_of_series_name_test_case_and_requirements(named, tmp_path):
     write_formats(tmp_path, make_content(series=[named]), ["csv", "xlsx"])
     (row,) = csv.DictReader(io.StringIO((tmp_path / "series-criteria.csv").read_text()))
     assert row["requirements"] == "BR-1"
@@ -118,14 +104,11 @@ def test_tables_of_series_name_test_case_and_requirements(named: series.SeriesRe
     assert (sheet["test_case"], sheet["requirements"]) == ("WSP-TC-7", "BR-9")
 
 
-def _properties(element: ElementTree.Element | None) -> dict[str | None, str | None]:
-    assert element is not None
+def _properties(element):
     return {each.get("name"): each.get("value") for each in element.findall("properties/property")}
 
 
-def test_testcases_name_the_requirements_of_their_criterion_and_of_the_series(
-    named: series.SeriesResult,
-) -> None:
+def test_testcases_name_the_requirements_of_their_criterion_and_of_the_series(named):
     unexpected = replace(named, expect="fail")
     suite = ElementTree.fromstring(junit_text(run_suites([], series=[unexpected], with_properties=True)))[0]
     of_criterion, outcome = suite.findall("testcase")
@@ -138,17 +121,10 @@ def test_testcases_name_the_requirements_of_their_criterion_and_of_the_series(
     assert not plain.findall("testcase/properties")
 
 
-def test_the_file_for_test_management_is_there_where_a_series_has_something_for_it() -> None:
-    def files(result: series.SeriesResult) -> set[str]:
+def test_the_file_for_test_management_is_there_where_a_series_has_something_for_it():
+    def files(result):
         return set(FORMAT.files(make_content(series=[result])))
 
     both = {"junit.xml", "junit-properties.xml"}
     assert files(make_series()) == {"junit.xml"}
     assert files(make_series(test_case="WSP-TC-7")) == files(naming(make_series())) == both
-
-
-def test_requirements_are_read_back(named: series.SeriesResult, tmp_path: Path) -> None:
-    write_reports(tmp_path, make_content(series=[named]))
-    (read,) = read_run(tmp_path).series
-    assert (read.requirements, read.test_case) == (("BR-9",), "WSP-TC-7")
-    assert read.criteria[0].verdict.requirements == BY_CRITERION

@@ -1,12 +1,10 @@
-from __future__ import annotations
-
 from uictest.judging.evaluation import Sensitivity, VerdictInterval
 from uictest.report.terminal.verdict_table import case_line, criterion_lines, definition_lines
 
 from ..builders import HOSTILE, make_result, make_verdict
 
 
-def test_the_line_of_a_case_that_is_met() -> None:
+def test_the_line_of_a_case_that_is_met():
     assert case_line(make_result()) == (
         "pass dry-120[command=90] outcome=pass expect=pass braking_distance_m=465.25 braking_time_s=27.5 "
         "mean_deceleration_mps2=1.195 initial_adhesion_g=- slide_above=moving_speed "
@@ -14,28 +12,22 @@ def test_the_line_of_a_case_that_is_met() -> None:
     )
 
 
-def test_a_missed_case_gives_its_reason_on_the_same_line() -> None:
+def test_a_missed_case_gives_its_reason_on_the_same_line():
     broken = make_verdict(id="locked", status="fail", margin=None, reason="locked for 3 s")
     line = case_line(make_result(outcome="fail", criteria=(broken,)))
     assert line.startswith("fail dry-120[command=90] outcome=fail expect=pass ")
     assert line.endswith("reason=locked (validity) fail: locked for 3 s")
-
-
-def test_a_case_that_passes_against_expectation_says_so() -> None:
     assert case_line(make_result(expect="fail")).endswith("reason=pass. Expected: fail")
 
 
-def test_a_crash_stands_first_on_its_line() -> None:
+def test_a_crash_stands_first_on_its_line_and_every_line_is_one_line_whatever_is_in_it():
     crashed = make_result(outcome="error", reason="ValueError: x", measures=None, wheelsets=(), criteria=())
     assert case_line(crashed) == "error dry-120[command=90] outcome=error expect=pass reason=ValueError: x"
-
-
-def test_every_line_is_one_line_whatever_is_in_it() -> None:
     result = make_result(id=HOSTILE, outcome="error", reason=HOSTILE, criteria=())
     assert case_line(result).isprintable()
 
 
-def test_criterion_lines_can_be_found_by_the_case() -> None:
+def test_criterion_lines_can_be_found_by_the_case():
     firm = Sensitivity("low_speed_cutoff", "km/h", 10.0, 60.0, (VerdictInterval(10.0, 60.0, "pass"),))
     lines = list(criterion_lines(make_result(criteria=(make_verdict(sensitivity=(firm,)),))))
     assert lines[0] == (
@@ -46,7 +38,8 @@ def test_criterion_lines_can_be_found_by_the_case() -> None:
     assert len(lines) == 2
 
 
-def test_what_criteria_mean_is_said_once_for_all_cases() -> None:
+def test_what_criteria_mean_is_said_once_for_all_cases():
+    assert list(definition_lines([make_result(criteria=(make_verdict(definition={}),))])) == []
     results = [make_result(id=name) for name in ("a", "b")]
     assert list(definition_lines(results)) == ["definition braking-distance: low_speed_cutoff = 30 km/h"]
     others = [make_result(id=name, criteria=(make_verdict(definition={"bound": "< 1"}),)) for name in "cdefg"]
@@ -54,7 +47,3 @@ def test_what_criteria_mean_is_said_once_for_all_cases() -> None:
         "definition braking-distance (in a, b): low_speed_cutoff = 30 km/h",
         "definition braking-distance (in c, d, e and 2 more): bound = < 1",
     ]
-
-
-def test_a_criterion_that_means_nothing_more_has_no_definition_line() -> None:
-    assert list(definition_lines([make_result(criteria=(make_verdict(definition={}),))])) == []

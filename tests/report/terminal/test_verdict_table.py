@@ -1,48 +1,43 @@
-from __future__ import annotations
-
 import io
 
 import pytest
-from rich.console import Console, RenderableType
-from rich.table import Table
-from rich.text import Text
+from rich.console import Console
 
-from uictest.judging.evaluation import CaseResult
 from uictest.report import RunContent
 from uictest.report.terminal.verdict_table import explanation_text, verdict_table
 
 from ..builders import make_result, make_verdict
 
 
-def _table(*results: CaseResult, width: int = 120) -> Table:
+def _table(*results, width=120):
     return verdict_table(results, RunContent("run", results, {}).word, width)[0]
 
 
-def _explanation(result: CaseResult, *, every_criterion: bool = False) -> Text:
+def _explanation(result, *, every_criterion=False):
     return explanation_text(RunContent("run", [result], {}), result, every_criterion=every_criterion)
 
 
-def _rendered(renderable: RenderableType, width: int = 120, *, terminal: bool = False) -> str:
+def _rendered(renderable, width=120, *, terminal=False):
     buffer = io.StringIO()
     colours = "truecolor" if terminal else None
     Console(file=buffer, width=width, force_terminal=terminal, color_system=colours).print(renderable)
     return buffer.getvalue()
 
 
-def test_a_row_holds_verdict_and_figures() -> None:
+def test_a_row_holds_verdict_and_figures():
     row = _rendered(_table(make_result())).splitlines()[-1].split()
     figures = ["465.2", "27.5", "1.20", "-", "8", "0.0", "0.0", "4"]
     assert row == ["dry-120[command=90]", "pass", "pass", *figures]
 
 
-def test_a_long_id_is_folded_and_not_cut() -> None:
+def test_a_long_id_is_folded_and_not_cut():
     case_id = "slip-" + "0123456789" * 10
     shown = _rendered(_table(make_result(id=case_id), width=90), width=90)
     first_column = "".join(line.split(" ", 1)[0] for line in shown.splitlines()[1:])
     assert first_column == case_id
 
 
-def test_markup_and_terminal_codes_in_a_name_are_shown_as_text() -> None:
+def test_markup_and_terminal_codes_in_a_name_are_shown_as_text():
     result = make_result(id="[red]x[/red]\x1b[2J", outcome="error", reason="[/]", criteria=())
     for renderable in (_table(result), _explanation(result)):
         shown = _rendered(renderable, terminal=True)
@@ -50,7 +45,7 @@ def test_markup_and_terminal_codes_in_a_name_are_shown_as_text() -> None:
         assert "\x1b[2J" not in shown
 
 
-def test_the_explanation_names_expectation_and_deciding_criterion() -> None:
+def test_the_explanation_names_expectation_and_deciding_criterion_or_every_one_when_asked():
     broken = make_verdict(id="locked", status="fail", margin=None, reason="locked for 3 s")
     shown = _rendered(_explanation(make_result(outcome="fail", criteria=(make_verdict(), broken))))
     assert shown.splitlines() == [
@@ -58,14 +53,11 @@ def test_the_explanation_names_expectation_and_deciding_criterion() -> None:
         "  fail: locked. Expected: pass",
         "  locked (validity) fail: locked for 3 s",
     ]
-
-
-def test_every_criterion_is_explained_when_asked() -> None:
     assert "braking-distance (validity) pass" in _rendered(_explanation(make_result(), every_criterion=True))
 
 
 @pytest.mark.parametrize("width", [40, 60, 80, 100, 120, 200])
-def test_figures_give_way_to_the_names_of_cases(width: int) -> None:
+def test_figures_give_way_to_the_names_of_cases(width):
     ids = ["dry-120", "slide-80[compensation=hysteresis]", "wet-80-friction[friction=0.10]"]
     results = [make_result(id=case_id) for case_id in ids]
     table, not_shown = verdict_table(results, RunContent("run", results, {}).word, width)
@@ -80,11 +72,11 @@ def test_figures_give_way_to_the_names_of_cases(width: int) -> None:
     assert ("summary.csv" in not_shown) == (shown < figures)
 
 
-def _name(line: str) -> str:
+def _name(line):
     return line.split("  ")[0].strip()
 
 
-def test_a_column_that_a_missed_criterion_rests_on_is_left_out_last() -> None:
+def test_a_column_that_a_missed_criterion_rests_on_is_left_out_last():
     locked = make_verdict(measure="locked_time", status="fail", unit="s", value=9.0)
     missed, kept = make_result(outcome="fail", criteria=(locked,)), make_result()
     shown, not_shown = (verdict_table([missed], RunContent("run", [missed], {}).word, 50)[k] for k in (0, 1))
@@ -95,7 +87,7 @@ def test_a_column_that_a_missed_criterion_rests_on_is_left_out_last() -> None:
     assert "locked" in not_shown
 
 
-def test_a_missed_criterion_of_a_measure_that_is_no_column_has_a_column_of_its_own() -> None:
+def test_a_missed_criterion_of_a_measure_that_is_no_column_has_a_column_of_its_own():
     locked = make_verdict(id="locked-wheels", measure="longest_lock", status="fail", unit="s", value=109.66)
     missed, kept = make_result(id="a", outcome="fail", criteria=(locked,)), make_result(id="b", criteria=())
     table, _ = verdict_table([missed, kept], RunContent("run", [missed, kept], {}).word, 50)

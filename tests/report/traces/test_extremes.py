@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import given, strategies as st
 
@@ -9,7 +7,7 @@ _SAMPLES = st.lists(st.integers(-50, 50) | st.none(), min_size=1, max_size=300)
 
 
 @given(_SAMPLES, st.integers(1, 40))
-def test_no_extreme_and_no_gap_of_a_column_is_lost(samples: list[int | None], width: int) -> None:
+def test_no_extreme_and_no_gap_of_a_column_is_lost(samples, width):
     y = np.array([np.nan if value is None else value for value in samples], dtype=float)
     columns = np.arange(len(y)) // width
     rows = extremes(columns.astype(float), y)
@@ -22,7 +20,7 @@ def test_no_extreme_and_no_gap_of_a_column_is_lost(samples: list[int | None], wi
 
 
 @given(_SAMPLES, st.integers(1, 400))
-def test_a_thinned_series_keeps_its_ends_and_is_short(samples: list[int | None], bins: int) -> None:
+def test_a_thinned_series_keeps_its_ends_and_is_short(samples, bins):
     y = np.array([np.nan if value is None else value for value in samples], dtype=float)
     rows = thinned(y, bins)
     assert (rows[0], rows[-1]) == (0, len(y) - 1)

@@ -9,26 +9,22 @@ from uictest.report.traces.trace import FaultSpan, fault_spans, trace_of
 TIME = np.arange(0.0, 10.0, 0.1)
 
 
-def record(bits: np.ndarray, faults: str) -> Recording:
+def record(bits, faults):
     channels = {"time": TIME, "speed": 30.0 - TIME, "active_faults": bits}
     return Recording(channels, {"time": "s", "speed": "m/s", "active_faults": "1"}, {"faults": faults})
 
 
-def test_each_fault_has_its_own_stretches() -> None:
+def test_each_fault_has_its_own_stretches_and_a_stop_without_faults_none():
     lost, leak = "speed-sensor-lost-2", "brake-line-leak"
     bits = 1.0 * ((TIME >= 1.95) & (TIME < 3.95)) + 2.0 * (TIME >= 2.95) + 1.0 * (TIME >= 7.95)
     spans = fault_spans(record(bits, f"{lost}, {leak}"))
     rounded = [FaultSpan(each.label, round(each.start, 3), round(each.end, 3)) for each in spans]
+    assert fault_spans(record(0.0 * TIME, leak)) == ()
+    assert fault_spans(Recording({"time": TIME, "speed": 30.0 - TIME}, {"time": "s", "speed": "m/s"})) == ()
     assert rounded == [FaultSpan(lost, 2.0, 4.0), FaultSpan(lost, 8.0, 9.9), FaultSpan(leak, 3.0, 9.9)]
 
 
-def test_a_stop_without_faults_has_none() -> None:
-    plain = Recording({"time": TIME, "speed": 30.0 - TIME}, {"time": "s", "speed": "m/s"}, {})
-    assert fault_spans(plain) == ()
-    assert fault_spans(record(np.zeros_like(TIME), "brake-line-leak")) == ()
-
-
-def test_the_page_shades_the_time() -> None:
+def test_the_page_shades_the_time():
     trace = trace_of(record(1.0 * (TIME >= 2.95), "brake-line-leak"))
     marks = list(fault_marks(trace))
     assert [(mark.plot, mark.kind, round(mark.x0 or 0.0, 3), mark.label) for mark in marks] == [

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import pytest
 
 from uictest.core.units import SIZES
@@ -9,7 +7,7 @@ SI = {"km/h": "m/s", "bar": "Pa", "kN": "N", "degC": "K", "%": "1", "m": "m", "1
 
 
 @pytest.mark.parametrize("key", [key for key in PLOT_QUANTITIES if key != "deceleration"])
-def test_every_quantity_of_the_page_has_its_unit_everywhere(key: str) -> None:
+def test_every_quantity_of_the_page_has_its_unit_everywhere(key):
     quantity = PLOT_QUANTITIES[key]
     for name in channel_names(key):
         assert shown_unit(name, SI[quantity.unit]) == quantity.unit
@@ -30,7 +28,7 @@ def test_every_quantity_of_the_page_has_its_unit_everywhere(key: str) -> None:
         ("speed", "knot", "knot"),
     ],
 )
-def test_other_channels_are_shown_in_the_units_of_the_page(channel: str, recorded: str, shown: str) -> None:
+def test_other_channels_are_shown_in_the_units_of_the_page(channel, recorded, shown):
     assert shown_unit(channel, recorded) == shown
 
 
@@ -44,5 +42,5 @@ def test_other_channels_are_shown_in_the_units_of_the_page(channel: str, recorde
         ("MVB: v/ist", "MVB: v/ist"),
     ],
 )
-def test_a_channel_has_a_title(channel: str, title: str) -> None:
+def test_a_channel_has_a_title(channel, title):
     assert channel_title(channel) == title

@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -8,7 +6,6 @@ from uictest.judging.evaluation import (
     AppliedDefinition,
     CaseResult,
     Sensitivity,
-    Verdict,
     VerdictInterval,
     narrowest_margin,
 )
@@ -20,15 +17,15 @@ from ...builders import make_recording, make_verdict
 
 
 @pytest.fixture
-def trace() -> PlotTrace:
+def trace():
     return PlotTrace(0.0, 30.0, 0.01, {})
 
 
-def _verdicts(*changes: dict[str, object]) -> list[Verdict]:
+def _verdicts(*changes):
     return [make_verdict(id=str(place), **each) for place, each in enumerate(changes)]
 
 
-def test_failing_criteria_come_first_then_the_narrowest_margins_then_yes_or_no(trace: PlotTrace) -> None:
+def test_failing_criteria_come_first_then_the_narrowest_margins_then_yes_or_no(trace):
     upper = {"lower": None, "upper": 10.0}
     verdicts = _verdicts(
         {**upper, "margin": 5.0},
@@ -45,23 +42,16 @@ def test_failing_criteria_come_first_then_the_narrowest_margins_then_yes_or_no(t
     assert [each.verdict.id for each in margins.not_applicable] == ["6"]
 
 
-@pytest.mark.parametrize(
-    ("share", "bar", "beyond"),
-    [
-        (-250.0, (0.0, 50.0), True),
-        (-40.0, (30.0, 20.0), False),
-        (60.0, (50.0, 30.0), False),
-        (3e4, (50.0, 50.0), True),
-    ],
-)
-def test_a_bar_begins_at_the_limit_and_ends_with_the_scale(
-    trace: PlotTrace, share: float, bar: tuple[float, float], beyond: bool
-) -> None:
-    status = "pass" if share > 0 else "fail"
-    verdict = make_verdict(lower=None, upper=2.0, margin=share / 50.0, status=status)
-    (margin,) = margins_of([verdict], [verdict], trace).judged
-    assert margin.bar == pytest.approx(bar)
-    assert margin.beyond is beyond
+def test_a_bar_begins_at_the_limit_and_ends_with_the_scale(trace):
+    bars = {-250.0: (0.0, 50.0), -40.0: (30.0, 20.0), 60.0: (50.0, 30.0), 3e4: (50.0, 50.0)}
+    for share, bar in bars.items():
+        status = "pass" if share > 0 else "fail"
+        verdict = make_verdict(lower=None, upper=2.0, margin=share / 50.0, status=status)
+        (margin,) = margins_of([verdict], [verdict], trace).judged
+        assert margin.bar == pytest.approx(bar)
+        assert margin.beyond is (abs(share) > 100.0)
+    of_zero = make_verdict(lower=None, upper=0.0, value=0.2, margin=-0.2, status="fail")
+    assert margin_share(of_zero) is None
 
 
 @pytest.mark.parametrize(
@@ -73,8 +63,8 @@ def test_a_bar_begins_at_the_limit_and_ends_with_the_scale(
     ],
 )
 def test_a_verdict_that_turns_has_nothing_to_spare_as_where_cases_are_ranked(
-    trace: PlotTrace, margin: float, status: str, spare: str, words: str
-) -> None:
+    trace, margin, status, spare, words
+):
     intervals = (VerdictInterval(0.0, 0.5, "pass"), VerdictInterval(0.6, 1.0, "fail"))
     turning = Sensitivity("d", "s", 0.0, 1.0, intervals)
     bounds = {"lower": None, "upper": 10.0}
@@ -92,61 +82,52 @@ def test_a_verdict_that_turns_has_nothing_to_spare_as_where_cases_are_ranked(
     assert shown.to_spare == pytest.approx(100.0 * (narrowest or 0.0))
 
 
-def test_a_limit_of_zero_has_no_share() -> None:
-    verdict = make_verdict(lower=None, upper=0.0, value=0.2, margin=-0.2, status="fail")
-    assert margin_share(verdict) is None
-
-
-def _definitions(**values: float) -> tuple[AppliedDefinition, ...]:
+def _definitions(**values):
     return tuple(AppliedDefinition(name, value, "m/s", "chosen") for name, value in values.items())
 
 
-def _with(recording: Recording, **channels: np.ndarray) -> Recording:
+def _with(recording, **channels):
     units = {**dict.fromkeys(channels, "1"), **recording.units}
     return Recording({**recording.channels, **channels}, units, recording.metadata)
 
 
 @pytest.mark.parametrize(
-    ("measure", "value", "interval"),
-    [("locked_time", 3.0, (10.0, 22.0)), ("longest_lock", 2.0, (20.0, 22.0))],
+    ("measure", "value", "interval", "wheelset"),
+    [
+        ("locked_time", 3.0, (10.0, 22.0), 2),
+        ("longest_lock", 2.0, (20.0, 22.0), 2),
+        ("longest_lock_of_sound_wheelsets", 0.5, (15.0, 15.5), 4),
+    ],
 )
-def test_a_lock_is_that_of_the_wheelset_that_decides(
-    measure: str, value: float, interval: tuple[float, float]
-) -> None:
-    """Wheelset 2 is locked for 1 s and for 2 s, wheelset 4 for 0.5 s."""
+def test_a_lock_is_that_of_the_wheelset_that_decides(measure, value, interval, wheelset):
+    """Wheelset 2, which is faulty, is locked for 1 s and for 2 s, wheelset 4 for 0.5 s."""
     recording = make_recording()
     time, speed = recording["time"], recording["wheel_speed_1"]
 
-    def locked(*spans: tuple[float, float]) -> np.ndarray:
+    def locked(*spans):
         within = [(time > first + 1e-6) & (time < last + 1e-6) for first, last in spans]
         return np.where(np.logical_or.reduce(within), 0.0, speed)
 
-    recording = _with(
-        recording, wheel_speed_2=locked((10.0, 11.0), (20.0, 22.0)), wheel_speed_4=locked((15.0, 15.5))
-    )
-    verdict = make_verdict(
-        measure=measure,
-        value=value,
-        definitions=_definitions(locked_speed=0.1, moving_speed=1.0),
-    )
+    locks = {"wheel_speed_2": locked((10.0, 11.0), (20.0, 22.0)), "wheel_speed_4": locked((15.0, 15.5))}
+    recording = _in_fault(recording, **locks)
+    definitions = _definitions(locked_speed=0.1, moving_speed=1.0)
+    verdict = make_verdict(measure=measure, value=value, definitions=definitions)
     taken = taken_at(verdict, trace_of(recording, [verdict]))
-    assert taken is not None
     assert (taken.start, taken.end) == pytest.approx(interval, abs=0.011)
-    assert (taken.plot, taken.wheelset) == ("locked", 2)
+    assert (taken.plot, taken.wheelset) == ("locked", wheelset)
 
 
-def test_a_measure_of_the_train_is_taken_at_an_instant_of_its_own() -> None:
+def test_a_measure_of_the_train_is_taken_at_an_instant_of_its_own():
     recording = make_recording()
     time = recording["time"]
     lowest = _with(recording, reservoir_pressure=8e5 - 1e5 * np.exp(-((time - 12.0) ** 2)))
     verdict = make_verdict(measure="reservoir_minimum_pressure", value=7.0, unit="bar")
     taken = taken_at(verdict, trace_of(lowest, [verdict]))
-    assert taken is not None
     assert taken.start == taken.end == pytest.approx(12.0, abs=0.011)
     assert (taken.plot, taken.wheelset, taken.value) == ("pressure", None, pytest.approx(7.0, abs=1e-6))
 
 
-def _in_fault(recording: Recording, **channels: np.ndarray) -> Recording:
+def _in_fault(recording, **channels):
     active = np.where((recording["time"] > 5.0) & (recording["time"] < 9.0), 2.0, 0.0)
     faulty = _with(recording, active_faults=active, **channels)
     return Recording(
@@ -154,7 +135,7 @@ def _in_fault(recording: Recording, **channels: np.ndarray) -> Recording:
     )
 
 
-def test_the_reference_is_furthest_off_after_the_first_fault() -> None:
+def test_the_reference_is_furthest_off_after_the_first_fault():
     """It is 3 m/s too high at 2 s, before the fault, and 2 m/s at 12 s."""
     recording = make_recording()
     time, speed = recording["time"], recording["speed"]
@@ -163,29 +144,11 @@ def test_the_reference_is_furthest_off_after_the_first_fault() -> None:
     definitions = _definitions(moving_speed=1.0)
     verdict = make_verdict(measure="reference_excess", value=7.2, unit="km/h", definitions=definitions)
     taken = taken_at(verdict, trace_of(faulty, [verdict]))
-    assert taken is not None
     assert taken.start == pytest.approx(12.0, abs=0.011)
     assert taken.value == pytest.approx((120 / 3.6 - 12.0 + 2.0) * 3.6, abs=0.1)
 
 
-def test_a_lock_of_a_sound_wheelset_is_none_of_a_faulty_one() -> None:
-    """Wheelset 2 is faulty and locked for 2 s, wheelset 4 for 0.5 s."""
-    recording = make_recording()
-    time, speed = recording["time"], recording["wheel_speed_1"]
-
-    def locked(first: float, last: float) -> np.ndarray:
-        return np.where((time > first + 1e-6) & (time < last + 1e-6), 0.0, speed)
-
-    recording = _in_fault(recording, wheel_speed_2=locked(20.0, 22.0), wheel_speed_4=locked(15.0, 15.5))
-    definitions = _definitions(locked_speed=0.1, moving_speed=1.0)
-    verdict = make_verdict(measure="longest_lock_of_sound_wheelsets", value=0.5, definitions=definitions)
-    taken = taken_at(verdict, trace_of(recording, [verdict]))
-    assert taken is not None
-    assert (taken.start, taken.end) == pytest.approx((15.0, 15.5), abs=0.011)
-    assert (taken.plot, taken.wheelset) == ("locked", 4)
-
-
-def test_what_has_no_place_in_the_plots_has_none(trace: PlotTrace) -> None:
+def test_what_has_no_place_in_the_plots_has_none(trace):
     assert taken_at(make_verdict(measure="contact_energy"), trace) is None
     assert taken_at(make_verdict(measure="braking_distance", value=None), trace) is None
     assert taken_at(make_verdict(measure="locked_time", value=0.0), trace) is None

@@ -1,8 +1,5 @@
-from __future__ import annotations
-
 import base64
 import zlib
-from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +9,7 @@ from uictest.report.page.stop.overlay_view import packed, script_json
 from uictest.report.traces.trace import Curve
 
 
-def _unpacked(content: dict[str, Any]) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+def _unpacked(content):
     """Read lines as the page's script does."""
     data = np.frombuffer(zlib.decompress(base64.b64decode(content["data"])), dtype="u1")
     numbers = data.reshape(2, -1).T.copy().view("<i2").ravel().astype(float)
@@ -29,7 +26,7 @@ _SERIES = st.lists(st.floats(-1e9, 1e9) | st.just(float("nan")), min_size=1, max
 
 
 @given(st.lists(_SERIES, min_size=1, max_size=3))
-def test_lines_come_back_within_a_fifty_thousandth_of_their_range(lines: list[list[float]]) -> None:
+def test_lines_come_back_within_a_fifty_thousandth_of_their_range(lines):
     curves = {
         str(k): Curve(np.arange(float(len(values))), np.array(values)) for k, values in enumerate(lines)
     }
@@ -46,13 +43,13 @@ def test_lines_come_back_within_a_fifty_thousandth_of_their_range(lines: list[li
 
 
 @pytest.mark.parametrize("interval", [0.0, 0.01])
-def test_times_further_apart_than_two_bytes_hold_come_back_as_well(interval: float) -> None:
+def test_times_further_apart_than_two_bytes_hold_come_back_as_well(interval):
     times = np.array([0.0, 0.01, 400.0])
     ((back, _),) = _unpacked(packed({"a": Curve(times, times)}, interval)).values()
     assert back == pytest.approx(times, abs=400.0 / 50_000)
 
 
 @pytest.mark.parametrize("text", ["</script><script>alert(1)</script>", "<!--", "&amp;", "\u2028"])
-def test_json_cannot_end_the_element_it_stands_in(text: str) -> None:
+def test_json_cannot_end_the_element_it_stands_in(text):
     shown = script_json({"label": text})
     assert not set("<>&\u2028") & set(shown)

@@ -1,26 +1,24 @@
 """Where cells of a heat map lie."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import pytest
 from hypothesis import given, strategies as st
 from pydantic import TypeAdapter
 
-from uictest.report.page.sweep.cell_axis import PlacedCells, placed_cells
+from uictest.report.page.sweep.cell_axis import placed_cells
 from uictest.report.sweep.map_cells import CellAxis
 from uictest.report.sweep.values import SweptValue
 
-VALUE: TypeAdapter[SweptValue] = TypeAdapter(SweptValue)
+VALUE = TypeAdapter(SweptValue)
 
 
-def placed(*texts: str, logarithmic: bool = False, upright: bool = False) -> PlacedCells:
+def placed(*texts, logarithmic=False, upright=False):
     axis = CellAxis("key", [(VALUE.validate_python(text),) for text in texts])
     return placed_cells(axis, ["key"] if logarithmic else [], 0.0, 300.0, upright=upright)
 
 
-def test_evenly_spaced_numbers_have_cells_of_one_width() -> None:
+def test_evenly_spaced_numbers_have_cells_of_one_width():
     found = placed("60 km/h", "80 km/h", "100 km/h")
     assert (found.spacing, found.title) == ("linear", "key, km/h")
     assert found.edges == pytest.approx([0.0, 100.0, 200.0, 300.0])
@@ -29,50 +27,41 @@ def test_evenly_spaced_numbers_have_cells_of_one_width() -> None:
     ]
 
 
-def test_a_wider_step_has_a_wider_cell() -> None:
+def test_a_wider_step_has_a_wider_cell():
     found = placed("0", "1", "2", "4")
-    # From -0.5 over 0.5, 1.5 and 3 to 5.
+    # From -0.5 over 0.5, 1.5 and 3 to 5; a label stands where its number lies.
     assert found.edges == pytest.approx([300.0 * (at + 0.5) / 5.5 for at in (-0.5, 0.5, 1.5, 3.0, 5.0)])
+    assert found.ticks == [(pytest.approx(300.0 * (n + 0.5) / 5.5), str(n)) for n in (0, 1, 2, 4)]
 
 
-def test_a_label_stands_where_its_number_lies_also_in_uneven_cells() -> None:
-    found = placed("0", "1", "2", "4")
-    expected = [(pytest.approx(300.0 * (number + 0.5) / 5.5), str(number)) for number in (0, 1, 2, 4)]
-    assert found.ticks == expected
-
-
-def test_decades_have_cells_of_one_width_on_a_logarithmic_axis() -> None:
+def test_decades_have_cells_of_one_width_on_a_logarithmic_axis():
     found = placed("0.01", "0.1", "1", "10", logarithmic=True)
     assert (found.spacing, found.title) == ("logarithmic", "key, logarithmic")
     assert found.edges == pytest.approx([0.0, 75.0, 150.0, 225.0, 300.0])
 
 
-def test_intervals_end_where_their_numbers_do() -> None:
-    linear = placed("1 .. 2", "2 .. 4", "4 .. 8")
-    assert linear.edges == pytest.approx([0.0, 300.0 / 7, 900.0 / 7, 300.0])
-    assert placed("1 .. 2", "2 .. 4", "4 .. 8", logarithmic=True).edges == pytest.approx(
-        [0.0, 100.0, 200.0, 300.0]
-    )
+def test_intervals_end_where_their_numbers_do():
+    intervals = ("1 .. 2", "2 .. 4", "4 .. 8")
+    assert placed(*intervals).edges == pytest.approx([0.0, 300.0 / 7, 900.0 / 7, 300.0])
+    assert placed(*intervals, logarithmic=True).edges == pytest.approx([0.0, 100.0, 200.0, 300.0])
 
 
 @pytest.mark.parametrize(
     "texts",
     [("one", "four"), ("80 km/h", "20 m/s"), ("0.01", "0.02", "5"), ("0.2", "0.1", "0.3"), ("1", "1.0")],
 )
-def test_what_has_no_readable_scale_is_listed(texts: tuple[str, ...]) -> None:
+def test_what_has_no_readable_scale_is_listed(texts):
     found = placed(*texts)
     assert found.spacing == "listed"
     assert found.edges == pytest.approx([300.0 * k / len(texts) for k in range(len(texts) + 1)])
     assert [label for _, label in found.ticks] == list(texts)
-
-
-def test_the_first_row_of_a_list_stands_on_top_and_the_largest_number_too() -> None:
-    assert placed("one", "four", upright=True).edges == [300.0, 150.0, 0.0]
-    assert placed("one", "four", upright=True).span(0) == (150.0, 300.0)
+    upright = placed(*texts, upright=True)  # the first row stands on top
+    assert upright.edges == pytest.approx([300.0 - edge for edge in found.edges])
+    assert upright.span(0) == tuple(upright.edges[1::-1])
 
 
 @given(st.lists(st.floats(1e-6, 1e6), min_size=2, max_size=60, unique=True), st.booleans())
-def test_cells_touch_and_fill_the_axis(numbers: list[float], logarithmic: bool) -> None:
+def test_cells_touch_and_fill_the_axis(numbers, logarithmic):
     found = placed(*(repr(number) for number in sorted(numbers)), logarithmic=logarithmic)
     assert (min(found.edges), max(found.edges)) == pytest.approx((0.0, 300.0))
     assert all(before < after for before, after in pairwise(found.edges))
@@ -80,7 +69,7 @@ def test_cells_touch_and_fill_the_axis(numbers: list[float], logarithmic: bool) 
     assert len(found.ticks) <= 17
 
 
-def test_long_labels_of_narrow_cells_are_slanted_or_thinned() -> None:
+def test_long_labels_of_narrow_cells_are_slanted_or_thinned():
     texts = [f"controller-{k}" for k in range(12)]
     assert placed(*texts).slanted
     assert not placed(*texts, upright=True).slanted

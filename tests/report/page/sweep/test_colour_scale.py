@@ -1,7 +1,5 @@
 """Colours of heat maps against Matplotlib's maps as plotly has them, and against CIELAB."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from plotly.colors import sequential
@@ -11,12 +9,12 @@ from uictest.report.page.sweep.colour_scale import CIVIDIS, VIRIDIS, ColourScale
 MAPS = pytest.mark.parametrize(("anchors", "name"), [(VIRIDIS, "Viridis"), (CIVIDIS, "Cividis")])
 
 
-def rgb(colour: str) -> np.ndarray:
+def rgb(colour):
     return np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)])
 
 
 @MAPS
-def test_colours_are_those_of_the_map(anchors: str, name: str) -> None:
+def test_colours_are_those_of_the_map(anchors, name):
     published = getattr(sequential, name)
     scale = ColourScale(anchors, 0.0, len(published) - 1.0)
     for place, colour in enumerate(published):
@@ -24,7 +22,7 @@ def test_colours_are_those_of_the_map(anchors: str, name: str) -> None:
 
 
 @MAPS
-def test_lightness_rises_evenly(anchors: str, name: str) -> None:
+def test_lightness_rises_evenly(anchors, name):
     """L* of CIELAB, in every step by 1.2 on average and never by less than a half or more than twice that."""
     lightness = [116.0 * np.cbrt(luminance(each)) - 16.0 for each in ColourScale(anchors, 0.0, 1.0).colours]
     steps = np.diff(lightness)
@@ -34,16 +32,15 @@ def test_lightness_rises_evenly(anchors: str, name: str) -> None:
 
 
 @MAPS
-def test_text_on_every_colour_can_be_read(anchors: str, name: str) -> None:
+def test_text_on_every_colour_can_be_read(anchors, name):
     """WCAG 2.1, 1.4.3: 4.5 to 1."""
     scale = ColourScale(anchors, 0.0, 1.0)
     for number, colour in enumerate(scale.colours):
-        ground, text = luminance(colour), 1.0 if number in scale.with_light_text else 0.0
-        dark, light = sorted((ground, text))
+        dark, light = sorted((luminance(colour), 1.0 if number in scale.with_light_text else 0.0))
         assert (light + 0.05) / (dark + 0.05) >= 4.5
 
 
-def test_values_have_colours_between_the_ends() -> None:
+def test_values_have_colours_between_the_ends():
     scale = ColourScale(VIRIDIS, 10.0, 20.0)
     assert [scale.step(value) for value in (10.0, 15.0, 20.0, 0.0, 99.0)] == [0, 32, 63, 0, 63]
     assert (scale.colours[0], scale.colours[-1]) == ("#440154", "#fde725")

@@ -1,7 +1,5 @@
 """What a page says and holds of the points of a sample."""
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import replace
@@ -11,7 +9,7 @@ import numpy as np
 from uictest.report.page.sweep.scatter import PointNumbers, Scatter, scatter_view
 
 
-def scatter(cases: int, shown: int, added: int = 0) -> Scatter:
+def scatter(cases, shown, added=0):
     numbers = PointNumbers("gain", "1/s", np.arange(shown) / 3.0, True)
     distance = PointNumbers("distance", "m", np.where(np.arange(shown) % 2, np.nan, 1.5))
     ids = [f"study[sample={k}]" for k in range(shown)]
@@ -19,7 +17,7 @@ def scatter(cases: int, shown: int, added: int = 0) -> Scatter:
     return Scatter(cases, added, ids, ["pass"] * shown, counts, [numbers], [distance], ["topology"])
 
 
-def test_it_is_stated_which_cases_are_shown() -> None:
+def test_it_is_stated_which_cases_are_shown():
     left_out = "Not numbers of one unit, and not here: topology."
     assert list(scatter_view(scatter(448, 448), {}).sentences) == ["Shown: all 448 cases.", left_out]
     assert list(scatter_view(scatter(10_000, 2003, 3), {}).sentences) == [
@@ -29,7 +27,7 @@ def test_it_is_stated_which_cases_are_shown() -> None:
     ]
 
 
-def test_every_point_has_its_numbers_its_verdict_and_its_stop() -> None:
+def test_every_point_has_its_numbers_its_verdict_and_its_stop():
     view = scatter_view(scatter(448, 4), {"study[sample=2]": "case-2", "other": "case-9"})
     data = json.loads(view.data)
     assert data["parameters"] == [

@@ -1,28 +1,24 @@
 """Sobol' indices as bars: each index and its interval lie where the axis says."""
 
-from __future__ import annotations
-
 import math
 
 import pytest
 
 from uictest.report import SobolIndex, SobolSensitivity, WrittenValue
-from uictest.report.page.sweep.sobol_bars import SobolPlot, sobol_plots
+from uictest.report.page.sweep.sobol_bars import sobol_plots
 
 
-def sensitivity(
-    measure: str, key: str, first: SobolIndex, total: SobolIndex, at: str = ""
-) -> SobolSensitivity:
+def sensitivity(measure, key, first, total, at=""):
     return SobolSensitivity(measure, {"seed": WrittenValue(at)} if at else {}, key, first, total)
 
 
-def value_at(plot: SobolPlot, pixel: float) -> float:
+def value_at(plot, pixel):
     """Return what the labels of the axis say of a pixel."""
     (x0, first), *_, (x1, last) = plot.ticks
     return float(first) + (pixel - x0) / (x1 - x0) * (float(last) - float(first))
 
 
-def test_bars_and_intervals_lie_at_their_numbers() -> None:
+def test_bars_and_intervals_lie_at_their_numbers():
     first, total = SobolIndex(0.3, 0.1, 0.45), SobolIndex(0.6, 0.5, 0.8)
     small = SobolIndex(-0.05, -0.1, 0.02)
     (plot,) = sobol_plots(
@@ -39,13 +35,13 @@ def test_bars_and_intervals_lie_at_their_numbers() -> None:
     assert value_at(plot, plot.zero) == pytest.approx(0.0, abs=1e-9)
 
 
-def test_an_interval_that_leaves_the_axis_is_marked() -> None:
+def test_an_interval_that_leaves_the_axis_is_marked():
     (plot,) = sobol_plots([sensitivity("met", "a", SobolIndex(0.7, -3.0, 1.0), SobolIndex(1.0, 0.0, 3.1))])
     assert [(bar.low_is_cut_off, bar.high_is_cut_off) for bar in plot.bars] == [(True, False), (False, True)]
     assert value_at(plot, plot.bars[1].high) == pytest.approx(2.0)
 
 
-def test_each_measure_and_each_listed_value_has_its_own_drawing() -> None:
+def test_each_measure_and_each_listed_value_has_its_own_drawing():
     index = SobolIndex(0.5, 0.4, 0.6)
     plots = sobol_plots(
         [
@@ -55,15 +51,11 @@ def test_each_measure_and_each_listed_value_has_its_own_drawing() -> None:
             for key in ("a", "b")
         ]
     )
-    assert [(plot.title, len(plot.bars)) for plot in plots] == [
-        ("braking distance, m, at seed = 1", 4),
-        ("braking distance, m, at seed = 2", 4),
-        ("cases met, at seed = 1", 4),
-        ("cases met, at seed = 2", 4),
-    ]
+    titles = [f"{name}, at seed = {n}" for name in ("braking distance, m", "cases met") for n in (1, 2)]
+    assert [(plot.title, len(plot.bars)) for plot in plots] == [(title, 4) for title in titles]
 
 
-def test_an_index_that_does_not_exist_has_no_bar() -> None:
+def test_an_index_that_does_not_exist_has_no_bar():
     nothing = SobolIndex(math.nan, math.nan, math.nan)
     (plot,) = sobol_plots([sensitivity("met", "a", nothing, SobolIndex(0.5, 0.4, 0.6))])
     assert (plot.bars[0].width, plot.bars[0].high - plot.bars[0].low) == (0.0, 0.0)

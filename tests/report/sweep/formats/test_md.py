@@ -1,23 +1,13 @@
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
-import pytest
 from markdown_it import MarkdownIt
 
 from uictest.report.sweep.formats.md import append_sweep_step_summary, sweep_markdown
 
-from ...builders import MakeSweep, make_result
+from ...builders import make_result
 
 _READER = MarkdownIt("commonmark", {"html": True}).enable("table")
 
 
-def _count(label: str, cases: int = 1) -> dict[str, Any]:
-    return {"value": label, "cases": cases, "met": cases, "outcomes": {}}
-
-
-def test_the_summary_shows_every_finding(make_sweep: MakeSweep) -> None:
+def test_the_summary_shows_every_finding(make_sweep):
     worst = (make_result(id="b[x]", outcome="fail", criteria=(), reason="locked"), make_result())
     text = sweep_markdown(make_sweep(worst))
     assert text.startswith("## uictest sweep: 4 cases: 3 pass, 1 fail; 1 not as expected\n")
@@ -38,19 +28,15 @@ def test_the_summary_shows_every_finding(make_sweep: MakeSweep) -> None:
     assert "| 90 % = 90 % | not met up to 90 %, met from 0.11 | 90 % |" in text
 
 
-def test_what_a_sweep_does_not_have_has_no_heading(make_sweep: MakeSweep) -> None:
-    nothing: dict[str, Any] = {
-        "maps": [],
-        "missed": [],
-        "sensitivities": [],
-        "distributions": [],
-        "notes": [],
-    }
-    text = sweep_markdown(make_sweep(frontier=None, **nothing))
+def test_what_a_sweep_does_not_have_has_no_heading_and_many_values_are_referred_to(make_sweep):
+    counts = [{"value": str(k), "cases": 1, "met": 1, "outcomes": {}} for k in range(31)]
+    nothing = {"maps": [], "missed": [], "sensitivities": [], "distributions": [], "notes": []}
+    text = sweep_markdown(make_sweep(frontier=None, **nothing, rates={"rail.friction": counts}))
     assert text.count("### ") == 2
+    assert "| `rail.friction` | 31 values, see rates.csv |" in text
 
 
-def test_a_large_map_is_shown_small(make_sweep: MakeSweep) -> None:
+def test_a_large_map_is_shown_small(make_sweep):
     values, ones = [str(k) for k in range(1000)], [[1] * 1000] * 1000
     axes = {axis: {"parameter": axis, "values": values} for axis in ("rows", "columns")}
     found = {"measure": "met", **axes, "means": ones, "met": [[0] * 1000, *ones[1:]], "cases": ones}
@@ -60,14 +46,7 @@ def test_a_large_map_is_shown_small(make_sweep: MakeSweep) -> None:
     assert "Neighbouring values are shown together; map-met.csv has each of them." in text
 
 
-def test_a_parameter_with_many_values_is_referred_to(make_sweep: MakeSweep) -> None:
-    text = sweep_markdown(make_sweep(rates={"rail.friction": [_count(str(k)) for k in range(31)]}))
-    assert "| `rail.friction` | 31 values, see rates.csv |" in text
-
-
-def test_the_summary_is_appended_where_github_wants_it(
-    make_sweep: MakeSweep, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_summary_is_appended_where_github_wants_it(make_sweep, tmp_path, monkeypatch):
     place = tmp_path / "summary"
     place.write_bytes(b"x" * 999_000 + b"\n")
     monkeypatch.setenv("GITHUB_STEP_SUMMARY", str(place))
