@@ -164,17 +164,30 @@ def test_cases_are_not_changed_nor_mixed_with_files(write):
         uictest.run([*cases, *cases])
 
 
-def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(write, monkeypatch):
-    path, run_case = write(), batch.run_case
+def test_an_interrupt_is_raised(write: Write, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = write()
+    monkeypatch.setattr(campaign, "run_cases", lambda *_, **__: campaign.BatchResult([], interrupted=True))
+    with pytest.raises(KeyboardInterrupt):
+        uictest.run(path)
+    with pytest.raises(KeyboardInterrupt):
+        uictest.run(path, output="reports")
+    assert not Path("reports").exists()
+
+
+def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(
+    write: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, run_stop = write(), batch.run_stop
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
 
-    def interrupted(case, *arguments):
-        signal.raise_signal(signal.SIGINT)
-        return run_case(case, *arguments)
+    def interrupted(stop: campaign.Stop, *arguments: Any) -> campaign.StopRun:
+        if stop.seed == 0:  # a second interrupt would meet what follows the run
+            signal.raise_signal(signal.SIGINT)
+        return run_stop(stop, *arguments)
 
     try:
         with monkeypatch.context() as patched, pytest.raises(KeyboardInterrupt):
-            patched.setattr(batch, "run_case", interrupted)
+            patched.setattr(batch, "run_stop", interrupted)
             uictest.run(path, set={"seed": list(range(20))}, jobs=1)
         assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
     finally:
@@ -185,8 +198,8 @@ def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(write, monkeypatch):
 def test_what_is_finished_when_a_run_is_interrupted_is_reported(write, monkeypatch):
     path, run_cases = write(), campaign.run_cases
 
-    def cut_short(cases, **options):
-        done = run_cases(cases[:1], **options)
+    def cut_short(cases: Any, *settings: Any, **options: Any) -> campaign.BatchResult:
+        done = run_cases(cases[:1], *settings, **options)
         done.interrupted = True
         return done
 
@@ -200,11 +213,12 @@ def test_what_is_finished_when_a_run_is_interrupted_is_reported(write, monkeypat
     assert not Path("nothing").exists()
 
 
-def test_a_stop_that_crashes_is_a_result(write, monkeypatch):
-    def crash(case, *_):
-        return campaign.CaseRun(evaluation.error_result(case, "ZeroDivisionError: no wheel load"))
+def test_a_stop_that_crashes_is_a_result(write: Write, monkeypatch: pytest.MonkeyPatch) -> None:
+    def crash(stop: campaign.Stop, *_: object) -> campaign.StopRun:
+        result = evaluation.error_result(stop.case, "ZeroDivisionError: no wheel load")
+        return campaign.StopRun(stop, campaign.CaseRun(result))
 
-    monkeypatch.setattr(batch, "run_case", crash)
+    monkeypatch.setattr(batch, "run_stop", crash)
     results = uictest.run(write())
     assert (results.met, results[0].outcome) == (False, "error")
     assert math.isnan(results.frame().loc["stop", "braking_distance_m"])

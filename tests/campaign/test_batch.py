@@ -4,7 +4,18 @@ import time
 import pytest
 
 from uictest.judging.evaluation import CaseResult, error_result
-from uictest.running.campaign import CaseRun, batch, run_cases
+from uictest.running.campaign import (
+    BatchResult,
+    CaseRun,
+    RecordingRequest,
+    RunSettings,
+    StopRun,
+    batch,
+    run_cases,
+)
+
+MakeCase = Callable[..., Any]
+Examine = Callable[[Any, RecordingRequest, Any], CaseRun]
 
 
 def _result(case):
@@ -17,8 +28,10 @@ def _ids(campaign):
 
 
 @pytest.fixture
-def examined_by(monkeypatch):
-    return lambda examine: monkeypatch.setattr(batch, "run_case", examine)
+def examined_by(monkeypatch: pytest.MonkeyPatch) -> Callable[[Examine], None]:
+    return lambda examine: monkeypatch.setattr(
+        batch, "run_stop", lambda stop, wish, run: StopRun(stop, examine(stop.case, wish, run))
+    )
 
 
 @pytest.mark.parametrize("jobs", [1, 2, 7])
@@ -30,8 +43,10 @@ def test_results_come_in_the_order_of_the_cases(make_case, examined_by, jobs):
         return CaseRun(_result(case))
 
     examined_by(uneven)
-    seen = []
-    campaign = run_cases(cases, jobs=jobs, on_result=lambda examined: seen.append(examined.result.id))
+    seen: list[str] = []
+    campaign = run_cases(
+        cases, RunSettings(jobs=jobs), on_result=lambda examined: seen.append(examined.result.id)
+    )
     assert _ids(campaign) == seen == [case.id for case in cases]
     assert not campaign.interrupted
 
@@ -40,12 +55,20 @@ def test_results_come_in_the_order_of_the_cases(make_case, examined_by, jobs):
 def test_what_maxfail_leaves_does_not_depend_on_the_number_of_threads(make_case, examined_by, jobs):
     examined_by(lambda case, wish, run: CaseRun(_result(case)))
     cases = [make_case(str(number), *(["fail"] if number % 3 == 2 else [])) for number in range(20)]
-    assert _ids(run_cases(cases, jobs=jobs, maxfail=2)) == ["0", "1", "2", "3", "4", "5"]
-    expected = [make_case(str(number), "fail", expect="fail") for number in range(3)]
-    assert len(run_cases(expected, jobs=jobs, maxfail=1).results) == 3
+    assert _ids(run_cases(cases, RunSettings(jobs=jobs, maxfail=2))) == ["0", "1", "2", "3", "4", "5"]
 
 
-def test_an_interrupt_keeps_what_is_finished_and_waits_for_nothing(make_case, examined_by):
+def test_an_expected_failure_does_not_count(
+    make_case: MakeCase, examined_by: Callable[[Examine], None]
+) -> None:
+    examined_by(lambda case, wish, run: CaseRun(_result(case)))
+    cases = [make_case(str(number), "fail", expect="fail") for number in range(3)]
+    assert len(run_cases(cases, RunSettings(maxfail=1)).results) == 3
+
+
+def test_an_interrupt_keeps_what_is_finished_and_waits_for_nothing(
+    make_case: MakeCase, examined_by: Callable[[Examine], None]
+) -> None:
     released = threading.Event()
 
     def examine(case, wish, run):
@@ -60,7 +83,7 @@ def test_an_interrupt_keeps_what_is_finished_and_waits_for_nothing(make_case, ex
     examined_by(examine)
     cases = [make_case(name) for name in ("first", "second", "long", "never")]
     try:
-        campaign = run_cases(cases, jobs=1, on_result=interrupt)
+        campaign = run_cases(cases, RunSettings(jobs=1), on_result=interrupt)
     finally:
         released.set()
     assert campaign.interrupted
@@ -84,5 +107,5 @@ def test_few_cases_are_examined_ahead_of_the_one_awaited(make_case, examined_by)
         return CaseRun(error_result(case, "made up"))
 
     examined_by(examine)
-    run_cases([make_case(str(number)) for number in range(1000)], jobs=2, maxfail=1)
+    run_cases([make_case(str(number)) for number in range(1000)], RunSettings(jobs=2, maxfail=1))
     assert len(started) < 20

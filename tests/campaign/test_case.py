@@ -6,7 +6,7 @@ import uictest.judging.evaluation
 import uictest.rig
 from uictest.controllers import ControllerError
 from uictest.judging.evaluation import CaseResult
-from uictest.running.campaign import RecordingRequest, run_case
+from uictest.running.campaign import RecordingRequest, Stop, run_stop
 
 
 class Rig:
@@ -23,8 +23,10 @@ class Rig:
         told = {"controller_version": "wsp 1.2.0", "case_sha256": "ab" * 32, "noise_key": "00c0ffee"}
         return SimpleNamespace(recording=recording, **nothing, **told)
 
-    def evaluate(self, case, measures, wheelsets, duration, response_times):
-        return CaseResult(case.id, "a.yaml", {}, case.scenario.expect, self.outcome, duration=duration)
+    def evaluate(
+        self, case: Any, measures: Any, wheelsets: Any, duration: float, explain: bool, response_times: object
+    ) -> CaseResult:
+        return CaseResult(case.id, "a.yaml", {}, case.scenario.expect, self.outcome, duration=duration)  # type: ignore[arg-type]
 
 
 @pytest.fixture
@@ -51,7 +53,7 @@ def test_a_stop_is_simulated_again_only_for_the_recording_of_a_missed_case(
     make_case, make_rig, wish, outcome, asked, recording
 ):
     rig = make_rig(outcome)
-    examined = run_case(make_case("dry"), wish)
+    examined = run_stop(Stop(make_case("dry")), wish).case_run
     assert rig.asked == asked
     assert examined.recording == recording
     assert examined.result.outcome == outcome
@@ -62,13 +64,13 @@ def test_a_stop_with_a_controller_from_outside_is_never_repeated(make_case, make
     """It may answer differently another time, and the recording would be of another stop."""
     rig, case = make_rig(outcome), make_case("dry")
     case.scenario.controller.program = object()
-    examined = run_case(case, RecordingRequest("failed", every=0.02))
+    examined = run_stop(Stop(case), RecordingRequest("failed", every=0.02)).case_run
     assert (rig.asked, examined.recording) == ([0.02], recording)
 
 
 def test_a_result_says_which_controller_answered_in_which_stop(make_case, make_rig):
     make_rig("pass")
-    result = run_case(make_case("dry"), RecordingRequest("none")).result
+    result = run_stop(Stop(make_case("dry")), RecordingRequest("none")).case_run.result
     assert (result.controller_version, result.case_sha256) == ("wsp 1.2.0", "ab" * 32)
     assert result.noise_key == "00c0ffee"
 
@@ -88,7 +90,20 @@ def test_a_crash_of_one_case_is_its_result(make_case, monkeypatch, error, reason
 
     monkeypatch.setattr(uictest.rig, "simulate", crash)
     monkeypatch.setattr(uictest.rig, "sha256_of_case", lambda case: "ab" * 32)
-    examined = run_case(make_case("dry"), RecordingRequest())
+    result = run_stop(Stop(make_case("dry")), RecordingRequest("none")).case_run.result
+    assert (result.outcome, result.reason) == ("error", "controller: step failed: no memory (cycle 7)")
+    assert (result.controller_version, result.case_sha256) == ("", "ab" * 32)
+
+
+def test_a_crash_of_one_case_is_its_result(
+    make_case: MakeCase, make_rig: Callable[[str], Rig], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def crash(case: Any, record_every: float | None, run: object) -> Any:
+        raise ZeroDivisionError("no wheel load")
+
+    make_rig("pass")
+    monkeypatch.setattr(uictest.rig, "simulate", crash)
+    examined = run_stop(Stop(make_case("dry")), RecordingRequest()).case_run
     result = examined.result
     assert (result.id, result.outcome, result.reason, result.met) == ("dry", "error", reason, False)
     assert (result.controller_version, result.case_sha256) == ("", digest)

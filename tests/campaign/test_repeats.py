@@ -9,7 +9,7 @@ import pytest
 from uictest import rig
 from uictest.judging.evaluation import json_form, result_document, to_json
 from uictest.plans import scenario
-from uictest.running.campaign import RecordingRequest, run_case, run_cases
+from uictest.running.campaign import CaseRun, RecordingRequest, RunSettings, Stop, run_cases, run_stop
 
 STOP = """
 schema: uictest/scenario/1
@@ -42,21 +42,21 @@ def document(results):
     return to_json(result_document(results))
 
 
-def test_each_stop_is_the_one_with_its_seed_alone(cases):
-    (result,) = run_cases(cases(more="repeat: 3\nseed: 5"), recording=NOTHING).results
+def test_each_stop_is_the_one_with_its_seed_alone(cases: Write) -> None:
+    (result,) = run_cases(cases(more="repeat: 3\nseed: 5"), RunSettings(recording=NOTHING)).results
+    assert result.repeats is not None
     for stop, seed in zip(result.repeats.stops, (5, 6, 7), strict=True):
         (alone,) = cases(more=f"seed: {seed}")
-        single = run_case(alone, NOTHING).result
+        single = run_stop(Stop(alone), NOTHING).case_run.result
         assert (stop.seed, stop.outcome) == (seed, single.outcome)
         assert json_form([stop.measures, stop.wheelsets]) == json_form([single.measures, single.wheelsets])
         assert [verdict.value for verdict in stop.criteria] == [verdict.value for verdict in single.criteria]
 
 
-def test_measures_are_medians_and_seeds_differ(cases):
-    stops = []
-    repeated = cases(more="repeat: 5")
-    (result,) = run_cases(repeated, recording=NOTHING, on_stop=lambda: stops.append(None)).results
-    assert len(stops) == 5  # counted as they finish
+def test_measures_are_medians_and_seeds_differ(cases: Write) -> None:
+    (result,) = run_cases(cases(more="repeat: 5"), RunSettings(recording=NOTHING)).results
+    assert result.repeats is not None
+    assert result.measures is not None
     distances = result.repeats.values("braking_distance_m")
     assert len(set(distances)) == 5
     assert result.measures["braking_distance_m"] == sorted(distances)[2]
@@ -65,13 +65,17 @@ def test_measures_are_medians_and_seeds_differ(cases):
 def test_neither_threads_nor_order_nor_name_change_a_digit(cases):
     more = "repeat: 3\nmatrix: {brake.command: [80 %, 100 %]}"
     here = cases(more=more)
-    results = run_cases(here, jobs=1, recording=NOTHING).results
+    results = run_cases(here, RunSettings(jobs=1, recording=NOTHING)).results
     for jobs in (2, 5):
-        assert document(run_cases(here, jobs=jobs, recording=NOTHING).results) == document(results)
-    backwards = run_cases(here[::-1], jobs=2, recording=NOTHING).results
+        assert document(run_cases(here, RunSettings(jobs=jobs, recording=NOTHING)).results) == document(
+            results
+        )
+    backwards = run_cases(here[::-1], RunSettings(jobs=2, recording=NOTHING)).results
     assert document(backwards[::-1]) == document(results)
-    renamed = run_cases(cases("another", more), jobs=2, recording=NOTHING).results
-    assert document([*map(without_names, renamed)]) == document([*map(without_names, results)])
+    renamed = run_cases(cases("another", more), RunSettings(jobs=2, recording=NOTHING)).results
+    assert [document([without_names(each)]) for each in renamed] == [
+        document([without_names(each)]) for each in results
+    ]
 
 
 def test_two_controllers_meet_the_same_noise_until_one_of_them_acts(cases):
@@ -106,7 +110,7 @@ def test_only_the_first_stop_is_recorded_and_says_so(cases, monkeypatch):
         return simulate(case, record_every, *arguments)
 
     monkeypatch.setattr(rig, "simulate", asked)
-    run_cases(cases(more="repeat: 3"), recording=RecordingRequest("all"), on_result=runs.append)
+    run_cases(cases(more="repeat: 3"), RunSettings(recording=RecordingRequest("all")), on_result=runs.append)
     (run,) = runs
     assert recorded == [(0, True), (1, False), (2, False)]
     assert run.recording.metadata["seed"] == "0, the first of 3 stops"
@@ -118,7 +122,7 @@ def test_only_the_first_stop_is_recorded_and_says_so(cases, monkeypatch):
 def test_a_case_is_recorded_for_what_all_its_stops_come_to(cases, expect, recorded):
     runs = []
     written = cases(more=f"repeat: 2\nexpect: {expect}")
-    run_cases(written, recording=RecordingRequest("failed"), on_result=runs.append)
+    run_cases(written, RunSettings(recording=RecordingRequest("failed")), on_result=runs.append)
     assert [run.recording is not None for run in runs] == [recorded]
 
 
@@ -142,21 +146,25 @@ def test_a_result_names_the_noise_that_its_stops_met(cases, fails_with):
     keys = set()
     for controller in ("threshold", "slip-band"):
         written = cases("stop", "repeat: 2", f"controller={controller}")
-        (result,) = run_cases(written, recording=NOTHING).results
+        (result,) = run_cases(written, RunSettings(recording=NOTHING)).results
         (case,) = written
         assert result.noise_key == f"{int(rig.assemble(case).parameters.noise_key):08x}"
-        keys |= {result.noise_key, run_case(case, NOTHING).result.noise_key}
+        keys |= {result.noise_key, run_stop(Stop(case), NOTHING).case_run.result.noise_key}
     assert len(keys) == 1
     fails_with(0)
-    (result,) = run_cases(cases(more="repeat: 3"), recording=NOTHING).results
+    (result,) = run_cases(cases(more="repeat: 3"), RunSettings(recording=NOTHING)).results
     assert {result.noise_key} == keys
 
 
 @pytest.mark.parametrize("rule", ["all", "median", "{at_least: 50 %}"])
 def test_an_error_with_one_seed_never_vanishes(cases, fails_with, rule):
     fails_with(2)
-    runs = []
-    run_cases(cases(more=f"repeat: 4\noutcome_of_repeats: {rule}"), recording=NOTHING, on_result=runs.append)
+    runs: list[CaseRun] = []
+    run_cases(
+        cases(more=f"repeat: 4\noutcome_of_repeats: {rule}"),
+        RunSettings(recording=NOTHING),
+        on_result=runs.append,
+    )
     (run,) = runs
     told = "error in 1 of 4 stops (seed 2), with seed 2: ZeroDivisionError: no wheel load"
     assert (run.result.outcome, run.result.reason) == ("error", told)
@@ -178,12 +186,18 @@ def test_an_interrupt_keeps_cases_all_of_whose_stops_are_finished(cases, monkeyp
     monkeypatch.setattr(rig, "simulate", slow)
     written = cases(more="repeat: 2\nmatrix: {brake.command: [100 %, 90 %]}")
     try:
-        batch = run_cases(written, jobs=1, recording=NOTHING, on_result=interrupt)
+        batch = run_cases(written, RunSettings(jobs=1, recording=NOTHING), on_result=interrupt)
     finally:
         released.set()
     assert batch.interrupted
     assert [result.id for result in batch.results] == ["stop[command=100]"]
     assert len(batch.results[0].repeats.stops) == 2
+
+
+def test_stops_are_counted_as_they_finish(cases: Write) -> None:
+    stops: list[None] = []
+    run_cases(cases(more="repeat: 3"), RunSettings(recording=NOTHING), on_stop=lambda: stops.append(None))
+    assert len(stops) == 3
 
 
 WSP = """
@@ -203,9 +217,13 @@ def test_controllers_from_outside_repeat_their_stops_as_well(cases, tmp_path, in
     (tmp_path / "wsp.py").write_text(WSP, "utf-8")
     controller = "controller: {python: wsp.py, class: Wsp, version: 1.2.0, time_limit: 600 s}"
     written = cases("outside", f"repeat: 3\n{controller}")
-    (result,) = run_cases(written, jobs=2, recording=NOTHING, in_process=in_process).results
+    (result,) = run_cases(written, RunSettings(jobs=2, recording=NOTHING, in_process=in_process)).results
+    assert result.repeats is not None
     ends = [(stop.outcome, stop.reason) for stop in result.repeats.stops]
     assert ends == ends[:1] * 3
-    (bypassed,) = run_cases(cases("inside", "repeat: 3\nrig: {wsp: bypassed}"), recording=NOTHING).results
+    (bypassed,) = run_cases(
+        cases("inside", "repeat: 3\nrig: {wsp: bypassed}"), RunSettings(recording=NOTHING)
+    ).results
+    assert bypassed.repeats is not None
     distances = result.repeats.values("braking_distance_m")
     assert distances == bypassed.repeats.values("braking_distance_m")

@@ -18,7 +18,7 @@ from uictest.cli.entry import execute
 from uictest.core.measures import STOP_COLUMNS
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, error_result
-from uictest.running.campaign import CaseRun, batch
+from uictest.running.campaign import CaseRun, RecordingRequest, Stop, StopRun, batch
 
 STATED = ("--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop")
 """What `evaluate` asks of a recorded stop."""
@@ -166,15 +166,16 @@ def made_up(monkeypatch):
     """Let stops come out as their tags say (`fail`, `invalid`, `error`, else `pass`); the ids as examined."""
     examined: list[str] = []
 
-    def examine(case, wish, run):
+    def examine(stop: Stop, wish: RecordingRequest, run: object) -> StopRun:
+        case = stop.case
         examined.append(case.id)
         if "error" in case.scenario.tags:
-            return CaseRun(error_result(case, "ZeroDivisionError: no wheel load"))
+            return StopRun(stop, CaseRun(error_result(case, "ZeroDivisionError: no wheel load")))
         outcome = next((tag for tag in ("fail", "invalid") if tag in case.scenario.tags), "pass")
         given = (case.id, case.path.as_posix(), dict(case.parameters), case.scenario.expect)
-        result = CaseResult(*given, outcome, measures=FIGURES, reason="made up")
-        return CaseRun(result)
+        result = CaseResult(*given, outcome, measures=FIGURES, reason="made up")  # type: ignore[arg-type]
+        return StopRun(stop, CaseRun(result))
 
-    monkeypatch.setattr(batch, "run_case", examine)
+    monkeypatch.setattr(batch, "run_stop", examine)
     monkeypatch.setattr(rig, "load_stop", lambda: None)
     return examined

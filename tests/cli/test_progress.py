@@ -17,7 +17,7 @@ def test_where_nobody_watches_there_is_a_sign_of_life_now_and_then(monkeypatch):
     monkeypatch.setattr(progress_module, "message", record)
     with progress(7, quiet=False) as advance:
         assert before.wait(HANGING)
-        advance()
+        advance(1)
         assert after.wait(HANGING)
     assert not [thread for thread in threading.enumerate() if thread.name == "heartbeat"]
 
@@ -25,5 +25,5 @@ def test_where_nobody_watches_there_is_a_sign_of_life_now_and_then(monkeypatch):
 def test_quiet_is_silent(monkeypatch):
     monkeypatch.setattr(progress_module, "HEARTBEAT", 0.0)
     with progress(7, quiet=True) as advance:
-        advance()
+        advance(1)
     assert not [thread for thread in threading.enumerate() if thread.name == "heartbeat"]

@@ -35,7 +35,7 @@ def load(threshold_library: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 
 
 def judged(planned: series_plans.Series) -> series.SeriesResult:
-    done = campaign.run_cases(planned.cases, jobs=len(os.sched_getaffinity(0)))
+    done = campaign.run_cases(planned.cases, campaign.RunSettings(len(os.sched_getaffinity(0))))
     cases = [
         series.SeriesCase(stop.role, round(stop.speed * 3.6, 6), result)
         for stop, result in zip(planned.stops, done.results, strict=True)

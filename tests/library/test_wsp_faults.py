@@ -61,7 +61,7 @@ def judged(tmp_path: Path, part: str, kind: str, controller: str = "threshold") 
         f"faults: [{{at: 3 s, part: {part}, kind: {kind}{own}{value}}}]\n"
     )
     [case] = load([path])
-    return campaign.run_case(case, campaign.RecordingRequest("none")).result
+    return campaign.run_stop(campaign.Stop(case), campaign.RecordingRequest("none")).case_run.result
 
 
 @pytest.mark.parametrize(("part", "kind"), FAULT_KINDS, ids="-".join)
@@ -93,7 +93,7 @@ def test_a_stop_in_which_no_fault_begins_shows_no_reaction(
         f"faults: {faults}\n"
     )
     [case] = load([path])
-    result = campaign.run_case(case, campaign.RecordingRequest("none")).result
+    result = campaign.run_stop(campaign.Stop(case), campaign.RecordingRequest("none")).case_run.result
     judged = [each.status for each in result.criteria if each.layer != "rig"]
     assert judged == ["pass", status, status, status]
     assert result.outcome == outcome

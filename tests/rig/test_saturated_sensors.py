@@ -6,13 +6,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.running.campaign import RecordingRequest, run_case
+from uictest.running.campaign import RecordingRequest, Stop, run_stop
 
 
 def judged(rig: Any, *overrides: str, **ranges: str) -> Any:
     """A judged stop whose sensors of a kind have a range."""
     sensors = [f"rig.sensors.{kind}.range={limit}" for kind, limit in ranges.items()]
-    return run_case(rig.case("initial_speed=60 km/h", *overrides, *sensors), RecordingRequest("all", 0.01))
+    return run_stop(
+        Stop(rig.case("initial_speed=60 km/h", *overrides, *sensors)), RecordingRequest("all", 0.01)
+    ).case_run
 
 
 def check(run: Any, name: str) -> Any:

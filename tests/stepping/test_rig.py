@@ -29,7 +29,7 @@ def test_a_stop_has_result_and_recording_of_run(write_scenario, controller_outsi
     path = write_scenario()
     rig = uictest.Rig(path, record=100)
     [case] = load([path])
-    run = campaign.run_case(case, campaign.RecordingRequest("all", every=0.01))
+    run = campaign.run_stop(campaign.Stop(case), campaign.RecordingRequest("all", every=0.01)).case_run
     assert result_document([drive(rig, controller_outside(case))]) == result_document([run.result])
     recorded, of_run = rig.recording(), run.recording
     assert recorded.units == of_run.units | {"diagnosis": "1"}

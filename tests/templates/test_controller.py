@@ -50,7 +50,9 @@ def test_it_conforms_untouched(part: Path) -> None:
 def test_its_wheelsets_slide_in_a_slip_brake_test_but_do_not_lock(part: Path) -> None:
     """Deeper than `uictest-stop` allows, which its scenario says."""
     [case] = load([part.parent / "slip-120.yaml"])
-    result = campaign.run_case(case, campaign.RecordingRequest("none", every=1.0)).result
+    result = campaign.run_stop(
+        campaign.Stop(case), campaign.RecordingRequest("none", every=1.0)
+    ).case_run.result
     assert result.met, result
     assert {each.id for each in result.criteria if each.status == "fail"} == {"wheelset-contact-energy"}
     assert {each.id for each in result.criteria} >= {"initial-adhesion", "minimum-slide", "locked-wheels"}

@@ -19,7 +19,6 @@ from uictest.api.arguments import (
 )
 from uictest.api.results import Results
 from uictest.plans import scenario as scenarios
-from uictest.running import campaign
 
 _ARGUMENTS = {
     "rail.condition": "rail",
@@ -106,25 +105,19 @@ def evaluate(
     if any(map(runs.is_series, paths)):
         _reject_statements(paths, [scenario, select, *statements, *preparation.values()])
         planned, stops = runs.read_recorded_series(paths, overrides, folders)
-        cases = [case for each in planned for case in each.cases]
-        batch = runs.RecordedBatch(stops, cases, words, planned, strict)
+        batch = runs.recorded_batch(stops, words, planned=planned, strict=strict)
     else:
         case_of = _case_of(scenario, select, [*statements, *overrides], folders)
         mapped, inputs = runs.named_map(str(channel_map), folders)
         stops = runs.read_files(paths, runs.prepared_map(mapped, preparation))
         cases = [stop.case(case_of, inputs) for stop in stops]
-        batch = runs.RecordedBatch(stops, cases, words, strict=strict)
-    return _judged(batch, request, output)
-
-
-def _judged(
-    batch: runs.RecordedBatch, request: campaign.RecordingRequest, output: PathName | None
-) -> Results:
-    judged = runs.judge_recordings(batch)
+        batch = runs.recorded_batch(stops, words, cases=cases, strict=strict)
+    content, recordings = runs.judge_recordings(batch)
     if output is None:
-        return Results(judged.content, recordings=judged.recordings)
-    published = runs.publish_run(judged.content, judged.wanted(request), Path(output), _FORMATS)
-    return Results(published.content, recordings=judged.recordings, folder=published.place)
+        return Results(content, recordings=recordings)
+    wanted = request.among(recordings, content.all_results)
+    published = runs.publish_run(content, wanted, Path(output), _FORMATS)
+    return Results(published.content, recordings=recordings, folder=published.place)
 
 
 def _case_of(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -25,6 +24,7 @@ from uictest.api.loading import selected
 from uictest.api.results import Results
 from uictest.core import recording
 from uictest.plans import scenario, series
+from uictest.running import campaign
 
 What = PathName | scenario.Case | Iterable[PathName | scenario.Case]
 FORMATS = ("csv", "html")
@@ -92,9 +92,9 @@ def run(
         "-o": output,
     }
     arguments = command_words([*found.words, *(["--strict"] if strict else [])], options)
-    reference = None if validated is None else runs.read_reference(Path(validated))
-    batch = runs.with_domains(runs.batch_of(chosen, of_series, arguments, seed), reference)
-    batch = replace(batch, recording=request, jobs=min(threads, batch.stops), strict=strict)
+    settings = campaign.RunSettings(threads, request, strict=strict)
+    validation = None if validated is None else Path(validated)
+    batch = runs.batch_of(chosen, of_series, arguments, seed, settings, validated=validation)
     return _in_memory(batch) if output is None else _published(batch, Path(output))
 
 
@@ -139,7 +139,9 @@ def _in_memory(batch: runs.Batch) -> Results:
     done = runs.run_batch(batch, runs.Observer(), keep=recordings.__setitem__)
     if done.interrupted:
         raise KeyboardInterrupt
-    return Results(done.content, recordings=recordings, cases=batch.all_cases, every=batch.recording.every)
+    return Results(
+        done.content, recordings=recordings, cases=batch.all_cases, every=batch.settings.recording.every
+    )
 
 
 def _published(batch: runs.Batch, output: Path) -> Results:

@@ -167,7 +167,7 @@ def sweep(
 
 
 def _finished(run: runs.SweepRun, *, keep: bool) -> SweepResults:
-    finished = runs.run_sweep(run, runs.SweepObserver())
+    finished = runs.run_sweep(run, runs.Observer())
     assert finished is not None  # there is one shard
     if keep:
         history.refresh_index(run.folder.parent)

@@ -32,12 +32,17 @@ def select_by_options(
         return runs.select_cases(cases, tag=tag)
 
 
-def drawn_first(cases: Sequence[scenario.Case], expression: str | None) -> frozenset[str]:
-    """Return the ids of the cases that `--draw` chooses. Raises typer.BadParameter if it chooses none."""
+def drawn_first(
+    cases: Sequence[scenario.Case], planned: Sequence[series.Series], expression: str | None
+) -> frozenset[str]:
+    """Return the ids of the cases that `--draw` chooses, of series too.
+
+    Raises typer.BadParameter if it chooses none.
+    """
     if expression is None:
         return frozenset()
     with malformed("--draw", expression):
-        chosen = frozenset(case.id for case in runs.select_cases(cases, expression))
+        chosen = frozenset(case.id for case in runs.select_cases(runs.all_cases(cases, planned), expression))
     if not chosen:
         raise typer.BadParameter(f"no selected case matches {expression!r}", param_hint="--draw")
     return chosen

@@ -1,4 +1,4 @@
-"""Progress of stops and of a compilation: a bar on a terminal, lines elsewhere."""
+"""Progress of stops and of a compilation on stderr: a bar on a terminal, lines elsewhere."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ import contextlib
 import sys
 import threading
 from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager
 from time import monotonic
 from typing import TYPE_CHECKING, Final
 
-from uictest import rig
+from uictest import rig, runs
 from uictest.cli.output import coloured, interactive, message
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 HEARTBEAT = 30.0  # seconds between two lines where there is no terminal
 
-Advance = Callable[[], None]
+Advance = Callable[[int], None]
 
 
 def error_console(colour: str = "auto") -> Console:
@@ -31,9 +32,9 @@ def error_console(colour: str = "auto") -> Console:
 
 @contextlib.contextmanager
 def progress(total: int, *, quiet: bool, unit: str = "cases", colour: str = "auto") -> Iterator[Advance]:
-    """Lend a function to call after each of `total` cases, or what `unit` says; it shows them on stderr."""
+    """Lend a function to call with how many more of `total` cases, or what `unit` says, are finished."""
     if quiet:
-        yield lambda: None
+        yield lambda count: None
     elif interactive(sys.stderr):
         with _bar(total, colour) as advance:
             yield advance
@@ -49,32 +50,30 @@ def _bar(total: int, colour: str) -> Iterator[Advance]:
     columns = (TextColumn("simulating"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=error_console(colour), transient=True) as bar:
         task = bar.add_task("simulating", total=total)
-        yield lambda: bar.advance(task)
+        yield lambda count: bar.advance(task, count)
 
 
 @contextlib.contextmanager
 def _heartbeat(total: int, unit: str) -> Iterator[Advance]:
-    done: list[None] = []
+    done = 0
     ended = threading.Event()
     started = monotonic()
 
     def beat() -> None:
         while not ended.wait(HEARTBEAT):
-            message(f"uictest: {len(done)} of {total} {unit} after {monotonic() - started:.0f} s")
+            message(f"uictest: {done} of {total} {unit} after {monotonic() - started:.0f} s")
+
+    def advance(count: int) -> None:
+        nonlocal done
+        done += count
 
     thread = threading.Thread(target=beat, name="heartbeat", daemon=True)
     thread.start()
     try:
-        yield lambda: done.append(None)
+        yield advance
     finally:
         ended.set()
         thread.join()
-
-
-def announce_in_process(*, foreign: bool, quiet: bool = False) -> None:
-    """Announce that foreign controllers, if there are any (`foreign`), can crash this process."""
-    if foreign and not quiet:
-        message("uictest: --in-process: controllers from outside are not isolated, a crash ends everything")
 
 
 _EVERY: Final = 5.0
@@ -141,3 +140,28 @@ class _Lines:
 
 def _announcement(title: str) -> str:
     return f"uictest: compiling {title}, once per installation..."
+
+
+class TerminalObserver(runs.Observer):
+    """Shows on stderr what is compiled and how far a simulation is; nothing if `quiet`."""
+
+    def __init__(self, *, quiet: bool = False, colour: str = "auto") -> None:
+        self._quiet = quiet
+        self._colour = colour
+
+    def foreign_in_process(self) -> None:
+        """Announce that controllers from outside can crash this process."""
+        if not self._quiet:
+            message(
+                "uictest: --in-process: controllers from outside are not isolated, a crash ends everything"
+            )
+
+    def compiling(self) -> AbstractContextManager[None]:
+        """Show the compilation of the rig."""
+        return compilation_shown(quiet=self._quiet, colour=self._colour)
+
+    def simulating(
+        self, count: int, finished: int = 0, unit: str = "cases"
+    ) -> AbstractContextManager[Advance]:
+        """Show the progress of the stops."""
+        return progress(count, quiet=self._quiet, unit=unit, colour=self._colour)

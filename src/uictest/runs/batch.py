@@ -1,21 +1,21 @@
-"""Cases and series from simulation to what reports show."""
+"""Cases and series, simulated or recorded, to what reports show."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from uictest import report
+from uictest import report, rig
 from uictest.analysis import comparison, validation
 from uictest.core import recording
-from uictest.judging import evaluation
-from uictest.plans import scenario, series
+from uictest.core.units import in_unit
+from uictest.judging import evaluation, series as judging_series
+from uictest.plans import scenario, series as series_plans
 from uictest.running import campaign
 from uictest.runs.drawing import TraceCollection
 from uictest.runs.observer import Observer
-from uictest.runs.series_runs import SeriesBatch, run_series
-from uictest.runs.validation.run import read_reference
+from uictest.runs.scenario_files import read_reference
 
 Keep = Callable[[str, recording.Recording], object]
 """Takes the id of a case and its recording."""
@@ -28,80 +28,106 @@ class Batch:
 
     Args:
         cases: to run.
+        series: to run behind the cases; each counts as one for `maxfail`.
         manifest: of the run.
-        parts: of every case, those of series too, by its id.
-        series: to run behind the cases.
-        recording: the cases to record.
-        jobs: number of threads.
-        maxfail: number of cases and series not as expected after which no further one is run.
-        in_process: whether controllers from outside run in this process.
-        real_time: whether their cycles are paced by the clock.
-        strict: whether a case is met only if all of its verdicts are settled, too.
+        subjects: descriptions of all cases, those of series too, by id.
+        settings: of all cases.
         baseline: to compare with, if any.
-        domains: whether cases, by id, lie in the domain of a validation; of those for which it was asked.
         drawn_first: ids of the cases whose stops a page draws before all others.
+        judge: returns what a recorded case came to; None where cases are simulated.
 
     """
 
     cases: Sequence[scenario.Case]
+    series: Sequence[series_plans.Series]
     manifest: report.RunManifest
-    parts: campaign.PartsOfCases
-    series: Sequence[series.Series] = ()
-    recording: campaign.RecordingRequest = field(default_factory=campaign.RecordingRequest)
-    jobs: int = 1
-    maxfail: int | None = None
-    in_process: bool = False
-    real_time: bool = False
-    strict: bool = False
+    subjects: Mapping[str, report.CaseDescription]
+    settings: campaign.RunSettings
     baseline: comparison.Baseline | None = None
-    domains: Mapping[str, evaluation.DomainOfValidity] = field(default_factory=dict)
     drawn_first: Collection[str] = ()
+    judge: Callable[[scenario.Case], campaign.CaseRun] | None = None
 
     @property
     def all_cases(self) -> list[scenario.Case]:
         """All cases, those of series too."""
-        return [*self.cases, *(case for each in self.series for case in each.cases)]
+        return all_cases(self.cases, self.series)
 
-    @property
-    def stops(self) -> int:
-        """How many stops all the cases have."""
-        return sum(case.scenario.repeat for case in self.all_cases)
+    def content(
+        self,
+        results: Sequence[evaluation.CaseResult],
+        judged: Sequence[judging_series.SeriesResult],
+        name: str = "",
+    ) -> report.RunContent:
+        """Return what reports show of results of the cases and series, but for traces and the baseline."""
+        return report.RunContent(
+            name,
+            results,
+            self.manifest,
+            complete=(len(results), len(judged)) == (len(self.cases), len(self.series)),
+            subjects=self.subjects,
+            series=judged,
+            drawn_first=self.drawn_first,
+        )
+
+
+def all_cases(cases: Iterable[scenario.Case], planned: Iterable[series_plans.Series]) -> list[scenario.Case]:
+    """Return cases and those of series."""
+    return [*cases, *(case for each in planned for case in each.cases)]
 
 
 def batch_of(
     cases: Sequence[scenario.Case],
-    planned: Sequence[series.Series],
+    planned: Sequence[series_plans.Series],
     arguments: Sequence[str],
     seed: int | None,
+    settings: campaign.RunSettings | None = None,
+    *,
+    validated: Path | None = None,
+    baseline: comparison.Baseline | None = None,
+    drawn_first: Collection[str] = (),
 ) -> Batch:
-    """Return the batch of cases and series that `arguments` select; all else is as by default."""
-    everything = [*cases, *(case for each in planned for case in each.cases)]
-    parts = campaign.parts_of_cases(everything)
-    manifest = report.run_manifest(
-        arguments, seed, _inputs(everything, planned), len(everything), parts.values()
-    )
-    return Batch(cases, manifest, parts, planned)
-
-
-def with_domains(batch: Batch, reference: validation.ValidationReference | None = None) -> Batch:
-    """Return a batch whose results say whether each case lies in the domain of a validation.
+    """Return the batch of cases and series to simulate.
 
     Args:
-        batch: of cases, of which each may name a validation.
-        reference: takes the place of those that the cases name.
+        cases: to run.
+        planned: series to run behind them.
+        arguments: of the command line, which selects these.
+        seed: that the command line gives to every case.
+        settings: of the run; their parts and domains are found here.
+        validated: the validation that says whether each case lies in its domain, in place of those that cases
+            name.
+        baseline: to compare with.
+        drawn_first: ids of the cases whose stops a page draws before all others.
 
-    Raises InvalidInputError where a validation that a case names cannot be read.
+    Raises InvalidInputError where a validation cannot be read.
     """
-    references = _references(batch) if reference is None else {case.id: reference for case in batch.all_cases}
-    domains = {case_id: each.domain_of(batch.parts[case_id]) for case_id, each in references.items()}
-    read = {each.file: each.sha256 for each in references.values()}
-    manifest = replace(batch.manifest, inputs={**batch.manifest.inputs, **read})
-    return replace(batch, manifest=manifest, domains=domains)
+    everything = all_cases(cases, planned)
+    references = _references(everything, validated)
+    parts = campaign.parts_of_cases(everything)
+    inputs = [*(case.inputs for case in everything), *(each.inputs for each in planned)]
+    read = {name: digest for each in inputs for name, digest in each.items()}
+    manifest = report.run_manifest(arguments, seed, read, len(everything), parts.values())
+    of_validations = {each.file: each.sha256 for each in references.values()}
+    return Batch(
+        cases,
+        planned,
+        replace(manifest, inputs={**manifest.inputs, **of_validations}),
+        campaign.descriptions_of(everything),
+        replace(
+            settings or campaign.RunSettings(),
+            parts=parts,
+            domains={case_id: each.domain_of(parts[case_id]) for case_id, each in references.items()},
+        ),
+        baseline,
+        drawn_first,
+    )
 
 
-def _references(batch: Batch) -> dict[str, validation.ValidationReference]:
-    """Return the validation of each case that names one, by its id; each file is read once."""
-    named = {case.id: case.scenario.validated for case in batch.all_cases}
+def _references(
+    cases: Sequence[scenario.Case], validated: Path | None
+) -> dict[str, validation.ValidationReference]:
+    """Return the validation of each case that has one, by its id; each file is read once."""
+    named = {case.id: validated or case.scenario.validated for case in cases}
     read = {path: read_reference(Path(path)) for path in dict.fromkeys(named.values()) if path is not None}
     return {case_id: read[path] for case_id, path in named.items() if path is not None}
 
@@ -126,86 +152,107 @@ def run_batch(
         draws_stops: whether a report will draw stops.
         keep: takes the recordings of cases.
     """
-    drawing = TraceCollection.of(batch.all_cases, batch.recording, batch.drawn_first, needed=draws_stops)
-    simulation = _Simulation(batch, observer, drawing, keep)
-    done = simulation.run(batch.cases, observer.case, batch.maxfail)
-    judged = _run_series(batch, done, simulation)
-    content = report.RunContent(
-        name,
-        done.results,
-        batch.manifest,
-        complete=(len(done.results), len(judged.results)) == (len(batch.cases), len(batch.series)),
-        subjects=campaign.descriptions_of(batch.all_cases),
-        series=judged.results,
-        drawn_first=batch.drawn_first,
+    settings = batch.settings
+    drawing = TraceCollection.of(
+        *(batch.all_cases, settings.recording, batch.drawn_first),
+        needed=draws_stops,
+        recorded=batch.judge is not None,
     )
-    interrupted = done.interrupted or judged.interrupted
-    everything = campaign.BatchResult(content.all_results, interrupted)
-    content = replace(content, traces=drawing.finish(everything, batch.jobs))
+
+    def run(cases: Sequence[scenario.Case], note: Note, maxfail: int | None) -> campaign.BatchResult:
+        def hand_on(case_run: campaign.CaseRun) -> None:
+            drawing.add(case_run)
+            result = case_run.result
+            if keep is not None and case_run.recording is not None and settings.recording.wants(result):
+                keep(result.id, case_run.recording)
+            note(case_run, batch.baseline.differences(result) if batch.baseline else ())
+
+        if batch.judge is not None:
+            return campaign.judge_cases(cases, batch.judge, settings, hand_on)
+        own = replace(settings, recording=drawing.recording, maxfail=maxfail)
+        return simulate_cases(cases, own, observer, hand_on)
+
+    done = run(batch.cases, observer.case, settings.maxfail)
+    missed = sum(not result.met for result in done.results)
+    judged = SeriesBatch(interrupted=done.interrupted)
+    if not done.interrupted:
+        judged = run_series(
+            batch.series,
+            lambda cases: run(cases, observer.case_of_series, None),
+            maxfail=None if settings.maxfail is None else settings.maxfail - missed,
+            show=observer.series,
+        )
+    content = batch.content(done.results, judged.results, name)
+    everything = campaign.BatchResult(content.all_results, judged.interrupted)
+    content = replace(content, traces=drawing.finish(everything, settings.jobs))
     if batch.baseline is not None:
         content = replace(content, baseline=batch.baseline.compare(content))
-    return BatchRun(content, interrupted)
+    return BatchRun(content, judged.interrupted)
 
 
-@dataclass(frozen=True, slots=True)
-class _Simulation:
-    """Runs cases of a batch, and hands on what comes of them."""
-
-    batch: Batch
-    observer: Observer
-    drawing: TraceCollection
-    keep: Keep | None
-
-    def run(
-        self, cases: Sequence[scenario.Case], note: Note, maxfail: int | None = None
-    ) -> campaign.BatchResult:
-        """Run some cases of the batch."""
-        if not cases:
-            return campaign.BatchResult()
-
-        def hand_on(case_run: campaign.CaseRun) -> None:
-            self._keep(case_run)
-            note(case_run, self._differences(case_run))
-
-        with self.observer.simulating(cases) as advance:
-            return campaign.run_cases(
-                cases,
-                jobs=self.batch.jobs,
-                recording=self.drawing.recording,
-                maxfail=maxfail,
-                parts=self.batch.parts,
-                domains=self.batch.domains,
-                in_process=self.batch.in_process,
-                real_time=self.batch.real_time,
-                strict=self.batch.strict,
-                on_result=hand_on,
-                on_stop=advance,
-            )
-
-    def _keep(self, case_run: campaign.CaseRun) -> None:
-        self.drawing.add(case_run)
-        wanted = self.batch.recording.wants(case_run.result)
-        if self.keep is not None and wanted and case_run.recording is not None:
-            self.keep(case_run.result.id, case_run.recording)
-
-    def _differences(self, case_run: campaign.CaseRun) -> Sequence[report.Difference]:
-        baseline = self.batch.baseline
-        return () if baseline is None else baseline.differences(case_run.result)
+def simulate_cases(
+    cases: Sequence[scenario.Case],
+    settings: campaign.RunSettings,
+    observer: Observer,
+    on_result: Callable[[campaign.CaseRun], None] = lambda case_run: None,
+    unit: str = "",
+) -> campaign.BatchResult:
+    """Run cases while an observer follows their stops; it counts them as `unit`s [default: what they are]."""
+    if not cases:
+        return campaign.BatchResult()
+    if settings.in_process and any(case.scenario.controller.program for case in cases):
+        observer.foreign_in_process()
+    with observer.compiling():
+        rig.load_stop()
+    stops = sum(case.scenario.repeat for case in cases)
+    unit = unit or ("stops" if stops > len(cases) else "cases")
+    with observer.simulating(stops, unit=unit) as advance:
+        return campaign.run_cases(cases, settings, on_result=on_result, on_stop=lambda: advance(1))
 
 
-def _run_series(batch: Batch, done: campaign.BatchResult, simulation: _Simulation) -> SeriesBatch:
-    """Run the series of a batch behind its cases, unless these end it."""
-    missed = sum(not result.met for result in done.results)
-    if done.interrupted or (batch.maxfail is not None and missed >= batch.maxfail):
-        return SeriesBatch()
-    return run_series(
-        batch.series,
-        lambda cases: simulation.run(cases, simulation.observer.case_of_series),
-        maxfail=None if batch.maxfail is None else batch.maxfail - missed,
-        show=simulation.observer.series,
-    )
+@dataclass(slots=True)
+class SeriesBatch:
+    """The series that were judged, and whether an interrupt ended them."""
+
+    results: list[judging_series.SeriesResult] = field(default_factory=list)
+    interrupted: bool = False
 
 
-def _inputs(cases: Sequence[scenario.Case], planned: Sequence[series.Series]) -> Mapping[str, str]:
-    read = [*(case.inputs for case in cases), *(each.inputs for each in planned)]
-    return {name: digest for each in read for name, digest in each.items()}
+def run_series(
+    planned: Sequence[series_plans.Series],
+    run: Callable[[Sequence[scenario.Case]], campaign.BatchResult],
+    *,
+    maxfail: int | None,
+    show: Callable[[judging_series.SeriesResult], None],
+) -> SeriesBatch:
+    """Run and judge series; after `maxfail` that are not as expected no further one is run.
+
+    A series whose stops an interrupt cut short is not judged.
+    """
+    batch = SeriesBatch()
+    for each in planned:
+        if maxfail is not None and sum(not result.met for result in batch.results) >= maxfail:
+            break
+        done = run(each.cases)
+        if done.interrupted:
+            batch.interrupted = True
+            break
+        result = judging_series.judge_series(each, cases_of(each, done.results))
+        batch.results.append(result)
+        show(result)
+    return batch
+
+
+def cases_of(
+    planned: series_plans.Series, results: Sequence[evaluation.CaseResult]
+) -> list[judging_series.SeriesCase]:
+    """Return the results of the cases of a series, with what each is for and its nominal speed."""
+    return [
+        judging_series.SeriesCase(stop.role, speed_kmh(stop), result, stop.rail)
+        for stop, result in zip(planned.stops, results, strict=True)
+    ]
+
+
+def speed_kmh(stop: series_plans.PlannedStop) -> float:
+    """Return the nominal initial speed of a stop in km/h, without the digits that conversion adds."""
+    return round(in_unit(stop.speed, "km/h"), 6)

@@ -20,7 +20,8 @@ class TraceCollection:
     A small batch is recorded while it runs. The cases to draw of a large batch are known only at its end:
     they are simulated again, which is cheap compared with the batch. So are those of a batch whose recordings
     are too coarse for the valves, because a page shows every command. Stops with controllers from outside are
-    not `repeatable`: all are recorded while they run, and the traces of those drawn are kept.
+    not `repeatable`: all are recorded while they run, and the traces of those drawn are kept. Those that were
+    `recorded` before have their traces anyway.
     """
 
     cases: Sequence[scenario.Case]
@@ -28,6 +29,7 @@ class TraceCollection:
     needed: bool
     repeatable: bool = True
     chosen: Collection[str] = ()
+    recorded: bool = False
     traces: dict[str, report.PlotTrace] = field(default_factory=dict)
 
     @classmethod
@@ -38,9 +40,10 @@ class TraceCollection:
         chosen: Collection[str] = (),
         *,
         needed: bool,
+        recorded: bool = False,
     ) -> TraceCollection:
         """Return the collection for some cases; those `chosen`, by id, are drawn before others."""
-        return cls(cases, request, needed, are_repeatable(cases), chosen)
+        return cls(cases, request, needed, recorded or are_repeatable(cases), chosen, recorded)
 
     @property
     def recording(self) -> campaign.RecordingRequest:
@@ -66,7 +69,7 @@ class TraceCollection:
     @property
     def _while_running(self) -> bool:
         small_and_fine = len(self.cases) <= report.DRAWN and self.request.every <= self._interval
-        return self.needed and (small_and_fine or not self.repeatable)
+        return self.needed and (small_and_fine or self.recorded or not self.repeatable)
 
     @property
     def _interval(self) -> float:

@@ -1,22 +1,34 @@
-"""What a run reports while it runs."""
+"""What a run, a sweep or a validation reports while it runs."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from pathlib import Path
 
 from uictest import report
 from uictest.judging import series
-from uictest.plans import scenario
 from uictest.running import campaign
 
 
 class Observer:
-    """Follows a run. This one shows nothing; a display overrides what it shows."""
+    """Follows what runs. This one shows nothing; a display overrides what it shows."""
 
-    def simulating(self, cases: Sequence[scenario.Case]) -> AbstractContextManager[Callable[[], None]]:
-        """Return a context in which these cases are simulated; it lends what is called after each stop."""
+    def foreign_in_process(self) -> None:
+        """Take note that controllers from outside run in this process."""
+
+    def compiling(self) -> AbstractContextManager[None]:
+        """Return a context in which the rig is compiled, where it is not yet."""
+        return nullcontext()
+
+    def simulating(
+        self, count: int, finished: int = 0, unit: str = "cases"
+    ) -> AbstractContextManager[Callable[[int], None]]:
+        """Return a context of a simulation; it lends what is called with how many more are finished.
+
+        `finished` of `count` are finished before; `unit` says what is counted.
+        """
         return nullcontext(_ignore)
 
     def case(self, run: campaign.CaseRun, differences: Sequence[report.Difference]) -> None:
@@ -28,8 +40,26 @@ class Observer:
     def series(self, result: series.SeriesResult) -> None:
         """Take note of a series whose last stop is finished."""
 
+    def damaged(self, chunk: Path) -> None:
+        """Take note of a damaged chunk of a sweep, which is computed again."""
 
-def _ignore() -> None:
+    def damaged_in_shard(self, chunk: Path) -> None:
+        """Take note of a damaged chunk of a shard, which is skipped."""
+
+    def merged(self, chunks: int, shard: Path) -> None:
+        """Take note of the chunks that a shard brought."""
+
+    def found(self, cases: int, missing: int) -> None:
+        """Take note of how many cases a sweep has, and how many of them are not finished yet."""
+
+    def waiting(self, address: str) -> None:
+        """Take note that a cluster has no workers yet."""
+
+    def searching(self, key: str) -> None:
+        """Take note that the frontier along a parameter is being searched."""
+
+
+def _ignore(count: int) -> None:
     pass
 
 

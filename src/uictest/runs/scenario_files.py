@@ -1,10 +1,11 @@
-"""Find and load the cases and the series that paths name."""
+"""Find and load the cases, the series and the validations that paths name."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from uictest.analysis import validation
 from uictest.plans import scenario, series
 from uictest.plans.scenario import yaml
 
@@ -136,3 +137,19 @@ def _require_distinct(loaded: Sequence[series.Series]) -> None:
                 f"a second series {each.id!r} in {where}: give every series a name of its own"
             )
         file_of[each.id] = each.path
+
+
+def reference_of(option: Path | None, named: str | None) -> validation.ValidationReference | None:
+    """Return the validation of an option, else that which a scenario names. Raises InvalidInputError."""
+    path = option or (None if named is None else Path(named))
+    return None if path is None else read_reference(path)
+
+
+def read_reference(path: Path) -> validation.ValidationReference:
+    """Return the validation that cases are held against. Raises InvalidInputError."""
+    try:
+        return validation.read_validation(path)
+    except OSError as error:
+        raise InvalidInputError(f"{path}: {error.strerror or error}") from error
+    except ValueError as error:
+        raise InvalidInputError(f"{path}: {error}") from error

@@ -11,7 +11,7 @@ from uictest import rig
 from uictest.core.measures import STOP_COLUMNS
 from uictest.plans.sweeps import programs_of
 from uictest.rig import run_in_process
-from uictest.running.campaign import RecordingRequest, run_case
+from uictest.running.campaign import RecordingRequest, Stop, run_stop
 from uictest.running.chunked import chunk_runner, cluster
 from uictest.running.chunked.manifest import program_digest
 
@@ -60,7 +60,8 @@ def test_a_controller_that_fails_is_a_row_and_the_others_keep_their_bits(load, k
             assert (row["outcome"], row["braking_distance_m"]) == ("error", None)
         else:
             case = written_out(plan, index, controller)
-            alone = run_case(case, RecordingRequest("none"), run_in_process).result
+            alone = run_stop(Stop(case), RecordingRequest("none"), run_in_process).case_run.result
+            assert alone.measures is not None
             assert row["braking_distance_m"] == alone.measures["braking_distance_m"]
             assert row["outcome"] == alone.outcome != "error"
 

@@ -10,7 +10,7 @@ from hypothesis import given, strategies as st
 
 from uictest import rig
 from uictest.analysis.summaries.worst import MOST, WorstCases, full_cases
-from uictest.running.campaign import RecordingRequest, run_cases
+from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
 from uictest.running.chunked.chunk import chunk_runner
 
 margins = st.one_of(st.none(), st.floats(-2.0, 2.0))
@@ -50,7 +50,7 @@ def test_a_case_examined_alone_has_the_figures_of_its_row(load):
     indices = [3, 0]
     block = runner.assembler.block(np.array(indices))
     by_lanes, _ = runner.results(block)
-    alone = run_cases(full_cases(plan, indices), recording=RecordingRequest("all"))
+    alone = run_cases(full_cases(plan, indices), RunSettings(recording=RecordingRequest("all")))
     for own, result in zip(by_lanes, alone.results, strict=True):
         assert (own.id, own.outcome) == (result.id, result.outcome)
         assert own.measures is not None and result.measures is not None

@@ -59,12 +59,9 @@ def simulated(config: pytest.Config, cases: Sequence[scenario.Case]) -> list[cam
     """Simulate and judge cases; the workers of pytest-xdist use one thread each. Raises KeyboardInterrupt."""
     case_runs: list[campaign.CaseRun] = []
     jobs = 1 if hasattr(config, "workerinput") else runs.available_processors()
-    request = campaign.RecordingRequest("none")
     strict: bool = config.getoption("uictest_strict")
-    if campaign.run_cases(
-        cases, jobs=jobs, recording=request, strict=strict, on_result=case_runs.append
-    ).interrupted:
-        raise KeyboardInterrupt
+    settings = campaign.RunSettings(jobs, campaign.RecordingRequest("none"), strict=strict)
+    campaign.run_cases(cases, settings, on_result=case_runs.append).whole()
     return case_runs
 
 

@@ -86,17 +86,18 @@ class Reports:
     def _write(self, *, complete: bool) -> Path:
         """Write the reports; return the folder of the run. Raises as :meth:`_load`, and OSError."""
         cases, planned = self._load()
-        batch = runs.with_domains(runs.batch_of(cases, planned, self._command(), self.changes.seed))
-        content = report.RunContent(
-            "",
-            [_with_parts(self._results[case.id], batch) for case in cases],
-            batch.manifest,
-            complete=complete,
-            subjects=campaign.descriptions_of(batch.all_cases),
-            series=[_series_with_parts(self._series[each.id], batch) for each in planned],
-        )
-        recordings = _recordings_of_missed(cases, content)
-        content = runs.with_traces(content, batch.all_cases, recordings, batch.recording.every)
+        settings = campaign.RunSettings(strict=self.changes.strict)
+        batch = runs.batch_of(cases, planned, self._command(), self.changes.seed, settings)
+        completed = batch.settings.completed
+        results = [completed(self._results[case.id]) for case in cases]
+        judged = [
+            replace(each, cases=tuple(replace(stop, case=completed(stop.case)) for stop in each.cases))
+            for each in (self._series[each.id] for each in planned)
+        ]
+        content = replace(batch.content(results, judged), complete=complete)
+        every = settings.recording.every
+        recordings = _recordings_of_missed(cases, content, every)
+        content = runs.with_traces(content, batch.all_cases, recordings, every)
         return runs.publish_run(content, recordings, self.output, _FORMATS).place
 
     def _load(self) -> tuple[list[scenario.Case], list[series_plans.Series]]:
@@ -128,17 +129,8 @@ class Reports:
         return ["run", *map(str, sorted(self._files)), *options]
 
 
-def _with_parts(result: evaluation.CaseResult, batch: runs.Batch) -> evaluation.CaseResult:
-    return replace(result, parts=batch.parts[result.id], domain_of_validity=batch.domains.get(result.id))
-
-
-def _series_with_parts(judged: series.SeriesResult, batch: runs.Batch) -> series.SeriesResult:
-    cases = [replace(each, case=_with_parts(each.case, batch)) for each in judged.cases]
-    return replace(judged, cases=tuple(cases))
-
-
 def _recordings_of_missed(
-    cases: Sequence[scenario.Case], content: report.RunContent
+    cases: Sequence[scenario.Case], content: report.RunContent, every: float
 ) -> dict[str, recording.Recording]:
     """Return recordings of the stops that are not as expected, simulated again: they come out the same.
 
@@ -146,6 +138,5 @@ def _recordings_of_missed(
     """
     missed = {result.id for result in content.results if not result.met and result.outcome != "error"}
     again = [case for case in cases if case.id in missed and case.scenario.controller.program is None]
-    every = campaign.RecordingRequest().every
     jobs = runs.available_processors()
     return {case.id: samples for case, samples in campaign.replay(again, every=every, jobs=jobs)}

@@ -84,8 +84,7 @@ def evaluate(
         preparation = (trigger, trigger_lead, raster, low_pass)
         _reject_options_of_recordings(files, [*stated, *preparation])
         planned, stops = runs.read_recorded_series(files, overrides, trusted)
-        cases = [case for each in planned for case in each.cases]
-        batch = runs.RecordedBatch(stops, cases, context.obj.arguments, planned, strict)
+        batch = runs.recorded_batch(stops, context.obj.arguments, planned=planned, strict=strict)
     else:
         mapped, inputs = recordings.channel_map(
             map_name, trusted, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
@@ -95,10 +94,10 @@ def evaluate(
         case_of = _case_of_stop(scenario, expression, statements, trusted)
         stops = runs.read_files(files, mapped)
         cases = [stop.case(case_of, inputs) for stop in stops]
-        batch = runs.RecordedBatch(stops, cases, context.obj.arguments, strict=strict)
+        batch = runs.recorded_batch(stops, context.obj.arguments, cases=cases, strict=strict)
     published = running.judge_and_show(batch, request, output, junit, display)
     if not quiet:
-        running.write_preparation(batch.files)
+        running.write_preparation(stops)
         message(f"uictest: {published.content.tally}; reports in {published.place}")
     return keep_newest(of_run(published), keep, published.place, "evaluate", named)
 

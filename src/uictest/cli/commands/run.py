@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -109,18 +108,19 @@ def run(
         return ExitCode.MET
     searched = () if expression or tag or last_failed else runs.scenario_paths(paths)
     accepted = running.open_baseline(choice, running.scope_of(selected, of_series, searched))
-    reference = None if validated is None else runs.read_reference(validated)
-    batch = runs.batch_of(selected, of_series, context.obj.arguments, seed)
-    batch = replace(
-        runs.with_domains(batch, reference),
-        recording=campaign.RecordingRequest(recorded.value, every=1.0 / record_rate),
-        jobs=min(jobs, batch.stops),
+    settings = campaign.RunSettings(
+        jobs,
+        campaign.RecordingRequest(recorded.value, every=1.0 / record_rate),
         maxfail=1 if exit_first else maxfail,
         in_process=in_process,
         real_time=real_time,
         strict=strict,
+    )
+    batch = runs.batch_of(
+        *(selected, of_series, context.obj.arguments, seed, settings),
+        validated=validated,
         baseline=None if accept else accepted,
-        drawn_first=drawn_first(batch.all_cases, draw),
+        drawn_first=drawn_first(selected, of_series, draw),
     )
     display = running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
     published = running.publish_and_show(

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from uictest import report, rig, runs
+from uictest import report, runs
 from uictest.analysis import validation
 from uictest.cli import options
 from uictest.cli.exit_codes import ExitCode, worst
 from uictest.cli.output import data, message, terminal_width
-from uictest.cli.progress import compilation_shown, progress
-from uictest.plans import scenario
+from uictest.cli.progress import TerminalObserver
 
 Files = Annotated[
     list[Path],
@@ -55,24 +52,12 @@ def validate(
         )
     codes = [ExitCode.MET]
     for plan in plans:
-        run = runs.run_validation(plan, jobs, trusted, _TerminalObserver())
+        run = runs.run_validation(plan, jobs, trusted, TerminalObserver())
         place = runs.publish_validation(run.validation, context.obj.arguments, output)
         _show(run.validation, shown, every_figure=verbosity > 0)
         message(f"uictest: {plan.name}: {validation.tally(run.validation)}; validation in {place}")
         codes.append(_code(run))
     return worst(*codes)
-
-
-class _TerminalObserver(runs.Observer):
-    """Shows on stderr how far the simulations are."""
-
-    @contextmanager
-    def simulating(self, cases: Sequence[scenario.Case]) -> Iterator[Callable[[], None]]:
-        with compilation_shown():
-            rig.load_stop()
-        stops = sum(case.scenario.repeat for case in cases)
-        with progress(stops, quiet=False, unit="stops") as advance:
-            yield advance
 
 
 def _show(validated: validation.Validation, shown: options.PlainFormat, *, every_figure: bool) -> None:

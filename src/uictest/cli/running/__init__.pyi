@@ -4,10 +4,10 @@ from .baseline import (
     open_baseline as open_baseline,
     scope_of as scope_of,
 )
-from .batch import (
+from .display import Display as Display, chosen_display as chosen_display
+from .last_failed import failed_last as failed_last
+from .shown_run import (
     judge_and_show as judge_and_show,
     publish_and_show as publish_and_show,
     write_preparation as write_preparation,
 )
-from .display import Display as Display, chosen_display as chosen_display
-from .last_failed import failed_last as failed_last

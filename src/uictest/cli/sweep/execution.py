@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from pathlib import Path
 from time import monotonic, perf_counter
@@ -14,14 +14,12 @@ from uictest.cli import progress as steps
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Format
 from uictest.cli.output import interactive, message
-from uictest.cli.progress import announce_in_process, compilation_shown
+from uictest.cli.progress import Advance, TerminalObserver
 from uictest.cli.sweep.display import show_annotations, show_result
 from uictest.core import files
 from uictest.report import counted
 from uictest.running import chunked
 from uictest.runs import history
-
-Advance = Callable[[int], None]
 
 
 @contextlib.contextmanager
@@ -81,23 +79,15 @@ class _Heartbeat:
         return f"uictest: {finished} of {self._total} cases, {rate:.0f} cases/s, {remaining:.0f} s left"
 
 
-class TerminalSweepObserver(runs.SweepObserver):
+class SweepObserver(TerminalObserver):
     """Writes messages and progress to stderr; if `quiet`, only what went wrong or was asked for.
 
     `merging` says whether the chunks of shards are merged.
     """
 
     def __init__(self, *, quiet: bool, merging: bool) -> None:
-        self._quiet = quiet
+        super().__init__(quiet=quiet)
         self._merging = merging
-
-    def foreign_in_process(self) -> None:
-        """Announce that controllers from outside can crash this process."""
-        announce_in_process(foreign=True, quiet=self._quiet)
-
-    def compiling(self) -> AbstractContextManager[None]:
-        """Show the compilation of the rig."""
-        return compilation_shown(quiet=self._quiet)
 
     def damaged(self, chunk: Path) -> None:
         """Report a damaged chunk."""
@@ -123,9 +113,11 @@ class TerminalSweepObserver(runs.SweepObserver):
         elif missing < cases and not self._quiet:
             message(f"uictest: {cases - missing} of {counted(cases, 'case')} are already finished")
 
-    def simulating(self, cases: int, finished: int) -> AbstractContextManager[Callable[[int], None]]:
+    def simulating(
+        self, count: int, finished: int = 0, unit: str = "cases"
+    ) -> AbstractContextManager[Advance]:
         """Show the progress of the cases."""
-        return sweep_progress(cases, finished, quiet=self._quiet)
+        return sweep_progress(count, finished, quiet=self._quiet)
 
     def waiting(self, address: str) -> None:
         """Report that a cluster has no workers yet."""
@@ -158,7 +150,7 @@ def execute_sweep(run: runs.SweepRun, shown: Format, junit: Path | None, *, quie
 
 def _run_and_show(run: runs.SweepRun, shown: Format, junit: Path | None, *, quiet: bool) -> ExitCode:
     started = perf_counter()
-    finished = runs.run_sweep(run, TerminalSweepObserver(quiet=quiet, merging=bool(run.merged)))
+    finished = runs.run_sweep(run, SweepObserver(quiet=quiet, merging=bool(run.merged)))
     if finished is None:
         message(f"uictest: {_shard_words(run)}")
         return ExitCode.MET

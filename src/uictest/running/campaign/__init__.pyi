@@ -1,13 +1,12 @@
 from .batch import (
     BatchResult as BatchResult,
     PartsOfCases as PartsOfCases,
+    RunSettings as RunSettings,
+    judge_cases as judge_cases,
     parts_of_cases as parts_of_cases,
     parts_of_recorded as parts_of_recorded,
     run_cases as run_cases,
-    with_parts as with_parts,
 )
-from .case import CaseRun as CaseRun, RecordingRequest as RecordingRequest, run_case as run_case
-from .repeats import Stop as Stop, case_of_stop as case_of_stop, stops_of as stops_of
 from .requirement_coverage import (
     CoveredRequirement as CoveredRequirement,
     Verifier as Verifier,
@@ -21,6 +20,13 @@ from .selection import (
     by_tag as by_tag,
     descriptions_of as descriptions_of,
     parse as parse,
+)
+from .stop import (
+    CaseRun as CaseRun,
+    RecordingRequest as RecordingRequest,
+    Stop as Stop,
+    StopRun as StopRun,
+    run_stop as run_stop,
 )
 from .threaded_map import (
     ThreadedMap as ThreadedMap,

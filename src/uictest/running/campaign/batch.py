@@ -9,8 +9,7 @@ from uictest import controllers, rig
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.rig import bench
-from uictest.running.campaign.case import CaseRun, RecordingRequest, run_case
-from uictest.running.campaign.repeats import CaseAssembly, Stop, StopRun, run_repeat, stops_of
+from uictest.running.campaign.stop import CaseAssembly, CaseRun, RecordingRequest, StopRun, run_stop, stops_of
 from uictest.running.campaign.threaded_map import ThreadedMap
 
 PartsOfCases = Mapping[str, Mapping[str, "evaluation.EffectivePart"]]
@@ -39,16 +38,40 @@ def parts_of_recorded(cases: Sequence[scenario.Case]) -> PartsOfCases:
     return {case.id: effective.of_recorded(case.scenario) for case in cases}
 
 
-def with_parts(case_run: CaseRun, parts: PartsOfCases) -> CaseRun:
-    """Return the run of a case with its parts in the result."""
-    result = case_run.result
-    return replace(case_run, result=replace(result, parts=parts.get(result.id, {})))
+@dataclass(frozen=True, slots=True)
+class RunSettings:
+    """How cases are run, and what their results say besides.
 
+    Args:
+        jobs: number of threads.
+        recording: the cases to record.
+        maxfail: number of missed cases after which no further case is reported, so that the results do not
+            depend on `jobs`.
+        in_process: whether controllers from outside run in this process, which they can then crash.
+        real_time: whether their cycles are paced by the clock; all must be programs at a socket.
+        strict: whether a case is met only if all of its verdicts are settled, too.
+        parts: effective parts by case id.
+        domains: whether cases, by id, lie in the domain of a validation; of those for which it was asked.
 
-def with_domain(case_run: CaseRun, domains: Mapping[str, evaluation.DomainOfValidity]) -> CaseRun:
-    """Return the run of a case with what is known of it and of the domain of a validation in the result."""
-    result = case_run.result
-    return replace(case_run, result=replace(result, domain_of_validity=domains.get(result.id)))
+    """
+
+    jobs: int = 1
+    recording: RecordingRequest = field(default_factory=RecordingRequest)
+    maxfail: int | None = None
+    in_process: bool = False
+    real_time: bool = False
+    strict: bool = False
+    parts: PartsOfCases = field(default_factory=dict)
+    domains: Mapping[str, evaluation.DomainOfValidity] = field(default_factory=dict)
+
+    def completed(self, result: evaluation.CaseResult) -> evaluation.CaseResult:
+        """Return the result of a case with what it says besides: its parts, its domain and `strict`."""
+        return replace(
+            result,
+            parts=self.parts.get(result.id, {}),
+            domain_of_validity=self.domains.get(result.id),
+            strict=self.strict,
+        )
 
 
 @dataclass(slots=True)
@@ -58,56 +81,54 @@ class BatchResult:
     results: list[evaluation.CaseResult] = field(default_factory=list)
     interrupted: bool = False
 
+    def whole(self) -> list[evaluation.CaseResult]:
+        """Return the results of all cases. Raises KeyboardInterrupt where an interrupt left some out."""
+        if self.interrupted:
+            raise KeyboardInterrupt
+        return self.results
+
 
 def run_cases(
     cases: Sequence[scenario.Case],
+    settings: RunSettings | None = None,
     *,
-    jobs: int = 1,
-    recording: RecordingRequest | None = None,
-    maxfail: int | None = None,
-    parts: PartsOfCases | None = None,
-    domains: Mapping[str, evaluation.DomainOfValidity] | None = None,
-    in_process: bool = False,
-    real_time: bool = False,
-    strict: bool = False,
     on_result: Callable[[CaseRun], None] = lambda case_run: None,
     on_stop: Callable[[], None] = lambda: None,
 ) -> BatchResult:
-    """Run the cases on `jobs` threads, and return the results in the order of the cases.
+    """Run the cases on threads, and return the results in the order of the cases.
 
     The stops of a case that repeats its stop run side by side as well. A KeyboardInterrupt ends the batch;
     the results of cases all of whose stops are finished are kept.
 
     Args:
         cases: to run.
-        jobs: number of threads.
-        recording: the cases to record [default: those that miss their expectation].
-        maxfail: number of missed cases after which no further case is reported, so that the results do not
-            depend on `jobs`.
-        parts: effective parts by case id, which are added to the results.
-        domains: whether each case, by id, lies in the domain of a validation; added likewise.
-        in_process: whether controllers from outside run in this process, which they can then crash.
-        real_time: whether their cycles are paced by the clock; all must be programs at a socket.
-        strict: whether a case is met only if all of its verdicts are settled, too.
+        settings: how to run them.
         on_result: called in this thread, once per case, in the order of the cases.
         on_stop: called in this thread, once per stop.
     """
+    settings = settings or RunSettings()
     batch = BatchResult()
-    request = recording or RecordingRequest()
 
     def report(case_run: CaseRun) -> None:
-        case_run = with_domain(with_parts(case_run, parts or {}), domains or {})
-        case_run = replace(case_run, result=replace(case_run.result, strict=strict))
+        case_run = replace(case_run, result=settings.completed(case_run.result))
         batch.results.append(case_run.result)
         on_result(case_run)
 
     with rig.Workers() as workers:
-        run = _runner(workers, in_process=in_process, real_time=real_time)
-        stop_runs = ThreadedMap(lambda stop: _run_stop(stop, request, run), stops_of(cases), jobs=jobs)
-        assembly = CaseAssembly(request)
+        run: rig.RunInputs = rig.run_in_process if settings.in_process else workers.run
+        run = rig.in_real_time(run) if settings.real_time else run
+        stop_runs = ThreadedMap(
+            lambda stop: run_stop(stop, settings.recording, run), stops_of(cases), jobs=settings.jobs
+        )
+        assembly = CaseAssembly(settings.recording)
         try:
             with stop_runs:
-                _report_until(maxfail, _assembled(stop_runs, assembly, on_stop), report)
+                missed = 0
+                for case_run in _assembled(stop_runs, assembly, on_stop):
+                    report(case_run)
+                    missed += not batch.results[-1].met
+                    if missed == settings.maxfail:
+                        break
         except KeyboardInterrupt:
             batch.interrupted = True
             # Before the child processes end: their stops would come out as errors.
@@ -117,10 +138,18 @@ def run_cases(
     return batch
 
 
-def _run_stop(stop: Stop, request: RecordingRequest, run: rig.RunInputs) -> StopRun:
-    if stop.case.scenario.repeat > 1:
-        return run_repeat(stop, request, run)
-    return StopRun(stop, run_case(stop.case, request, run))
+def judge_cases(
+    cases: Iterable[scenario.Case],
+    judge: Callable[[scenario.Case], CaseRun],
+    settings: RunSettings,
+    on_result: Callable[[CaseRun], None],
+) -> BatchResult:
+    """Return the results of recorded cases, which `judge` judges one after the other."""
+    batch = BatchResult()
+    for case_run in map(judge, cases):
+        batch.results.append(settings.completed(case_run.result))
+        on_result(replace(case_run, result=batch.results[-1]))
+    return batch
 
 
 def _assembled(
@@ -132,21 +161,3 @@ def _assembled(
         on_stop()
         yield from assembly.complete()
     yield from assembly.complete()
-
-
-def _runner(workers: rig.Workers, *, in_process: bool, real_time: bool) -> rig.RunInputs:
-    run: rig.RunInputs = rig.run_in_process if in_process else workers.run
-    return rig.in_real_time(run) if real_time else run
-
-
-def _report_until(
-    maxfail: int | None,
-    case_runs: Iterable[CaseRun],
-    report: Callable[[CaseRun], None],
-) -> None:
-    missed = 0
-    for case_run in case_runs:
-        report(case_run)
-        missed += not case_run.result.met
-        if missed == maxfail:
-            return

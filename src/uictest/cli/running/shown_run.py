@@ -1,45 +1,27 @@
-"""A batch of cases, recorded ones too, shown while it runs, and what follows its published reports."""
+"""A run, simulated or recorded, shown while it runs, and what follows its published reports."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from time import perf_counter
 
-from uictest import report, rig, runs
+from uictest import report, runs
 from uictest.cli.output import message
-from uictest.cli.progress import announce_in_process, compilation_shown, progress
+from uictest.cli.progress import TerminalObserver
 from uictest.cli.running.display import Display
 from uictest.core import files
 from uictest.judging import series
-from uictest.plans import scenario
 from uictest.running import campaign
 
 
-class TerminalObserver(runs.Observer):
+class RunObserver(TerminalObserver):
     """Shows results on stdout with a display; progress, warnings and tracebacks on stderr."""
 
-    def __init__(
-        self, display: Display, *, quiet: bool, verbose: bool, in_process: bool, colour: str = "auto"
-    ) -> None:
+    def __init__(self, display: Display, *, quiet: bool, verbose: bool, colour: str = "auto") -> None:
+        super().__init__(quiet=quiet, colour=colour)
         self._display = display
-        self._quiet = quiet
         self._verbose = verbose
-        self._in_process = in_process
-        self._colour = colour
-
-    @contextmanager
-    def simulating(self, cases: Sequence[scenario.Case]) -> Iterator[Callable[[], None]]:
-        """Announce what takes long or is dangerous, and show the progress of the stops."""
-        foreign = any(case.scenario.controller.program for case in cases)
-        announce_in_process(foreign=self._in_process and foreign, quiet=self._quiet)
-        with compilation_shown(quiet=self._quiet, colour=self._colour):
-            rig.load_stop()
-        stops = sum(case.scenario.repeat for case in cases)
-        unit = "stops" if stops > len(cases) else "cases"
-        with progress(stops, quiet=self._quiet, unit=unit, colour=self._colour) as advance:
-            yield advance
 
     def case(self, run: campaign.CaseRun, differences: Sequence[report.Difference]) -> None:
         """Show a case; with -v, the traceback of its crash, too."""
@@ -74,18 +56,13 @@ def publish_and_show(
     that were.
     """
     started = perf_counter()
-    observer = TerminalObserver(
-        display, quiet=quiet, verbose=verbose, in_process=batch.in_process, colour=colour
-    )
+    observer = RunObserver(display, quiet=quiet, verbose=verbose, colour=colour)
     published = runs.publish_batch(batch, output, formats, observer)
     if published is None:
         message("uictest: interrupted before the first case was finished; there is nothing to report")
         return None
-    content = published.content
-    _append_step_summary(content)
-    write_junit(junit, content)
-    display.end(content, published.document)
-    show_index_problem(published.index_problem)
+    _append_step_summary(published.content)
+    _show_published(published, junit, display)
     if not quiet:
         _sum_up(batch, published, perf_counter() - started)
     return published
@@ -99,16 +76,14 @@ def _append_step_summary(content: report.RunContent) -> None:
         message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
 
 
-def show_index_problem(problem: str) -> None:
-    """Show why the index of all runs was not written; nothing if it was."""
-    if problem:
-        message(f"uictest: {problem}")
-
-
-def write_junit(path: Path | None, content: report.RunContent) -> None:
-    """Write the file of `--junitxml`, if there is to be one. Raises OSError."""
-    if path is not None:
-        files.write_to(path, report.junit_text(report.suites_of_run(content)))
+def _show_published(published: runs.Published, junit: Path | None, display: Display) -> None:
+    """Write the file of `--junitxml`, if there is to be one, and show the rest of a run. Raises OSError."""
+    content = published.content
+    if junit is not None:
+        files.write_to(junit, report.junit_text(report.suites_of_run(content)))
+    display.end(content, published.document)
+    if published.index_problem:
+        message(f"uictest: {published.index_problem}")
 
 
 def _sum_up(batch: runs.Batch, published: runs.Published, seconds: float) -> None:
@@ -125,23 +100,21 @@ _FORMATS = ("html",)
 
 
 def judge_and_show(
-    batch: runs.RecordedBatch,
+    batch: runs.Batch,
     request: campaign.RecordingRequest,
     output: Path,
     junit: Path | None,
     display: Display,
 ) -> runs.Published:
-    """Judge every stop, publish the reports and show them. Raises OSError."""
-    judged = runs.judge_recordings(batch)
-    published = runs.publish_run(judged.content, judged.wanted(request), output, _FORMATS)
-    content = published.content
-    write_junit(junit, content)
-    for result in content.results:
+    """Judge recorded stops, publish the reports and show them. Raises OSError."""
+    content, recordings = runs.judge_recordings(batch)
+    wanted = request.among(recordings, content.all_results)
+    published = runs.publish_run(content, wanted, output, _FORMATS)
+    for result in published.content.results:
         display.case(result)
-    for each in content.series:
+    for each in published.content.series:
         display.series(each)
-    display.end(content, published.document)
-    show_index_problem(published.index_problem)
+    _show_published(published, junit, display)
     return published
 
 

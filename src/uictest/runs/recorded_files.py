@@ -1,4 +1,4 @@
-"""The files of recorded stops, read through a channel map."""
+"""The files of recorded stops, read through a channel map, one by one or as the stops of a series."""
 
 from __future__ import annotations
 
@@ -10,12 +10,13 @@ from typing import TypeVar
 
 from uictest.core.recording import formats
 from uictest.core.units import KILOMETRE_PER_HOUR
-from uictest.plans import scenario
+from uictest.plans import scenario, series
 from uictest.plans.scenario import yaml
 from uictest.recorded import field_data
-from uictest.runs.recorded.conditions import CaseOfStop
-from uictest.runs.scenario_files import InvalidInputError
+from uictest.runs.scenario_files import InvalidInputError, load_series
 
+CaseOfStop = Callable[[str, float], scenario.Case]
+"""Returns the case that a recorded stop is judged as: from its name and its initial speed, m/s."""
 Result = TypeVar("Result")
 _UNKNOWN_SPEED = 120.0 * KILOMETRE_PER_HOUR
 """m/s, for the scenario of a record whose speed cannot be used; its result is an error at any speed."""
@@ -149,3 +150,58 @@ def stop_names(paths: Sequence[Path]) -> list[str]:
         )
         names.append(name)
     return names
+
+
+def read_recorded_series(
+    paths: Sequence[Path], overrides: Sequence[str] | None, trusted: Sequence[Path] | None
+) -> tuple[list[series.Series], list[RecordedFile]]:
+    """Return series with one stop for each recording, and the recordings in the order of the stops.
+
+    Raises InvalidInputError where a recording cannot be read, or a stop names none, and ScenarioErrors.
+    """
+    read = [_recorded(each, trusted) for each in load_series(paths, overrides, None, trusted)]
+    return [planned for planned, _ in read], [file for _, files in read for file in files]
+
+
+def _recorded(
+    planned: series.Series, trusted: Sequence[Path] | None
+) -> tuple[series.Series, list[RecordedFile]]:
+    """Return a series whose stops are the recordings that its file names, and these."""
+    stops: list[series.PlannedStop] = []
+    files: list[RecordedFile] = []
+    for stop in planned.stops:
+        if stop.role == "bypassed":
+            continue  # simulated beside simulated stops only
+        own, inputs = _files_of(stop, trusted)
+        names = [f"{stop.case.id}.{file.name}" for file in own]
+        named = [replace(file, name=name) for file, name in zip(own, names, strict=True)]
+        stops += [_as_recorded(stop, file, inputs) for file in named]
+        files += named
+    _require_distinct_stops(planned, stops)
+    return replace(planned, stops=tuple(stops)), files
+
+
+def _as_recorded(stop: series.PlannedStop, file: RecordedFile, inputs: dict[str, str]) -> series.PlannedStop:
+    """Return a stop as the one in a recording."""
+    return replace(stop, rail="", case=file.case(lambda name, speed: stop.case, inputs))
+
+
+def _files_of(
+    stop: series.PlannedStop, trusted: Sequence[Path] | None
+) -> tuple[list[RecordedFile], dict[str, str]]:
+    """Return the recordings of a stop, and the files read besides them."""
+    if stop.recorded is None:
+        raise InvalidInputError(
+            f"{stop.case.id} names no recording: list them under `recordings` of its stops, or"
+            " simulate the series with 'uictest run'"
+        )
+    mapped, inputs = named_map(stop.recorded.channel_map, trusted)
+    return read_files(stop.recorded.files, mapped), inputs
+
+
+def _require_distinct_stops(planned: series.Series, stops: Sequence[series.PlannedStop]) -> None:
+    seen: set[str] = set()
+    for stop in stops:
+        if stop.case.id in seen:
+            raise InvalidInputError(f"{planned.path}: a second recorded stop {stop.case.id!r}")
+        seen.add(stop.case.id)

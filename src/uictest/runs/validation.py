@@ -18,8 +18,9 @@ from uictest.plans import scenario, validation as validation_plans
 from uictest.plans.scenario import yaml
 from uictest.recorded import field_data
 from uictest.running import campaign
+from uictest.runs.batch import simulate_cases
 from uictest.runs.observer import Observer
-from uictest.runs.recorded.files import RecordedFile, named_map, read_files
+from uictest.runs.recorded_files import RecordedFile, named_map, read_files
 from uictest.runs.scenario_files import InvalidInputError, is_series, load_series
 
 _DISTANCE: Final = "braking_distance_m"
@@ -165,7 +166,8 @@ def run_validation(
     """
     stops, read = recorded_stops(plan, trusted)
     usable = [stop for stop in stops if stop.file.stop is not None]
-    simulated = _simulated([stop.case for stop in usable], jobs, observer)
+    settings = campaign.RunSettings(jobs, campaign.RecordingRequest("none"))
+    simulated = simulate_cases([stop.case for stop in usable], settings, observer, unit="stops").whole()
     results = dict(zip((stop.case.id for stop in usable), simulated, strict=True))
     compared = [compared_stop(stop, results.get(stop.case.id)) for stop in stops]
     pairs = list(map(validation.StopUnderConditions, compared, map(conditions_of_stop, stops)))
@@ -187,16 +189,6 @@ def publish_validation(validated: validation.Validation, arguments: Sequence[str
         return folder.publish()
 
 
-def _simulated(cases: Sequence[scenario.Case], jobs: int, observer: Observer) -> list[evaluation.CaseResult]:
-    with observer.simulating(cases) as advance:
-        done = campaign.run_cases(
-            cases, jobs=jobs, recording=campaign.RecordingRequest("none"), on_stop=advance
-        )
-    if done.interrupted:
-        raise KeyboardInterrupt
-    return done.results
-
-
 def load_validations(
     paths: Sequence[Path], overrides: Sequence[str] | None = None, trusted: Sequence[Path] | None = None
 ) -> list[validation_plans.ValidationPlan]:
@@ -211,19 +203,3 @@ def load_validations(
         if not plan.comparisons:
             raise InvalidInputError(f"{plan.path}: no stop names a recording: list them under `recordings`")
     return plans
-
-
-def reference_of(option: Path | None, named: str | None) -> validation.ValidationReference | None:
-    """Return the validation of an option, else that which a scenario names. Raises InvalidInputError."""
-    path = option or (None if named is None else Path(named))
-    return None if path is None else read_reference(path)
-
-
-def read_reference(path: Path) -> validation.ValidationReference:
-    """Return the validation that cases are held against. Raises InvalidInputError."""
-    try:
-        return validation.read_validation(path)
-    except OSError as error:
-        raise InvalidInputError(f"{path}: {error.strerror or error}") from error
-    except ValueError as error:
-        raise InvalidInputError(f"{path}: {error}") from error

@@ -1,60 +1,21 @@
-"""Run the chunks of a sweep."""
+"""What is asked of a sweep besides its cases, and its chunks, run."""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from uictest import report, rig
-from uictest.analysis import validation
-from uictest.analysis.summaries import FrontierSearch
+from uictest.analysis import summaries, validation
+from uictest.plans import sweeps
+from uictest.plans.scenario import yaml
 from uictest.running import chunked
 from uictest.running.chunked import CaseSelection, ChangedInputsError, ChunkRunner, ChunkStore, Shard
+from uictest.runs.observer import Observer
 from uictest.runs.scenario_files import InvalidInputError
-
-
-class SweepObserver:
-    """Follows a sweep. This one shows nothing; a display overrides what it shows."""
-
-    def foreign_in_process(self) -> None:
-        """Take note that controllers from outside run in this process."""
-
-    def compiling(self) -> AbstractContextManager[None]:
-        """Return a context in which the rig is compiled, where it is not yet."""
-        return nullcontext()
-
-    def damaged(self, chunk: Path) -> None:
-        """Take note of a damaged chunk, which is computed again."""
-
-    def damaged_in_shard(self, chunk: Path) -> None:
-        """Take note of a damaged chunk of a shard, which is skipped."""
-
-    def merged(self, chunks: int, shard: Path) -> None:
-        """Take note of the chunks that a shard brought."""
-
-    def found(self, cases: int, missing: int) -> None:
-        """Take note of how many cases there are, and how many of them are not finished yet."""
-
-    def simulating(self, cases: int, finished: int) -> AbstractContextManager[Callable[[int], None]]:
-        """Return a context of the simulation; it lends what is called with the cases of each chunk.
-
-        `finished` of `cases` are finished before.
-        """
-        return nullcontext(_ignore)
-
-    def waiting(self, address: str) -> None:
-        """Take note that a cluster has no workers yet."""
-
-    def searching(self, key: str) -> None:
-        """Take note that the frontier along a parameter is being searched."""
-
-
-def _ignore(cases: int) -> None:
-    pass
 
 
 @dataclass(frozen=True)
@@ -73,7 +34,7 @@ class SweepRun:
     maxfail: int | None = None
     pair: tuple[str, str] | None = None
     measures: Sequence[str] = ()
-    search: FrontierSearch | None = None
+    search: summaries.FrontierSearch | None = None
     reference: validation.ValidationReference | None = None
     """Validation that the cases are held against."""
     formats: Sequence[str] | None = None
@@ -99,7 +60,7 @@ class MaxfailReached(Exception):  # noqa: N818 - nothing went wrong with the pro
     """`maxfail` cases missed their expectation; the message gives their number and the first."""
 
 
-def run_missing_chunks(run: SweepRun, store: ChunkStore, observer: SweepObserver) -> None:
+def run_missing_chunks(run: SweepRun, store: ChunkStore, observer: Observer) -> None:
     """Run the chunks of the run's shard that are not finished, and write them to the store.
 
     Finished chunks are kept whatever is raised: InvalidInputError where the folder holds the chunks of other
@@ -129,7 +90,7 @@ def _cases_in(run: SweepRun, numbers: Sequence[int]) -> int:
     return sum(run.selection.chunk(number).size for number in numbers)
 
 
-def _open_store(run: SweepRun, store: ChunkStore, observer: SweepObserver) -> None:
+def _open_store(run: SweepRun, store: ChunkStore, observer: Observer) -> None:
     try:
         store.open(run.manifest, restart=run.restart)
     except ChangedInputsError as error:
@@ -142,7 +103,7 @@ def _open_store(run: SweepRun, store: ChunkStore, observer: SweepObserver) -> No
         _merge_shard(store, folder, observer)
 
 
-def _merge_shard(store: ChunkStore, folder: Path, observer: SweepObserver) -> None:
+def _merge_shard(store: ChunkStore, folder: Path, observer: Observer) -> None:
     try:
         merged_chunks, damaged = store.merge(ChunkStore(folder))
     except ChangedInputsError as error:
@@ -153,7 +114,7 @@ def _merge_shard(store: ChunkStore, folder: Path, observer: SweepObserver) -> No
 
 
 def _run_chunks(
-    run: SweepRun, numbers: Sequence[int], write_chunk: chunked.WriteChunk, observer: SweepObserver
+    run: SweepRun, numbers: Sequence[int], write_chunk: chunked.WriteChunk, observer: Observer
 ) -> None:
     if run.cluster is None:
         runner = prepared_runner(run, observer)
@@ -167,7 +128,7 @@ def _run_on_cluster(
     address: str,
     numbers: Sequence[int],
     write_chunk: chunked.WriteChunk,
-    observer: SweepObserver,
+    observer: Observer,
 ) -> None:
     try:
         chunked.run_on_cluster(
@@ -181,7 +142,7 @@ def _run_on_cluster(
         raise OSError(str(error)) from error
 
 
-def prepared_runner(run: SweepRun, observer: SweepObserver) -> ChunkRunner:
+def prepared_runner(run: SweepRun, observer: Observer) -> ChunkRunner:
     """Return a runner with a compiled rig."""
     runner = chunked.chunk_runner(run.selection.plan, run.run_block)
     with observer.compiling():
@@ -223,3 +184,40 @@ def _missed(content: bytes) -> list[tuple[str, str, str]]:
     columns = pq.read_table(io.BytesIO(content), columns=names).to_pydict()
     rows = zip(*(columns[name] for name in names), strict=True)
     return [(outcome, name, reason) for met, outcome, name, reason in rows if not met]
+
+
+class ToleranceError(ValueError):
+    """A tolerance of a frontier that is no number with a unit."""
+
+
+def first_pair(plan: sweeps.Plan) -> tuple[str, str] | None:
+    """Return the first two parameters with several listed values, None without two of them."""
+    listed = [key for key, values in plan.listed().items() if len(values) > 1]
+    return (listed[0], listed[1]) if len(listed) > 1 else None
+
+
+def measure_names(names: Sequence[str] | None) -> tuple[str, ...]:
+    """Return columns of measures, else the braking distance. Raises ValueError for another name."""
+    columns = chunked.measure_columns()
+    for name in names or ():
+        if name not in columns:
+            raise ValueError(f"no measure {name!r}; {yaml.suggestion(name, columns)}")
+    return tuple(dict.fromkeys(names or ("braking_distance_m",)))
+
+
+def frontier_search(
+    plan: sweeps.Plan, key: str | None, tolerance: str | None
+) -> summaries.FrontierSearch | None:
+    """Return the search of a frontier along a parameter.
+
+    Raises FrontierError for the parameter, ToleranceError for the tolerance.
+    """
+    if key is None:
+        return None
+    try:
+        width = None if tolerance is None else yaml.parse_decimal_quantity(tolerance)
+        return summaries.FrontierSearch(plan, key, width)
+    except summaries.FrontierError:
+        raise
+    except ValueError as error:
+        raise ToleranceError(str(error)) from error

@@ -1,0 +1,180 @@
+"""One stop of a case, simulated and judged; the stops of a case, put together."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from time import perf_counter
+from typing import Any, Literal, NamedTuple
+
+from uictest import rig
+from uictest.controllers import ControllerError
+from uictest.core.recording import Recording
+from uictest.judging import evaluation
+from uictest.plans import scenario
+from uictest.rig import bench
+
+
+@dataclass(frozen=True, slots=True)
+class RecordingRequest:
+    """Cases to record (`failed`: those that miss their expectation), and the interval of samples, s."""
+
+    cases: Literal["all", "failed", "none"] = "failed"
+    every: float = 0.01
+
+    def wants(self, result: evaluation.CaseResult) -> bool:
+        """Return whether to record a case with this result."""
+        return self.cases == "all" or (self.cases == "failed" and not result.met)
+
+    def among(
+        self, recordings: Mapping[str, Recording], results: Iterable[evaluation.CaseResult]
+    ) -> dict[str, Recording]:
+        """Return those of some recordings, by id, whose cases are to be recorded."""
+        wanted = {result.id for result in results if self.wants(result)}
+        return {name: samples for name, samples in recordings.items() if name in wanted}
+
+
+@dataclass(frozen=True, slots=True)
+class CaseRun:
+    """A case's result, the recording of its stop if there is one, and the traceback of a crash."""
+
+    result: evaluation.CaseResult
+    recording: Recording | None = None
+    traceback: str = ""
+
+
+class Stop(NamedTuple):
+    """One stop of a case; `place` counts its seeds from 0."""
+
+    case: scenario.Case
+    place: int = 0
+
+    @property
+    def seed(self) -> int:
+        """The seed of the stop."""
+        return self.case.scenario.seed + self.place
+
+    @property
+    def is_repeated(self) -> bool:
+        """Whether its case has other stops beside it."""
+        return self.case.scenario.repeat > 1
+
+    @property
+    def alone(self) -> scenario.Case:
+        """The case that is this stop alone: under the same name, with its own seed."""
+        if not self.is_repeated:
+            return self.case
+        changes = {"seed": self.seed, "repeat": 1}
+        return replace(self.case, scenario=self.case.scenario.model_copy(update=changes))
+
+
+@dataclass(frozen=True, slots=True)
+class StopRun:
+    """A stop and its result; where its case repeats it, with the records that all stops are judged by."""
+
+    stop: Stop
+    case_run: CaseRun
+    records: tuple[Any, ...] = ()
+
+
+def stops_of(cases: Iterable[scenario.Case]) -> Iterator[Stop]:
+    """Yield every stop of every case, in order of cases and seeds."""
+    for case in cases:
+        yield from (Stop(case, place) for place in range(case.scenario.repeat))
+
+
+def run_stop(stop: Stop, request: RecordingRequest, run: rig.RunInputs | None = None) -> StopRun:
+    """Simulate and judge one stop. An exception becomes a result with the outcome `error`.
+
+    `run` runs the stop, see :func:`uictest.rig.simulate`. Of the stops of a case only the first is recorded.
+    """
+    started = perf_counter()
+    case = stop.alone
+    try:
+        case = bench.identified(case)
+        simulated: rig.SimulatedStop = rig.simulate(case, _interval(stop, request), run)
+        records = simulated.measures, simulated.wheelset_measures
+        result = evaluation.evaluate_simulated(
+            *(case, *records, perf_counter() - started),
+            explain=not stop.is_repeated,
+            response_times=simulated.response_times,
+        )
+        result = replace(
+            result,
+            controller_version=simulated.controller_version,
+            case_sha256=simulated.case_sha256,
+            noise_key=simulated.noise_key,
+        )
+        if stop.is_repeated:
+            judged = records if result.outcome != "error" else ()
+            return StopRun(stop, CaseRun(result, _with_seed(simulated.recording, stop)), judged)
+        if request.wants(result) and simulated.recording is None:
+            # A stop is reproducible to the bit, so it can be recorded once the case is known to have missed.
+            simulated = rig.simulate(case, request.every, run)
+        return StopRun(stop, CaseRun(result, simulated.recording if request.wants(result) else None))
+    except Exception as error:
+        return StopRun(stop, _failed(case, error, perf_counter() - started))
+
+
+def _interval(stop: Stop, request: RecordingRequest) -> float | None:
+    """Return the interval of samples of a stop that is recorded at once, s; None if it is not.
+
+    A controller from outside may answer differently when its stop is repeated; and whether a repeated case
+    misses its expectation is known when all of its stops are there.
+    """
+    if stop.is_repeated:
+        at_once = stop.place == 0
+    else:
+        at_once = request.cases == "all" or stop.case.scenario.controller.program is not None
+    return request.every if at_once and request.cases != "none" else None
+
+
+def _failed(case: scenario.Case, error: Exception, duration: float) -> CaseRun:
+    """Return the result of a stop that ended in an exception after so many seconds."""
+    reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    of_controller = isinstance(error, ControllerError)
+    result = evaluation.error_result(case, f"controller: {error}" if of_controller else reason, duration)
+    if of_controller:
+        result = replace(result, case_sha256=rig.sha256_of_case(case))
+    return CaseRun(result, traceback="".join(traceback.format_exception(error)))
+
+
+def _with_seed(samples: Recording | None, stop: Stop) -> Recording | None:
+    """Return a recording that says which of the stops of its case it is."""
+    if samples is None:
+        return None
+    which = f"{stop.seed}, the first of {stop.case.scenario.repeat} stops"
+    return replace(samples, metadata={**samples.metadata, "seed": which})
+
+
+@dataclass(slots=True)
+class CaseAssembly:
+    """Puts the stops of cases together, in whatever order they finish."""
+
+    request: RecordingRequest
+    _runs: dict[str, dict[int, StopRun]] = field(default_factory=dict)
+
+    def add(self, run: StopRun) -> None:
+        """Add a stop that is finished."""
+        self._runs.setdefault(run.stop.case.id, {})[run.stop.place] = run
+
+    def complete(self) -> Iterator[CaseRun]:
+        """Yield the cases all of whose stops are there, each once."""
+        for case_id, runs in list(self._runs.items()):
+            if len(runs) == next(iter(runs.values())).stop.case.scenario.repeat:
+                case_run = self._together([runs[place] for place in sorted(runs)])
+                # Not before: an interrupt while the stops are judged does not lose them.
+                del self._runs[case_id]
+                yield case_run
+
+    def _together(self, runs: Sequence[StopRun]) -> CaseRun:
+        stop, first = runs[0].stop, runs[0].case_run
+        if not stop.is_repeated:
+            return first
+        repeats = [
+            evaluation.SimulatedRepeat(run.stop.seed, run.case_run.result, *run.records) for run in runs
+        ]
+        result = evaluation.evaluate_repeats(stop.case, repeats)
+        crash = next((text for run in runs if (text := run.case_run.traceback)), "")
+        return CaseRun(result, first.recording if self.request.wants(result) else None, crash)

@@ -1,1 +1,0 @@
-"""Sweeps: their chunks, and the results and reports of a finished one."""

@@ -1,1 +1,0 @@
-"""Recorded stops of validation and series files, run beside their simulations."""
