@@ -19,6 +19,7 @@ from uictest.api.arguments import (
 )
 from uictest.core import recording
 from uictest.plans import scenario, series
+from uictest.running import campaign
 
 
 def load(
@@ -65,9 +66,9 @@ def selected(
 ) -> tuple[list[scenario.Case], list[series.Series]]:
     """Return the selected cases and series. Raises ValueError where there are none."""
     with expression_of("select", select):
-        chosen, of_series = runs.select_cases(cases, select), runs.select_series(planned, select)
+        chosen, of_series = campaign.selected(cases, select), campaign.selected(planned, select)
     with expression_of("tag", tag):
-        chosen, of_series = runs.select_cases(chosen, tag=tag), runs.select_series(of_series, tag=tag)
+        chosen, of_series = campaign.selected(chosen, tag=tag), campaign.selected(of_series, tag=tag)
     if not (chosen or of_series):
         raise ValueError(runs.nothing_selected(cases, planned))
     return chosen, of_series

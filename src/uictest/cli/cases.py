@@ -23,13 +23,16 @@ _CASES: Final[tuple[Column[scenario.Case], ...]] = (
 
 
 def select_by_options(
-    cases: Sequence[scenario.Case], expression: str | None, tag: str | None
-) -> list[scenario.Case]:
-    """Return the cases that `-k` and `-m` select. Raises typer.BadParameter for a malformed expression."""
+    among: Sequence[campaign.Selectable], expression: str | None, tag: str | None
+) -> list[campaign.Selectable]:
+    """Return the cases or series that `-k` and `-m` select.
+
+    Raises typer.BadParameter for a malformed expression.
+    """
     with malformed("-k", expression):
-        cases = runs.select_cases(cases, expression)
+        found = campaign.selected(among, expression)
     with malformed("-m", tag):
-        return runs.select_cases(cases, tag=tag)
+        return campaign.selected(found, tag=tag)
 
 
 def drawn_first(
@@ -42,7 +45,7 @@ def drawn_first(
     if expression is None:
         return frozenset()
     with malformed("--draw", expression):
-        chosen = frozenset(case.id for case in runs.select_cases(runs.all_cases(cases, planned), expression))
+        chosen = frozenset(case.id for case in campaign.selected(runs.all_cases(cases, planned), expression))
     if not chosen:
         raise typer.BadParameter(f"no selected case matches {expression!r}", param_hint="--draw")
     return chosen
@@ -85,16 +88,6 @@ def _description(case: scenario.Case) -> dict[str, Any]:
         "expect": case.scenario.expect,
         "parameters": dict(case.parameters),
     }
-
-
-def select_series_by_options(
-    loaded: Sequence[series.Series], expression: str | None, tag: str | None
-) -> list[series.Series]:
-    """Return the series that `-k` and `-m` select. Raises typer.BadParameter for a malformed expression."""
-    with malformed("-k", expression):
-        loaded = runs.select_series(loaded, expression)
-    with malformed("-m", tag):
-        return runs.select_series(loaded, tag=tag)
 
 
 def series_lines(selected: Sequence[series.Series], *, described: bool = False) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -226,10 +227,17 @@ ToleranceTexts = Annotated[
 
 def tolerances_of(texts: list[str] | None) -> comparison.Tolerances:
     """Return the tolerances that `--tolerance` asks for. Raises typer.BadParameter."""
-    try:
+    with rejected("--tolerance"):
         return comparison.Tolerances.read(texts or ())
-    except ValueError as error:
-        raise typer.BadParameter(str(error), param_hint="--tolerance") from error
+
+
+@contextmanager
+def rejected(option: str, kind: type[ValueError] = ValueError) -> Iterator[None]:
+    """Let an error of this kind be a typer.BadParameter of an option."""
+    try:
+        yield
+    except kind as error:
+        raise typer.BadParameter(str(error), param_hint=option) from error
 
 
 def junit_file(path: Path | None, output: Path) -> Path | None:

@@ -146,22 +146,22 @@ class TerminalObserver(runs.Observer):
     """Shows on stderr what is compiled and how far a simulation is; nothing if `quiet`."""
 
     def __init__(self, *, quiet: bool = False, colour: str = "auto") -> None:
-        self._quiet = quiet
+        self.quiet = quiet
         self._colour = colour
 
     def foreign_in_process(self) -> None:
         """Announce that controllers from outside can crash this process."""
-        if not self._quiet:
+        if not self.quiet:
             message(
                 "uictest: --in-process: controllers from outside are not isolated, a crash ends everything"
             )
 
     def compiling(self) -> AbstractContextManager[None]:
         """Show the compilation of the rig."""
-        return compilation_shown(quiet=self._quiet, colour=self._colour)
+        return compilation_shown(quiet=self.quiet, colour=self._colour)
 
     def simulating(
         self, count: int, finished: int = 0, unit: str = "cases"
     ) -> AbstractContextManager[Advance]:
         """Show the progress of the stops."""
-        return progress(count, quiet=self._quiet, unit=unit, colour=self._colour)
+        return progress(count, quiet=self.quiet, unit=unit, colour=self._colour)

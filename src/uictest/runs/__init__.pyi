@@ -33,20 +33,18 @@ from .scenario_files import (
     DEFAULT_FOLDER as DEFAULT_FOLDER,
     InvalidInputError as InvalidInputError,
     is_series as is_series,
+    is_sweep as is_sweep,
     load_cases as load_cases,
     load_cases_and_series as load_cases_and_series,
     load_series as load_series,
-    read_reference as read_reference,
-    reference_of as reference_of,
-    scenario_paths as scenario_paths,
-    series_files as series_files,
-)
-from .selection import (
     nothing_selected as nothing_selected,
     only_case as only_case,
+    read_reference as read_reference,
+    reference_of as reference_of,
     result_ids as result_ids,
-    select_cases as select_cases,
-    select_series as select_series,
+    scenario_paths as scenario_paths,
+    series_files as series_files,
+    sweep_files as sweep_files,
 )
 from .sweep import FinishedSweep as FinishedSweep, run_sweep as run_sweep
 from .sweep_chunks import (

@@ -1,13 +1,15 @@
-"""Find and load the cases, the series and the validations that paths name."""
+"""Find, load and select the cases, the series and the validations that paths name."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
+from uictest import report
 from uictest.analysis import validation
 from uictest.plans import scenario, series
 from uictest.plans.scenario import yaml
+from uictest.running import campaign
 
 
 class InvalidInputError(ValueError):
@@ -88,19 +90,30 @@ def is_series(path: Path) -> bool:
     return path.name.endswith(scenario.SERIES_SUFFIXES)
 
 
+def is_sweep(path: Path) -> bool:
+    """Return whether a path names a sweep file."""
+    return path.name.endswith(scenario.SWEEP_SUFFIXES)
+
+
 def series_files(paths: Sequence[Path]) -> Iterator[Path]:
     """Yield the series files among the paths, and those below folders that are not hidden, each once."""
+    return _files(paths, "*.series.y*ml", is_series)
+
+
+def sweep_files(paths: Sequence[Path]) -> Iterator[Path]:
+    """Yield the sweep files among the paths, and those below folders that are not hidden, each once."""
+    return _files(paths, "*.sweep.y*ml", is_sweep)
+
+
+def _files(paths: Sequence[Path], pattern: str, is_one: Callable[[Path], bool]) -> Iterator[Path]:
     seen: set[Path] = set()
     for path in paths:
-        for file in _below(path) if path.is_dir() else ([path] if is_series(path) else []):
+        below = sorted(path.rglob(pattern), key=Path.as_posix) if path.is_dir() else []
+        shown = (each for each in below if not _hidden(each.relative_to(path)))
+        for file in filter(is_one, shown if path.is_dir() else [path]):
             if file.absolute() not in seen:
                 seen.add(file.absolute())
                 yield file
-
-
-def _below(folder: Path) -> list[Path]:
-    found = sorted(folder.rglob("*.series.y*ml"), key=Path.as_posix)
-    return [each for each in found if is_series(each) and not _hidden(each.relative_to(folder))]
 
 
 def _hidden(path: Path) -> bool:
@@ -137,6 +150,45 @@ def _require_distinct(loaded: Sequence[series.Series]) -> None:
                 f"a second series {each.id!r} in {where}: give every series a name of its own"
             )
         file_of[each.id] = each.path
+
+
+def result_ids(content: report.RunContent, expression: str) -> frozenset[str]:
+    """Return the ids of the cases of a finished run that an expression (`-k`) selects.
+
+    Raises ExpressionError.
+    """
+    holds = campaign.parse(expression)
+    names = {
+        each.id: [each.id, Path(each.scenario).stem, *content.subject(each.id).tags]
+        for each in content.all_results
+    }
+    return frozenset(name for name, own in names.items() if holds(campaign.mentioned_in(own)))
+
+
+def nothing_selected(cases: Sequence[scenario.Case], planned: Sequence[series.Series] = ()) -> str:
+    """Return the message for an empty selection, with the number of cases and series and their tags."""
+    of_series = {tag for each in planned for tag in each.file.tags}
+    tags = sorted({tag for case in cases for tag in case.scenario.tags} | of_series)
+    among = f"{report.counted(len(cases), 'case')}{f' and {len(planned)} series' if planned else ''}"
+    return f"nothing selected among {among}; their tags: {', '.join(tags) or 'none'}"
+
+
+def only_case(
+    path: Path,
+    expression: str | None,
+    overrides: Sequence[str],
+    trusted: Sequence[Path] | None,
+    how: str = "choose with -k",
+) -> scenario.Case:
+    """Return the one case of a scenario file; `how` says how to choose one.
+
+    Raises InvalidInputError where there are several or none, ScenarioErrors, ExpressionError.
+    """
+    cases = campaign.selected(load_cases([path], overrides, None, trusted), expression)
+    if len(cases) != 1:
+        ids = ", ".join(case.id for case in cases[:8]) or "none is selected"
+        raise InvalidInputError(f"{path} has {len(cases)} cases where one is needed ({ids}); {how}")
+    return cases[0]
 
 
 def reference_of(option: Path | None, named: str | None) -> validation.ValidationReference | None:

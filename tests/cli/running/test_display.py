@@ -50,7 +50,7 @@ def _shown(terminal, colour=Colour.AUTO, *, quiet=False):
     with redirect_stdout(terminal):
         display = chosen_display(Format.TEXT, colour, quiet=quiet, verbose=False)
         for result in (MET, MISSED):
-            display.case(result)
+            display.show(result)
         display.end(RunContent("run", [MET, MISSED]), "{}")
     return terminal.getvalue()
 

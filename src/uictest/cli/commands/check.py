@@ -10,7 +10,6 @@ from typing import Annotated
 import typer
 
 from uictest import report, runs
-from uictest.cli import sweep as sweeping
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import CheckFormat, Format, Paths, Trusted, Verbosity
 from uictest.cli.output import data, message
@@ -30,7 +29,7 @@ def check(
     """Validate scenario, sweep and series files and what they refer to. Every error comes with its place."""
     places = runs.scenario_paths(paths)
     errors, counts = _scenarios([path for path in places if not _is_of_other_kind(path)], trusted or ())
-    sweep_paths, series_paths = list(sweeping.sweep_files(places)), list(runs.series_files(places))
+    sweep_paths, series_paths = list(runs.sweep_files(places)), list(runs.series_files(places))
     for path, load in [
         *((each, _load_sweep) for each in sweep_paths),
         *((each, _load_series) for each in series_paths),
@@ -77,7 +76,7 @@ def _misfits(case: scenario.Case) -> Iterator[yaml.Diagnostic]:
 
 
 def _is_of_other_kind(path: Path) -> bool:
-    return sweeping.is_sweep(path) or runs.is_series(path)
+    return runs.is_sweep(path) or runs.is_series(path)
 
 
 def _require_fit(cases: Iterable[scenario.Case]) -> None:

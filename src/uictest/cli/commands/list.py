@@ -17,7 +17,6 @@ from uictest.cli.cases import (
     cases_json,
     joined_json,
     select_by_options,
-    select_series_by_options,
     series_json,
     series_lines,
 )
@@ -58,14 +57,14 @@ def list_cases(
         option = "--fail-uncovered" if requirement_list is None else "--requirement-list"
         raise typer.BadParameter("add --requirements", param_hint=option)
     request = RequirementRequest(requirement_list, fail_uncovered)
-    if paths and all(map(sweeping.is_sweep, paths)):
+    if paths and all(map(runs.is_sweep, paths)):
         if requirements:
             plans = (_plan(path, overrides, trusted) for path in paths)
             return list_requirements([plan.base for plan in plans], request, shown)
         return _list_sweeps(paths, expression, overrides, trusted)
     cases, planned = runs.load_cases_and_series(paths, overrides, None, trusted)
     selected = select_by_options(cases, expression, tag)
-    of_series = select_series_by_options(planned, expression, tag)
+    of_series = select_by_options(planned, expression, tag)
     if not (selected or of_series):
         message(f"uictest: {runs.nothing_selected(cases, planned)}")
         return ExitCode.NOTHING_SELECTED

@@ -16,7 +16,6 @@ from uictest.cli.cases import (
     drawn_first,
     joined_json,
     select_by_options,
-    select_series_by_options,
     series_json,
     series_lines,
 )
@@ -123,12 +122,7 @@ def run(
         drawn_first=drawn_first(selected, of_series, draw),
     )
     display = running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
-    published = running.publish_and_show(
-        *(batch, output, names, options.junit_file(junit, output), display),
-        quiet=quiet,
-        verbose=verbosity > 0,
-        colour=colour,
-    )
+    published = running.publish_and_show(batch, output, names, options.junit_file(junit, output), display)
     if published is None:
         return ExitCode.INTERRUPTED
     _show_slowest(published.content.all_results, durations)
@@ -147,7 +141,7 @@ def _selected(
     last_run: Path | None,
 ) -> tuple[list[scenario.Case], list[series.Series]]:
     """Return what expression and tag select, and the last run below `last_run`, if given."""
-    selected = select_by_options(cases, expression, tag), select_series_by_options(planned, expression, tag)
+    selected = select_by_options(cases, expression, tag), select_by_options(planned, expression, tag)
     return selected if last_run is None else running.failed_last(*selected, last_run)
 
 

@@ -25,7 +25,7 @@ def failed_last(
         message(f"uictest: no earlier run in {output}: all cases are selected")
         return list(cases), list(planned)
     not_met = _not_met(run)
-    selected = campaign.by_id(cases, not_met), [each for each in planned if each.id in not_met]
+    selected = campaign.by_id(cases, not_met), campaign.by_id(planned, not_met)
     if any(selected):
         return selected
     message(f"uictest: none of these cases failed in {run.name}: all are selected")

@@ -8,35 +8,9 @@ from time import perf_counter
 
 from uictest import report, runs
 from uictest.cli.output import message
-from uictest.cli.progress import TerminalObserver
 from uictest.cli.running.display import Display
 from uictest.core import files
-from uictest.judging import series
 from uictest.running import campaign
-
-
-class RunObserver(TerminalObserver):
-    """Shows results on stdout with a display; progress, warnings and tracebacks on stderr."""
-
-    def __init__(self, display: Display, *, quiet: bool, verbose: bool, colour: str = "auto") -> None:
-        super().__init__(quiet=quiet, colour=colour)
-        self._display = display
-        self._verbose = verbose
-
-    def case(self, run: campaign.CaseRun, differences: Sequence[report.Difference]) -> None:
-        """Show a case; with -v, the traceback of its crash, too."""
-        self._display.case(run.result, differences)
-        if self._verbose and run.traceback:
-            message(run.traceback.rstrip())
-
-    def case_of_series(self, run: campaign.CaseRun, differences: Sequence[report.Difference]) -> None:
-        """Show a case of a series, which only -v does."""
-        if self._verbose:
-            self.case(run, differences)
-
-    def series(self, result: series.SeriesResult) -> None:
-        """Show a series."""
-        self._display.series(result)
 
 
 def publish_and_show(
@@ -45,10 +19,6 @@ def publish_and_show(
     formats: Sequence[str],
     junit: Path | None,
     display: Display,
-    *,
-    quiet: bool,
-    verbose: bool,
-    colour: str = "auto",
 ) -> runs.Published | None:
     """Run a batch, publish its reports and show them; after an interruption, those of the finished cases.
 
@@ -56,14 +26,13 @@ def publish_and_show(
     that were.
     """
     started = perf_counter()
-    observer = RunObserver(display, quiet=quiet, verbose=verbose, colour=colour)
-    published = runs.publish_batch(batch, output, formats, observer)
+    published = runs.publish_batch(batch, output, formats, display)
     if published is None:
         message("uictest: interrupted before the first case was finished; there is nothing to report")
         return None
     _append_step_summary(published.content)
     _show_published(published, junit, display)
-    if not quiet:
+    if not display.quiet:
         _sum_up(batch, published, perf_counter() - started)
     return published
 
@@ -111,7 +80,7 @@ def judge_and_show(
     wanted = request.among(recordings, content.all_results)
     published = runs.publish_run(content, wanted, output, _FORMATS)
     for result in published.content.results:
-        display.case(result)
+        display.show(result)
     for each in published.content.series:
         display.series(each)
     _show_published(published, junit, display)

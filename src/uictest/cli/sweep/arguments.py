@@ -1,41 +1,36 @@
-"""Convert the arguments of `uictest sweep` to plans, selections and searches; find sweep files."""
+"""Convert the arguments of `uictest sweep` to plans, selections and searches."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 
 import typer
 
 from uictest import runs
 from uictest.analysis import summaries
-from uictest.plans import scenario, sweeps
-from uictest.running import campaign, chunked
+from uictest.cli.cases import malformed
+from uictest.cli.options import rejected
+from uictest.plans import sweeps
+from uictest.running import chunked
 
 
 def selected_cases(plan: sweeps.Plan, expression: str | None) -> chunked.CaseSelection:
     """Return the cases that `-k` selects. Raises typer.BadParameter for a malformed expression."""
-    try:
+    with malformed("-k", expression):
         return chunked.select_cases(plan, expression)
-    except campaign.ExpressionError as error:
-        raise typer.BadParameter(f"{error} in {expression!r}", param_hint="-k") from error
 
 
 def shard_of(text: str | None) -> chunked.Shard:
     """Return the shard that `--shard` names, else the only one. Raises typer.BadParameter."""
-    try:
+    with rejected("--shard"):
         return chunked.Shard() if text is None else chunked.parse_shard(text)
-    except ValueError as error:
-        raise typer.BadParameter(str(error), param_hint="--shard") from error
 
 
 def cluster_address(address: str | None) -> str | None:
     """Return the address that `--dask` names. Raises typer.BadParameter."""
-    try:
+    with rejected("--dask"):
         if address is not None:
             chunked.check_address(address)
-    except ValueError as error:
-        raise typer.BadParameter(str(error), param_hint="--dask") from error
     return address
 
 
@@ -43,12 +38,8 @@ def frontier_search(
     plan: sweeps.Plan, key: str | None, tolerance: str | None
 ) -> summaries.FrontierSearch | None:
     """Return the search of `--frontier` and `--tolerance`. Raises typer.BadParameter."""
-    try:
+    with rejected("--frontier", summaries.FrontierError), rejected("--tolerance", runs.ToleranceError):
         return runs.frontier_search(plan, key, tolerance)
-    except summaries.FrontierError as error:
-        raise typer.BadParameter(str(error), param_hint="--frontier") from error
-    except runs.ToleranceError as error:
-        raise typer.BadParameter(str(error), param_hint="--tolerance") from error
 
 
 def map_pair(plan: sweeps.Plan, text: str | None) -> tuple[str, str] | None:
@@ -69,26 +60,5 @@ def map_pair(plan: sweeps.Plan, text: str | None) -> tuple[str, str] | None:
 
 def measure_names(names: Sequence[str] | None) -> tuple[str, ...]:
     """Return the columns that `--measure` names, else the braking distance. Raises typer.BadParameter."""
-    try:
+    with rejected("--measure"):
         return runs.measure_names(names)
-    except ValueError as error:
-        raise typer.BadParameter(str(error), param_hint="--measure") from error
-
-
-def is_sweep(path: Path) -> bool:
-    """Return whether a path names a sweep file."""
-    return path.name.endswith(scenario.SWEEP_SUFFIXES)
-
-
-def sweep_files(paths: Sequence[Path]) -> Iterator[Path]:
-    """Yield the sweep files among the paths, and those below folders that are not hidden."""
-    for path in paths:
-        if path.is_dir():
-            below = sorted(path.rglob("*.sweep.y*ml"), key=Path.as_posix)
-            yield from (each for each in below if is_sweep(each) and not _hidden(each.relative_to(path)))
-        elif is_sweep(path):
-            yield path
-
-
-def _hidden(path: Path) -> bool:
-    return any(part.startswith(".") for part in path.parts)

@@ -110,14 +110,14 @@ class SweepObserver(TerminalObserver):
                 f"uictest: {missing} of {counted(cases, 'case')} {verb} missing from the shards: "
                 f"simulating {pronoun} here"
             )
-        elif missing < cases and not self._quiet:
+        elif missing < cases and not self.quiet:
             message(f"uictest: {cases - missing} of {counted(cases, 'case')} are already finished")
 
     def simulating(
         self, count: int, finished: int = 0, unit: str = "cases"
     ) -> AbstractContextManager[Advance]:
         """Show the progress of the cases."""
-        return sweep_progress(count, finished, quiet=self._quiet)
+        return sweep_progress(count, finished, quiet=self.quiet)
 
     def waiting(self, address: str) -> None:
         """Report that a cluster has no workers yet."""
@@ -125,7 +125,7 @@ class SweepObserver(TerminalObserver):
 
     def searching(self, key: str) -> None:
         """Report that the frontier is being searched."""
-        if not self._quiet:
+        if not self.quiet:
             message(f"uictest: searching the frontier along {key}")
 
 

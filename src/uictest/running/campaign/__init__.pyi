@@ -15,11 +15,14 @@ from .requirement_coverage import (
 from .selection import (
     ExpressionError as ExpressionError,
     Matches as Matches,
+    Selectable as Selectable,
     by_expression as by_expression,
     by_id as by_id,
     by_tag as by_tag,
     descriptions_of as descriptions_of,
+    mentioned_in as mentioned_in,
     parse as parse,
+    selected as selected,
 )
 from .stop import (
     CaseRun as CaseRun,

@@ -1,13 +1,16 @@
-"""Select cases by expression, by tag or by id."""
+"""Select cases and series by expression, by tag or by id; what a report says of a case."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING, TypeVar
 
 from uictest import report
-from uictest.plans import scenario
 from uictest.plans.scenario import Case, ExternalController, Scenario, is_changed, yaml
+
+if TYPE_CHECKING:
+    from uictest.plans.series import Series
 
 Matches = Callable[[str], bool]
 """Whether a case matches one word."""
@@ -101,32 +104,48 @@ class _Reader:
         return ExpressionError(f"at column {column}: expected {expected}, found {word!r}")
 
 
-def by_expression(cases: Sequence[scenario.Case], expression: str) -> list[scenario.Case]:
-    """Return the cases that match an expression: a word matches inside the id, the file name or a tag.
+Selectable = TypeVar("Selectable", bound="Case | Series")
+
+
+def by_expression(among: Iterable[Selectable], expression: str) -> list[Selectable]:
+    """Return the cases or series that match an expression: a word matches inside id, file name or a tag.
 
     Case is ignored. Raises ExpressionError.
     """
     holds = parse(expression)
-    return [case for case in cases if holds(lambda word, case=case: _mentions(case, word))]  # type: ignore[misc]
+    return [each for each in among if holds(mentioned_in([each.id, each.path.stem, *_tags_of(each)]))]
 
 
-def by_tag(cases: Sequence[scenario.Case], expression: str) -> list[scenario.Case]:
-    """Return the cases that match an expression over whole tags, e.g. `slip` or `slip and not long`.
+def by_tag(among: Iterable[Selectable], expression: str) -> list[Selectable]:
+    """Return the cases or series that match an expression over whole tags, e.g. `slip and not long`.
 
     Raises ExpressionError.
     """
     holds = parse(expression)
-    return [case for case in cases if holds(frozenset(case.scenario.tags).__contains__)]
+    return [each for each in among if holds(frozenset(_tags_of(each)).__contains__)]
 
 
-def by_id(cases: Sequence[scenario.Case], ids: frozenset[str]) -> list[scenario.Case]:
-    """Return the cases whose id is among `ids`, in their own order."""
-    return [case for case in cases if case.id in ids]
+def by_id(among: Iterable[Selectable], ids: frozenset[str]) -> list[Selectable]:
+    """Return the cases or series whose id is among `ids`, in their own order."""
+    return [each for each in among if each.id in ids]
 
 
-def _mentions(case: scenario.Case, word: str) -> bool:
-    sought = word.casefold()
-    return any(sought in name.casefold() for name in (case.id, case.path.stem, *case.scenario.tags))
+def selected(
+    among: Iterable[Selectable], expression: str | None = None, tag: str | None = None
+) -> list[Selectable]:
+    """Return the cases or series that an expression (`-k`) and tags (`-m`) select. Raises ExpressionError."""
+    found = list(among) if expression is None else by_expression(among, expression)
+    return found if tag is None else by_tag(found, tag)
+
+
+def mentioned_in(names: Iterable[str]) -> Matches:
+    """Return whether a word is in any of some names; case is ignored."""
+    folded = [name.casefold() for name in names]
+    return lambda word: any(word.casefold() in name for name in folded)
+
+
+def _tags_of(each: Case | Series) -> Sequence[str]:
+    return each.scenario.tags if hasattr(each, "scenario") else each.file.tags
 
 
 def descriptions_of(cases: Iterable[Case]) -> dict[str, report.CaseDescription]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.plans.sweeps import Plan
-from uictest.running.campaign import parse
+from uictest.running.campaign import mentioned_in, parse
 
 _SMALLEST_CHUNK: Final = 16
 _CHUNKING: Final = ((1024, 32), (4096, 64))
@@ -61,15 +61,11 @@ def select_cases(plan: Plan, expression: str | None) -> CaseSelection:
     if expression is None:
         return CaseSelection(plan)
     matches = parse(expression)
-    common_names = [name.casefold() for name in (PurePath(plan.file).name, *plan.base.scenario.tags)]
+    common_names = (PurePath(plan.file).name, *plan.base.scenario.tags)
     selected: list[NDArray[np.int64]] = []
     for first in range(0, plan.size, _IDS_AT_ONCE):
         indices = np.arange(first, min(first + _IDS_AT_ONCE, plan.size))
-        ids = [name.casefold() for name in plan.ids(indices)]
-        is_selected = [
-            matches(lambda word, id_=id_: any(word.casefold() in name for name in (id_, *common_names)))  # type: ignore[misc]
-            for id_ in ids
-        ]
+        is_selected = [matches(mentioned_in((name, *common_names))) for name in plan.ids(indices)]
         selected.append(indices[np.array(is_selected)])
     return CaseSelection(plan, np.concatenate(selected))
 
