@@ -1,5 +1,6 @@
 from .api import (
     Results as Results,
+    Rig as Rig,
     SweepResults as SweepResults,
     Validation as Validation,
     evaluate as evaluate,
@@ -11,7 +12,6 @@ from .api import (
     sweep as sweep,
     validate as validate,
 )
-from .api.stepping import Rig as Rig
 from .core.recording import Recording as Recording
 from .judging.evaluation import CaseResult as CaseResult
 from .plans.scenario import Case as Case, ScenarioErrors as ScenarioErrors

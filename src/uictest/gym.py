@@ -20,7 +20,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from uictest.api.stepping import Rig, RigState
+from uictest.api import Rig, RigState
 from uictest.controllers import Inputs
 from uictest.rig import assemble
 

@@ -103,8 +103,8 @@ def evaluate(
     }
     words = command_words(["evaluate", *paths, *(["--strict"] if strict else [])], options)
     if any(map(runs.is_series, paths)):
-        _reject_statements(paths, [scenario, select, *statements, *preparation.values()])
-        planned, stops = runs.read_recorded_series(paths, overrides, folders)
+        said = (scenario, select, *statements, *preparation.values())
+        planned, stops = runs.read_recorded_series(paths, overrides, folders, said, "set")
         batch = runs.recorded_batch(stops, words, planned=planned, strict=strict)
     else:
         case_of = _case_of(scenario, select, [*statements, *overrides], folders)
@@ -142,14 +142,3 @@ def _case_of(
         raise ValueError(
             f"a recording does not say what was tested: state it with scenario=, or with {names}"
         ) from None
-
-
-def _reject_statements(paths: Sequence[Path], statements: Sequence[object]) -> None:
-    """Raise ValueError where series and recordings are mixed, or a series is told what its file says."""
-    if not all(map(runs.is_series, paths)):
-        raise ValueError("name series files or recordings, not both")
-    if any(statements):
-        raise ValueError(
-            "a series says itself which scenario and channel map each of its recordings has:"
-            " state it in the file, or with set"
-        )

@@ -9,7 +9,11 @@ from .batch import (
 )
 from .drawing import with_traces as with_traces
 from .observer import Observer as Observer, available_processors as available_processors
-from .publishing import Published as Published, publish_batch as publish_batch, publish_run as publish_run
+from .publishing import (
+    Published as Published,
+    publish_batch as publish_batch,
+    publish_run as publish_run,
+)
 from .recorded import (
     MissingStatementsError as MissingStatementsError,
     case_of_stop as case_of_stop,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
@@ -13,7 +13,7 @@ from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.plans import scenario, series
 from uictest.plans.scenario import yaml
 from uictest.recorded import field_data
-from uictest.runs.scenario_files import InvalidInputError, load_series
+from uictest.runs.scenario_files import InvalidInputError, is_series, load_series
 
 CaseOfStop = Callable[[str, float], scenario.Case]
 """Returns the case that a recorded stop is judged as: from its name and its initial speed, m/s."""
@@ -153,12 +153,25 @@ def stop_names(paths: Sequence[Path]) -> list[str]:
 
 
 def read_recorded_series(
-    paths: Sequence[Path], overrides: Sequence[str] | None, trusted: Sequence[Path] | None
+    paths: Sequence[Path],
+    overrides: Sequence[str] | None,
+    trusted: Sequence[Path] | None,
+    stated: Iterable[object],
+    option: str,
 ) -> tuple[list[series.Series], list[RecordedFile]]:
     """Return series with one stop for each recording, and the recordings in the order of the stops.
 
-    Raises InvalidInputError where a recording cannot be read, or a stop names none, and ScenarioErrors.
+    `stated` is what was said of recordings besides, and `option` what changes the files.
+    Raises InvalidInputError where a recording cannot be read, a stop names none, a path is none of a series,
+    or anything is stated that the file of a series says itself; and ScenarioErrors.
     """
+    if not all(map(is_series, paths)):
+        raise InvalidInputError("name series files or recordings, not both")
+    if any(stated):
+        raise InvalidInputError(
+            "a series says itself which scenario and channel map each of its recordings has:"
+            f" state it in the file, or with {option}"
+        )
     read = [_recorded(each, trusted) for each in load_series(paths, overrides, None, trusted)]
     return [planned for planned, _ in read], [file for _, files in read for file in files]
 

@@ -100,39 +100,26 @@ def _open_store(run: SweepRun, store: ChunkStore, observer: Observer) -> None:
             arguments=("restart", "output"),
         ) from error
     for folder in run.merged:
-        _merge_shard(store, folder, observer)
-
-
-def _merge_shard(store: ChunkStore, folder: Path, observer: Observer) -> None:
-    try:
-        merged_chunks, damaged = store.merge(ChunkStore(folder))
-    except ChangedInputsError as error:
-        raise InvalidInputError(f"not a shard of this sweep: {error}") from error
-    for path in damaged:
-        observer.damaged_in_shard(path)
-    observer.merged(merged_chunks, folder)
+        try:
+            merged_chunks, damaged = store.merge(ChunkStore(folder))
+        except ChangedInputsError as error:
+            raise InvalidInputError(f"not a shard of this sweep: {error}") from error
+        for path in damaged:
+            observer.damaged_in_shard(path)
+        observer.merged(merged_chunks, folder)
 
 
 def _run_chunks(
     run: SweepRun, numbers: Sequence[int], write_chunk: chunked.WriteChunk, observer: Observer
 ) -> None:
-    if run.cluster is None:
+    address = run.cluster
+    if address is None:
         runner = prepared_runner(run, observer)
         chunked.run_on_threads(runner, run.selection, numbers, run.jobs, write_chunk)
-    else:
-        _run_on_cluster(run, run.cluster, numbers, write_chunk, observer)
-
-
-def _run_on_cluster(
-    run: SweepRun,
-    address: str,
-    numbers: Sequence[int],
-    write_chunk: chunked.WriteChunk,
-    observer: Observer,
-) -> None:
+        return
     try:
         chunked.run_on_cluster(
-            run.selection, numbers, address, write_chunk, lambda: observer.waiting(address)
+            *(run.selection, numbers, address, write_chunk), lambda: observer.waiting(address)
         )
     except ImportError as error:
         raise InvalidInputError(

@@ -13,7 +13,7 @@ from uictest.plans.sweeps import programs_of
 from uictest.rig import run_in_process
 from uictest.running.campaign import RecordingRequest, Stop, run_stop
 from uictest.running.chunked import chunk_runner, cluster
-from uictest.running.chunked.manifest import program_digest
+from uictest.running.chunked.store import program_digest
 
 from .test_case_blocks import written_out
 

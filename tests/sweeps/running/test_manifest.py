@@ -8,7 +8,7 @@ import pytest
 import uictest
 from uictest.plans.sweeps import load_sweep
 from uictest.running.chunked import CaseSelection, sweep_manifest
-from uictest.running.chunked.manifest import SOURCES, manifest_differences
+from uictest.running.chunked.store import SOURCES, manifest_differences
 
 PACKAGE = Path(uictest.__file__).parent
 WITHOUT_INFLUENCE = {"report"}

@@ -15,7 +15,7 @@ from uictest.plans.sweeps.base_case import in_survey_steps
 from uictest.report import survey_notes
 from uictest.running.chunked import CaseSelection, ChunkRunner, chunk_runner, sweep_manifest
 from uictest.running.chunked.case_blocks import BlockAssembler
-from uictest.running.chunked.manifest import program_digest
+from uictest.running.chunked.store import program_digest
 from uictest.running.chunked.table import biases_by_measure, survey_biases, survey_step
 
 from ..conftest import GRID, SCENARIO, formula

@@ -1,18 +1,123 @@
-"""Scenario files: one item per case."""
+"""What tests of the rig have in common, and scenario files: one item per case."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from abc import abstractmethod
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final, Self
 
 import pytest
 
-from uictest import report
-from uictest.api.pytest_plugin.item import Changes, RigItem, numbers_in, simulated, with_reasons_first
+from uictest import report, runs
 from uictest.judging import evaluation
-from uictest.plans import scenario
+from uictest.plans import scenario, series
 from uictest.plans.scenario import yaml
 from uictest.running import campaign
+
+_MEANT_FOR_PYTEST: Final = frozenset(
+    {"filterwarnings", "parametrize", "skip", "skipif", "usefixtures", "xfail"}
+)
+"""Marks that change how pytest runs a test: a tag of this name stays a word for `-k`."""
+
+
+class RigItem(pytest.Item):
+    """A test of the rig: its stops are simulated in `setup`, its verdict is given in `runtest`.
+
+    What the rig cannot simulate is thereby an error of the test, and a missed expectation is a failure.
+    """
+
+    @classmethod
+    def below(cls, parent: pytest.Collector, name: str, **own: Any) -> Self:
+        """Return the item of this name, whose values in brackets pytest takes for parameters."""
+        # `--lf` finds `case[friction=0.1]` again only if the id is handed over whole.
+        item: Self = cls.from_parent(parent, name=name, nodeid=f"{parent.nodeid}::{name}", **own)
+        return item
+
+    @abstractmethod
+    def results_document(self) -> dict[str, Any] | None:
+        """Return the results that the test rests on, in JSON: cases or series; None where there are none."""
+
+    def tag(self, tags: Iterable[str]) -> None:
+        """Make tags words for `-k`, and marks for `-m`, which `--strict-markers` accepts."""
+        for tag in tags:
+            self.extra_keyword_matches.add(tag)
+            if tag not in _MEANT_FOR_PYTEST:
+                self.config.addinivalue_line("markers", f"{tag}: tag of a scenario or series")
+                self.add_marker(tag)
+
+    def record(self, properties: Mapping[str, object]) -> None:
+        """Add properties to the test: JUnit and other reports show them."""
+        self.user_properties.extend(properties.items())
+
+    def reportinfo(self) -> tuple[Path, int, str]:
+        """Return the file, its first line and the name."""
+        return self.path, 0, self.name
+
+
+def simulated(config: pytest.Config, cases: Sequence[scenario.Case]) -> list[campaign.CaseRun]:
+    """Simulate and judge cases; the workers of pytest-xdist use one thread each. Raises KeyboardInterrupt."""
+    case_runs: list[campaign.CaseRun] = []
+    jobs = 1 if hasattr(config, "workerinput") else runs.available_processors()
+    strict: bool = config.getoption("uictest_strict")
+    settings = campaign.RunSettings(jobs, campaign.RecordingRequest("none"), strict=strict)
+    campaign.run_cases(cases, settings, on_result=case_runs.append).whole()
+    return case_runs
+
+
+def with_reasons_first(explanation: Sequence[str]) -> str:
+    """Return an explanation as text; its first line, which summaries show, is a reason where there is one."""
+    outcome, *reasons = explanation
+    return "\n".join([*reasons, outcome])
+
+
+def numbers_in(measures: Mapping[str, float] | None) -> dict[str, Any]:
+    """Return the measures that have a value, with five significant digits."""
+    return {name: report.number(value) for name, value in (measures or {}).items() if value == value}
+
+
+@dataclass(frozen=True, slots=True)
+class Changes:
+    """The options `--uictest-set`, `--uictest-seed` and `--uictest-repeat`, and the files of the session.
+
+    References may lead anywhere below the root directory: pytest executes code from there anyway.
+
+    Args:
+        overrides: `key=value` texts.
+        seed: of every case, None for its own.
+        strict: whether verdicts that are not settled fail a test.
+        root: the root directory.
+        files: read once for all scenarios.
+
+    """
+
+    overrides: tuple[str, ...]
+    seed: int | None
+    strict: bool
+    root: Path
+    files: scenario.Files
+
+    @classmethod
+    def of(cls, config: pytest.Config) -> Changes:
+        """Return the changes that the command line asks for. Raises pytest.UsageError."""
+        repeat: int | None = config.getoption("uictest_repeat")
+        overrides = (*config.getoption("uictest_set"), *([] if repeat is None else [f"repeat={repeat}"]))
+        seed: int | None = config.getoption("uictest_seed")
+        try:
+            yaml.parse_overrides(overrides, seed)
+        except yaml.ScenarioErrors as errors:
+            raise pytest.UsageError(str(errors)) from errors
+        files = scenario.Files(scenario.Roots.of((), [config.rootpath]))
+        return cls(overrides, seed, config.getoption("uictest_strict"), config.rootpath, files)
+
+    def cases_of(self, path: Path) -> Sequence[scenario.Case]:
+        """Return the cases of a scenario file. Raises ScenarioErrors."""
+        return scenario.load_file(path, yaml.parse_overrides(self.overrides, self.seed), self.files)
+
+    def series_of(self, path: Path) -> Sequence[series.Series]:
+        """Return the series of a file. Raises ScenarioErrors."""
+        return series.load_series(path, self.overrides, self.seed, [self.root])
 
 
 class ScenarioFile(pytest.File):

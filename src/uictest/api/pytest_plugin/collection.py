@@ -12,8 +12,7 @@ from typing import Final, Literal
 import pytest
 
 from uictest import rig
-from uictest.api.pytest_plugin.cases import CaseItem, ScenarioFile
-from uictest.api.pytest_plugin.item import Changes, RigItem
+from uictest.api.pytest_plugin.cases import CaseItem, Changes, RigItem, ScenarioFile
 from uictest.api.pytest_plugin.reports import Reports
 from uictest.api.pytest_plugin.series_criteria import SeriesFile, SeriesItem
 from uictest.plans import scenario

@@ -10,7 +10,7 @@ from typing import Any, Final
 import pytest
 
 from uictest import report, runs
-from uictest.api.pytest_plugin.item import Changes, RigItem
+from uictest.api.pytest_plugin.cases import Changes, RigItem
 from uictest.core import recording
 from uictest.judging import evaluation, series
 from uictest.plans import scenario, series as series_plans

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from uictest import report, runs
-from uictest.api.pytest_plugin.item import Changes, RigItem, numbers_in, simulated, with_reasons_first
+from uictest.api.pytest_plugin.cases import Changes, RigItem, numbers_in, simulated, with_reasons_first
 from uictest.judging import series
 from uictest.plans import series as series_plans
 from uictest.plans.scenario import yaml

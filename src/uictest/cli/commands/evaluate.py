@@ -82,8 +82,9 @@ def evaluate(
     if any(map(runs.is_series, files)):
         stated = (listing, scenario, expression, criteria, rail, position, wsp)
         preparation = (trigger, trigger_lead, raster, low_pass)
-        _reject_options_of_recordings(files, [*stated, *preparation])
-        planned, stops = runs.read_recorded_series(files, overrides, trusted)
+        planned, stops = runs.read_recorded_series(
+            files, overrides, trusted, (*stated, *preparation), "--set"
+        )
         batch = runs.recorded_batch(stops, context.obj.arguments, planned=planned, strict=strict)
     else:
         mapped, inputs = recordings.channel_map(
@@ -100,17 +101,6 @@ def evaluate(
         running.write_preparation(stops)
         message(f"uictest: {published.content.tally}; reports in {published.place}")
     return keep_newest(of_run(published), keep, published.place, "evaluate", named)
-
-
-def _reject_options_of_recordings(files: Sequence[Path], options_of_recordings: Sequence[object]) -> None:
-    """Raise where series and recordings are mixed, or options say what a series file says of its own."""
-    if not all(map(runs.is_series, files)):
-        raise runs.InvalidInputError("name series files or recordings, not both")
-    if any(options_of_recordings):
-        raise runs.InvalidInputError(
-            "a series says itself which scenario and channel map each of its recordings has:"
-            " state it in the file, or with --set"
-        )
 
 
 def _case_of_stop(

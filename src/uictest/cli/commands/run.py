@@ -95,7 +95,10 @@ def run(
     choice = running.BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
     changes = overrides if repeat is None else [*(overrides or ()), f"repeat={repeat}"]
     cases, planned = runs.load_cases_and_series(paths, changes, seed, trusted)
-    selected, of_series = _selected(cases, planned, expression, tag, output if last_failed else None)
+    selected = select_by_options(cases, expression, tag)
+    of_series = select_by_options(planned, expression, tag)
+    if last_failed:
+        selected, of_series = running.failed_last(selected, of_series, output)
     if not (selected or of_series):
         message(f"uictest: {runs.nothing_selected(cases, planned)}")
         return ExitCode.NOTHING_SELECTED
@@ -131,18 +134,6 @@ def run(
         running.accept_or_compare(choice, accepted, published, quiet=quiet),
     )
     return keep_newest(code, keep, published.place, "run", named)
-
-
-def _selected(
-    cases: Sequence[scenario.Case],
-    planned: Sequence[series.Series],
-    expression: str | None,
-    tag: str | None,
-    last_run: Path | None,
-) -> tuple[list[scenario.Case], list[series.Series]]:
-    """Return what expression and tag select, and the last run below `last_run`, if given."""
-    selected = select_by_options(cases, expression, tag), select_by_options(planned, expression, tag)
-    return selected if last_run is None else running.failed_last(*selected, last_run)
 
 
 def _show_selection(

@@ -16,14 +16,12 @@ from .cluster import (
     check_address as check_address,
     run_on_cluster as run_on_cluster,
 )
-from .manifest import (
-    sweep_manifest as sweep_manifest,
-)
 from .scenario_function import ScenarioVariants as ScenarioVariants
 from .store import (
     ChangedInputsError as ChangedInputsError,
     ChunkStore as ChunkStore,
     MissingChunksError as MissingChunksError,
+    sweep_manifest as sweep_manifest,
 )
 from .table import (
     SURVEY_TABLE as SURVEY_TABLE,

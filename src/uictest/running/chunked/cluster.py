@@ -18,7 +18,7 @@ from uictest import rig
 from uictest.plans.sweeps import Plan, programs_of
 from uictest.running.chunked.case_selection import CaseSelection
 from uictest.running.chunked.chunk import ChunkRunner, WriteChunk, chunk_runner
-from uictest.running.chunked.manifest import program_digest
+from uictest.running.chunked.store import program_digest
 
 _PER_THREAD: Final = 3
 """Chunks in flight per thread of the cluster: no thread idles, and the client holds few results."""

@@ -1,1 +1,0 @@
-from .rig import Rig as Rig, RigState as RigState
