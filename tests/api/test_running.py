@@ -164,7 +164,7 @@ def test_cases_are_not_changed_nor_mixed_with_files(write):
         uictest.run([*cases, *cases])
 
 
-def test_an_interrupt_is_raised(write: Write, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_interrupt_is_raised(write, monkeypatch):
     path = write()
     monkeypatch.setattr(campaign, "run_cases", lambda *_, **__: campaign.BatchResult([], interrupted=True))
     with pytest.raises(KeyboardInterrupt):
@@ -174,13 +174,11 @@ def test_an_interrupt_is_raised(write: Write, monkeypatch: pytest.MonkeyPatch) -
     assert not Path("reports").exists()
 
 
-def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(
-    write: Write, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(write, monkeypatch):
     path, run_stop = write(), batch.run_stop
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
 
-    def interrupted(stop: campaign.Stop, *arguments: Any) -> campaign.StopRun:
+    def interrupted(stop, *arguments):
         if stop.seed == 0:  # a second interrupt would meet what follows the run
             signal.raise_signal(signal.SIGINT)
         return run_stop(stop, *arguments)
@@ -198,7 +196,7 @@ def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(
 def test_what_is_finished_when_a_run_is_interrupted_is_reported(write, monkeypatch):
     path, run_cases = write(), campaign.run_cases
 
-    def cut_short(cases: Any, *settings: Any, **options: Any) -> campaign.BatchResult:
+    def cut_short(cases, *settings, **options):
         done = run_cases(cases[:1], *settings, **options)
         done.interrupted = True
         return done
@@ -213,8 +211,8 @@ def test_what_is_finished_when_a_run_is_interrupted_is_reported(write, monkeypat
     assert not Path("nothing").exists()
 
 
-def test_a_stop_that_crashes_is_a_result(write: Write, monkeypatch: pytest.MonkeyPatch) -> None:
-    def crash(stop: campaign.Stop, *_: object) -> campaign.StopRun:
+def test_a_stop_that_crashes_is_a_result(write, monkeypatch):
+    def crash(stop, *_):
         result = evaluation.error_result(stop.case, "ZeroDivisionError: no wheel load")
         return campaign.StopRun(stop, campaign.CaseRun(result))
 

@@ -1,20 +1,24 @@
+from __future__ import annotations
+
+from pathlib import Path
+
 import pytest
 
 from uictest.plans.scenario import load
-from uictest.report import subjects_form
-from uictest.report.document import read_subjects
+from uictest.report import CaseDescription, subjects_form
+from uictest.report.run_folder import read_subjects
 from uictest.running.campaign import descriptions_of
 
 _TEXT = "schema: uictest/scenario/1\nname: stop\ntitle: A stop\ntags: [a, b]\ninitial_speed: 80 km/h\n"
 
 
-def _subject(tmp_path, text=""):
+def _subject(tmp_path: Path, text: str = "") -> CaseDescription:
     path = tmp_path / "stop.yaml"
     path.write_text(_TEXT + text)
     return descriptions_of(load([path]))["stop"]
 
 
-def test_a_subject_is_in_the_users_words(tmp_path):
+def test_a_subject_is_in_the_users_words(tmp_path: Path) -> None:
     subject = _subject(tmp_path, "rail: {condition: wet, friction: 0.10}\n")
     assert (subject.title, subject.tags) == ("A stop", ("a", "b"))
     assert subject.settings["initial speed"] == "80 km/h"
@@ -26,12 +30,14 @@ def test_a_subject_is_in_the_users_words(tmp_path):
     ("friction", "shown"),
     [
         ("", "dry, friction 0.55, "),
-        ("friction: {points: [{position: 0 m, friction: 0.3}]}", "dry, friction along the track, "),
+        ("  friction: {points: [{position: 0 m, friction: 0.3}]}\n", "dry, friction along the track, "),
         (
-            "friction_over_time: {points: [{time: 0 s, factor: 1}]}",
-            "dry, friction 0.55, changing with time, ",
+            "  friction: 0.2\n  friction_over_time: {points: [{time: 0 s, factor: 1}]}\n",
+            "dry, friction 0.2, changing with time, ",
         ),
     ],
 )
-def test_friction_is_a_number_a_course_or_the_condition_s_own(tmp_path, friction, shown):
-    assert _subject(tmp_path, f"rail:\n  condition: dry\n  {friction}\n").settings["rail"].startswith(shown)
+def test_friction_is_a_number_a_course_or_the_condition_s_own(
+    tmp_path: Path, friction: str, shown: str
+) -> None:
+    assert _subject(tmp_path, f"rail:\n  condition: dry\n{friction}").settings["rail"].startswith(shown)

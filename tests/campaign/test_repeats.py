@@ -42,7 +42,7 @@ def document(results):
     return to_json(result_document(results))
 
 
-def test_each_stop_is_the_one_with_its_seed_alone(cases: Write) -> None:
+def test_each_stop_is_the_one_with_its_seed_alone(cases):
     (result,) = run_cases(cases(more="repeat: 3\nseed: 5"), RunSettings(recording=NOTHING)).results
     assert result.repeats is not None
     for stop, seed in zip(result.repeats.stops, (5, 6, 7), strict=True):
@@ -53,7 +53,7 @@ def test_each_stop_is_the_one_with_its_seed_alone(cases: Write) -> None:
         assert [verdict.value for verdict in stop.criteria] == [verdict.value for verdict in single.criteria]
 
 
-def test_measures_are_medians_and_seeds_differ(cases: Write) -> None:
+def test_measures_are_medians_and_seeds_differ(cases):
     (result,) = run_cases(cases(more="repeat: 5"), RunSettings(recording=NOTHING)).results
     assert result.repeats is not None
     assert result.measures is not None
@@ -194,7 +194,7 @@ def test_an_interrupt_keeps_cases_all_of_whose_stops_are_finished(cases, monkeyp
     assert len(batch.results[0].repeats.stops) == 2
 
 
-def test_stops_are_counted_as_they_finish(cases: Write) -> None:
+def test_stops_are_counted_as_they_finish(cases):
     stops: list[None] = []
     run_cases(cases(more="repeat: 3"), RunSettings(recording=NOTHING), on_stop=lambda: stops.append(None))
     assert len(stops) == 3

@@ -1,12 +1,19 @@
 """Cases that are run as nobody asked otherwise."""
 
+from __future__ import annotations
+
 import os
 import re
 from pathlib import Path
 
+import pytest
+
 from uictest import runs
+from uictest.judging.evaluation import CaseResult
 from uictest.plans.scenario import load
 from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
+
+from .test_acceptance import TURNING
 
 HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 120 km/h\n"
 TELLS_WHERE_IT_RUNS = """\
@@ -18,14 +25,23 @@ class Own:
 """
 
 
-def test_a_controller_from_outside_runs_in_a_process_of_its_own(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    Path("own.py").write_text(TELLS_WHERE_IT_RUNS, "utf-8")
+def result_of(text: str) -> CaseResult:
+    """Run the one case of a scenario in the working folder."""
     path = Path("stop.yaml")
-    path.write_text(HEAD + "controller: {python: own.py, class: Own}\n", "utf-8")
+    path.write_text(text, "utf-8")
     batch = runs.batch_of(load([path]), [], ["run", "stop.yaml"], None)
     [result] = runs.run_batch(batch, runs.Observer()).content.results
+    return result
+
+
+def test_a_controller_from_outside_runs_in_a_process_of_its_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("own.py").write_text(TELLS_WHERE_IT_RUNS, "utf-8")
+    result = result_of(HEAD + "controller: {python: own.py, class: Own}\n")
     told = re.search(r"process (\d+)", result.reason)
+    assert told is not None, result.reason
     assert int(told[1]) != os.getpid()
 
 

@@ -7,7 +7,7 @@ import pytest
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import series as judging_series
 from uictest.running import campaign
-from uictest.runs.batch import SeriesBatch, run_series, speed_kmh
+from uictest.runs.batch import run_series, speed_kmh
 
 
 @pytest.fixture

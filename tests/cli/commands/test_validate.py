@@ -120,7 +120,7 @@ def test_every_recorded_stop_has_a_draw_of_its_own_whatever_the_others_are(valid
     simulated: dict[str, int] = {}
     run_stop = batch.run_stop
 
-    def noted(stop: Any, *rest: Any) -> Any:
+    def noted(stop, *rest):
         simulated[stop.case.id.rpartition(".")[2]] = stop.case.scenario.seed
         return run_stop(stop, *rest)
 

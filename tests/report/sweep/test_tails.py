@@ -1,7 +1,10 @@
 """Quantiles and K_dry as readers meet them: on the terminal, in Markdown, in a workbook, on the page."""
 
+from __future__ import annotations
+
 import html
 import io
+from typing import Any
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -12,9 +15,17 @@ from uictest.report import titled_lines
 from uictest.report.page import sweep_page_html
 from uictest.report.sweep.formats.md import sweep_markdown
 from uictest.report.sweep.formats.xlsx import sweep_workbook_bytes
-from uictest.report.sweep.k_dry_file import k_dry_yaml
-from uictest.report.sweep.tail_tables import MOST_TABLES, k_dry_rows, k_dry_text, tables_left_out, tail_tables
+from uictest.report.sweep.result import SweepResult
+from uictest.report.sweep.tail_tables import (
+    MOST_TABLES,
+    k_dry_rows,
+    k_dry_text,
+    k_dry_yaml,
+    tables_left_out,
+    tail_tables,
+)
 
+from ..builders import MakeSweep
 from ..test_page import Page
 
 openpyxl = pytest.importorskip("openpyxl")
@@ -23,11 +34,11 @@ BASIS = "95 % confidence, 200 draws; nominal 1.2 m/s2, stated in the sweep file"
 REFUSAL = "needs 299 draws, has 200"
 
 
-def tail_lines(result):
+def tail_lines(result: SweepResult) -> list[str]:
     return [*titled_lines(tail_tables(result), None), *tables_left_out(result)]
 
 
-def tails(at, without_value=0):
+def tails(at: dict[str, str], without_value: int = 0) -> dict[str, Any]:
     """What sweep.json holds of a sweep with quantiles and K_dry."""
     sample = {"draws": 200, "without_value": without_value}
     refused = {"draws_needed": 299, "estimate": None, "lower": None, "upper": None}
@@ -49,7 +60,7 @@ def tails(at, without_value=0):
     }
 
 
-def test_the_terminal_shows_bounds_and_refusals(make_sweep):
+def test_the_terminal_shows_bounds_and_refusals(make_sweep: MakeSweep) -> None:
     lines = list(tail_lines(make_sweep(**tails({"speed": "80 km/h"})).result))
     assert lines == [
         "quantiles of speed_mps2, m/s2 at speed = 80 km/h: 95 % confidence, 200 draws",
@@ -66,7 +77,16 @@ def test_the_terminal_shows_bounds_and_refusals(make_sweep):
     ]
 
 
-def test_every_report_shows_the_same(make_sweep):
+def test_draws_without_a_value_are_stated_everywhere(make_sweep: MakeSweep) -> None:
+    content = make_sweep(**tails({}, without_value=3))
+    words = "200 draws; 3 without a value count as the worst"
+    assert words in "\n".join(tail_lines(content.result))
+    assert words in sweep_markdown(content)
+    assert words in Page(sweep_page_html(content)).text
+    assert "draws_without_value: 3" in k_dry_yaml(content.result)
+
+
+def test_every_report_shows_the_same(make_sweep: MakeSweep) -> None:
     content = make_sweep(**tails({"speed": "80 km/h"}))
     pq.write_table(
         pa.table({"id": ["a"], "met": [True], "outcome": ["pass"]}), content.folder / "summary.parquet"
@@ -74,8 +94,12 @@ def test_every_report_shows_the_same(make_sweep):
     workbook = openpyxl.load_workbook(io.BytesIO(sweep_workbook_bytes(content)))
     header, *rows = workbook["K_dry"].iter_rows(values_only=True)
     first, second = (dict(zip(header, row, strict=True)) for row in rows)
-    shown = (first["at speed"], first["ebcl"], first["k_dry"], first["nominal_mps2"])
-    assert shown == ("80 km/h", 0, 0.9, 1.2)
+    assert (first["at speed"], first["ebcl"], first["k_dry"], first["nominal_mps2"]) == (
+        "80 km/h",
+        0,
+        0.9,
+        1.2,
+    )
     assert (second["k_dry"], second["note"]) == (None, REFUSAL)
     assert workbook["Quantiles"].max_row == 1 + 3
     for text in (sweep_markdown(content), Page(sweep_page_html(content)).text):
@@ -84,34 +108,39 @@ def test_every_report_shows_the_same(make_sweep):
         assert "at most 1.35" in text
 
 
-def test_many_combinations_are_counted_and_left_to_the_tables(make_sweep):
+def test_many_combinations_are_counted_and_left_to_the_tables(make_sweep: MakeSweep) -> None:
     one = tails({"speed": "80 km/h"})
     many = {name: tables * (MOST_TABLES + 2) for name, tables in one.items()}
     content = make_sweep(**many)
-    lines, page = tail_lines(content.result), Page(sweep_page_html(content)).text
+    lines = list(tail_lines(content.result))
     assert sum(line.startswith("quantiles of") for line in lines) == MOST_TABLES
     for sentence in ("2 more tables are in quantiles.csv", "2 more tables are in k_dry.csv"):
         assert sentence in lines
-        assert sentence in page
+        assert sentence in Page(sweep_page_html(content)).text
         assert sentence in html.unescape(sweep_markdown(content))
 
 
-def test_draws_without_a_value_and_those_in_which_a_wheelset_slides_are_stated(make_sweep):
-    of_sweep = tails({}, without_value=3)
+def test_draws_in_which_a_wheelset_slides_are_no_k_dry_in_any_report(make_sweep: MakeSweep) -> None:
+    of_sweep = tails({})
     (k_dry,) = of_sweep["k_dry"]
-    result = make_sweep(**{**of_sweep, "k_dry": [{**k_dry, "sliding": 12}]}).result
+    content = make_sweep(**{**of_sweep, "k_dry": [{**k_dry, "sliding": 12}]})
     words = "a wheelset slides in 12 of 200 draws, so that this is no K_dry"
-    lines = "\n".join(tail_lines(result))
-    assert "200 draws; 3 without a value count as the worst" in lines
-    assert words in lines
-    assert "draws_without_value: 3" in k_dry_yaml(result)
-    assert "draws_sliding: 12" in k_dry_yaml(result)
-    first, second = k_dry_rows(result)
-    assert (first["sliding"], first["note"][: len(words)]) == (12, words)
+    assert words in "\n".join(tail_lines(content.result))
+    assert words in Page(sweep_page_html(content)).text
+    assert "in 12 of 200 draws" in sweep_markdown(content)
+    assert "draws_sliding: 12" in k_dry_yaml(content.result)
+    first, second = k_dry_rows(content.result)
+    assert (first["sliding"], first["note"][: len(words)]) == (12, words)  # type: ignore[index]
     assert str(second["note"]).startswith(f"{REFUSAL}; {words}")
 
 
+def test_a_sweep_without_tails_says_nothing_of_them(make_sweep: MakeSweep) -> None:
+    content = make_sweep()
+    assert list(tail_lines(content.result)) == []
+    assert "Tails" not in Page(sweep_page_html(content)).text
+
+
 @given(st.integers(0, 2000))
-def test_k_dry_is_never_rounded_up(thousandths):
+def test_k_dry_is_never_rounded_up(thousandths: int) -> None:
     assert k_dry_text(thousandths / 1000) == f"{thousandths / 1000:.3f}"
     assert float(k_dry_text((thousandths + 0.9) / 1000)) == thousandths / 1000

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from uictest.analysis.summaries import FrontierError, FrontierSearch
-from uictest.plans.scenario.yaml.decimal_quantity import parse_decimal_quantity
+from uictest.plans.scenario.yaml.quantities import parse_decimal_quantity
 from uictest.report import WrittenValue
 
 TEXT = """\
