@@ -1,5 +1,6 @@
 import pytest
 
+from uictest.core.document import MANIFEST
 from uictest.report.manifest import RunManifest, manifest_digest, manifest_form, read_manifest, run_manifest
 
 
@@ -24,6 +25,17 @@ def test_the_digest_is_short_and_follows_the_content():
 def test_it_is_read_back_and_what_is_none_is_rejected():
     manifest = RunManifest(command=("uictest", "run"), seed=3, inputs={"a.yaml": "00"})
     assert read_manifest({"manifest": manifest_form(manifest)}) == manifest
-    assert read_manifest({"manifest": {"seed": 3}}) == RunManifest(seed=3)
+    assert read_manifest({}) == RunManifest()
     with pytest.raises(ValueError, match="seed"):
         read_manifest({"manifest": {"seed": "three"}})
+
+
+def test_one_that_0_2_wrote_is_read_and_one_of_another_schema_or_kind_is_not() -> None:
+    assert read_manifest({"manifest": {"schema": "uictest/manifest/1", "seed": 3}}).seed == 3
+    for head, found in [
+        ({"schema": MANIFEST, "kind": "sweep"}, "found schema 'uictest/manifest/2', kind 'sweep'"),
+        ({"schema": "uictest/manifest/9", "kind": "run"}, "found schema 'uictest/manifest/9', kind 'run'"),
+        ({}, "found no schema"),
+    ]:
+        with pytest.raises(ValueError, match=f"manifest: expected schema '{MANIFEST}', kind 'run', {found}"):
+            read_manifest({"manifest": {**head, "seed": 3}})

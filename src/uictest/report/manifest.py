@@ -62,9 +62,14 @@ def manifest_form(manifest: RunManifest) -> dict[str, Any]:
 def read_manifest(content: Mapping[str, Any]) -> RunManifest:
     """Return the manifest in the results of a run; fields that an earlier version did not write are empty.
 
-    Raises ValueError where a field holds something else.
+    Raises ValueError where a field holds something else, or the manifest is of another schema or kind.
     """
-    return evaluation.from_json_form(_MANIFEST, content.get("manifest", {}), place="manifest")
+    own = content.get("manifest", {})
+    manifest = evaluation.from_json_form(_MANIFEST, own, place="manifest")
+    if own and not document.is_of(own, document.MANIFEST, "run"):
+        wanted = f"schema {document.MANIFEST!r}, kind 'run'"
+        raise ValueError(f"manifest: expected {wanted}, found {document.head_of(own)}")
+    return manifest
 
 
 def run_manifest(
