@@ -134,3 +134,17 @@ def test_what_is_not_defined_or_not_recorded_has_no_moments():
     assert moments_of([lock], Recording({"time": time, "speed": 1.0 - time}, units)) == {"it": Moments()}
     assert moments_of([phase], Recording({"time": time, "speed": 1.0 - time}, units)) == {}
     assert moments_of([lock], Recording({"time": time}, {"time": "s"})) == {}
+
+
+def test_a_gap_in_the_demanded_pressure_hides_no_build_up(faulty_stop: SimulatedStop) -> None:
+    record = faulty_stop.recording
+    assert record is not None
+    build_up = _verdict("build_up_time", **DEFINED)
+    whole = moments_of([build_up], record)["it"]
+    assert whole.span is not None
+    demanded = record["demanded_pressure"].copy()
+    for gap in (slice(200, 300), slice(None)):
+        demanded[gap] = np.nan
+        channels = {**record.channels, "demanded_pressure": demanded.copy()}
+        moments = moments_of([build_up], replace(record, channels=channels))["it"]
+        assert moments == (whole if np.isfinite(demanded).any() else Moments())

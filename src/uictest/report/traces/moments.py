@@ -105,7 +105,7 @@ def _replay(verdicts: Iterable[evaluation.Verdict], record: Recording) -> Replay
     return Replay(
         samples_of(record.channels, faults=_faults(record)),
         SimpleNamespace(**(unknown | stated)),
-        float(np.max(demanded)),
+        float(np.fmax.reduce(demanded)),  # a gap says nothing; without any value it is not known
     )
 
 
@@ -154,14 +154,14 @@ def _changes(replay: Replay, cells: Collection[Cell]) -> dict[Cell, _Changes]:
     for time in replay.pass_samples(fields={name for name, _, _ in cells}):
         for holder, key, own in places:
             value = holder[key]
-            if value != own.value and value == value:
-                if value < own.value:
-                    pass
-                elif own.grown and own.grown[-1][1] == previous:
-                    own.grown[-1] = own.grown[-1][0], time
-                else:
-                    own.grown.append((previous, time))
-                own.value, own.time = value, time
+            if value == own.value or math.isnan(value):
+                continue
+            has_grown = value > own.value or math.isnan(own.value)
+            if has_grown and own.grown and own.grown[-1][1] == previous:
+                own.grown[-1] = own.grown[-1][0], time
+            elif has_grown:
+                own.grown.append((previous, time))
+            own.value, own.time = value, time
         previous = time
     return changes
 
