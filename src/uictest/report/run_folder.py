@@ -24,7 +24,7 @@ from uictest.report.content import CaseDescription, RunContent, drawn_cases
 from uictest.report.difference import BaselineComparison, Difference
 from uictest.report.formats import IN_EVERY_RUN, write_formats
 from uictest.report.manifest import RunManifest, manifest_digest, manifest_form, read_manifest
-from uictest.report.traces.trace import PlotTrace, trace_of
+from uictest.report.traces.trace import PlotTrace, trace_of_stop
 
 _CONFIG: Final = ConfigDict(extra="forbid", defer_build=True)
 _SIDES: Final = ("first", "second")
@@ -243,7 +243,7 @@ def read_traces(folder: Path, results: Iterable[evaluation.CaseResult]) -> dict[
     Raises OSError, and ValueError where a recording is none.
     """
     return {
-        result.id: trace_of(recording.read_parquet(path), result.drawn_stop.criteria)
+        result.id: trace_of_stop(recording.read_parquet(path), result)
         for result in results
         if (path := recording_path(folder, result.id)).is_file()
     }

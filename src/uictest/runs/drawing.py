@@ -53,9 +53,7 @@ class TraceCollection:
     def add(self, case_run: campaign.CaseRun) -> None:
         """Add the trace of a case."""
         if self._while_running and case_run.recording is not None:
-            self.traces[case_run.result.id] = report.trace_of(
-                case_run.recording, case_run.result.drawn_stop.criteria
-            )
+            self.traces[case_run.result.id] = report.trace_of_stop(case_run.recording, case_run.result)
 
     def finish(self, done: campaign.BatchResult, jobs: int) -> dict[str, report.PlotTrace]:
         """Return the traces; simulate the drawn cases of a large batch again."""
@@ -97,7 +95,7 @@ def with_traces(
         traces = _simulated_again(cases, drawn, _interval(cases, every), available_processors())
     else:
         traces = {
-            name: report.trace_of(recordings[name], result.drawn_stop.criteria)
+            name: report.trace_of_stop(recordings[name], result)
             for name, result in drawn.items()
             if name in recordings
         }
@@ -126,6 +124,6 @@ def _simulated_again(
     cases: Sequence[scenario.Case], drawn: Mapping[str, evaluation.CaseResult], every: float, jobs: int
 ) -> dict[str, report.PlotTrace]:
     return {
-        case.id: report.trace_of(samples, drawn[case.id].drawn_stop.criteria)
+        case.id: report.trace_of_stop(samples, drawn[case.id])
         for case, samples in campaign.replay(campaign.by_id(cases, frozenset(drawn)), every=every, jobs=jobs)
     }

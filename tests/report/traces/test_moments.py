@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.core.measures import MEASURES
+from uictest.core.measures import MEASURES, wheelset_column_values
 from uictest.core.recording import Recording
 from uictest.core.units import in_unit
 from uictest.judging.evaluation import AppliedDefinition
@@ -56,10 +56,47 @@ def test_every_measure_says_when_it_is_decided_and_where_that_is_shown():
 def test_a_criterion_is_drawn_whatever_it_measures(faulty_stop, measure):
     record = faulty_stop.recording
     verdict = replace(_verdict(measure, 1.0, **DEFINED), status="fail")
-    trace = trace_of(record, [verdict])
+    trace = trace_of(record, [verdict], _reported(faulty_stop))
     taken, marks = taken_at(verdict, trace), marks_of([verdict], trace)
     assert 0.0 <= taken.start <= taken.end <= record["time"][-1]
     assert any(mark.x0 is not None or mark.y is not None for mark in marks)
+
+
+def _reported(stop: SimulatedStop) -> list[dict[str, float]]:
+    return [wheelset_column_values(wheelset) for wheelset in stop.wheelset_measures]
+
+
+@pytest.mark.parametrize("measure", [name for name, measure in MEASURES.items() if measure.of_wheelsets])
+def test_the_wheelset_that_has_the_value_is_found_whichever_measure_is_judged_alone(
+    faulty_stop: SimulatedStop, measure: str
+) -> None:
+    """What a measure reads of the records was fed, or comes from the result: air and what the rail offers."""
+    record, own = faulty_stop.recording, MEASURES[measure]
+    assert record is not None
+    values = own.read(faulty_stop.measures, faulty_stop.wheelset_measures, DEFINED).values
+    for wheelset in (values.index(max(values)) + 1, values.index(min(values)) + 1):
+        verdict = _verdict(measure, in_unit(values[wheelset - 1], own.unit), **DEFINED)
+        moments = moments_of([verdict], record, _reported(faulty_stop))["it"]
+        assert moments.wheelset == wheelset
+
+
+def test_without_the_wheelset_that_decides_no_place_is_shown(faulty_stop: SimulatedStop) -> None:
+    """The vents of all wheelsets together are no place at which one of them vented its air."""
+    record = faulty_stop.recording
+    assert record is not None
+    verdict = replace(_verdict("air_vented", 1.0), status="fail")
+    assert taken_at(verdict, trace_of(record, [verdict])) is None
+    vented = [own["air_vented_nl"] for own in _reported(faulty_stop)]
+    wheelset = vented.index(max(vented)) + 1
+    verdict = replace(verdict, value=max(vented))
+    trace = trace_of(record, [verdict], _reported(faulty_stop))
+    taken = taken_at(verdict, trace)
+    assert taken is not None
+    assert taken.wheelset == wheelset
+    [interval] = trace.moments["it"].intervals[wheelset]
+    assert (taken.start, taken.end) == interval
+    [labelled] = [mark.wheelset for mark in marks_of([verdict], trace) if mark.label]
+    assert labelled == wheelset
 
 
 @pytest.mark.parametrize("measure", TIMES)

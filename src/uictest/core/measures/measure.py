@@ -155,7 +155,8 @@ class Decided:
     Args:
         how: it does.
         plot: key of the panel or the strip that shows it.
-        field: of the records of the wheelsets, else of that of the stop, whose changes decide.
+        field: of the records of the wheelsets, else of that of the stop, whose changes decide. Every measure
+            of the wheelsets names one: a recording is only fed to what these fields need.
         place: in the field, where that is a table.
         among: the wheelsets that count; None: all of them.
         channel: of the train that the extreme lies on, where the field is not drawn itself.

@@ -23,7 +23,7 @@ from uictest.core.measures import (
 )
 from uictest.core.record import fields_of
 from uictest.core.recording import Recording
-from uictest.core.units import in_unit
+from uictest.core.units import SIZES, in_unit
 from uictest.judging import evaluation
 from uictest.plans.faults import SPEED_SENSOR
 from uictest.report.traces.quantities import PANELS, WHEELSETS
@@ -72,12 +72,17 @@ Cell = tuple[str, int, int | None]
 """A number in the records: field, number of the wheelset or `TRAIN`, place where the field is a table."""
 
 
-def moments_of(verdicts: Iterable[evaluation.Verdict], record: Recording) -> dict[str, Moments]:
+def moments_of(
+    verdicts: Iterable[evaluation.Verdict],
+    record: Recording,
+    wheelsets: Sequence[Mapping[str, float]] = (),
+) -> dict[str, Moments]:
     """Return the moments of each criterion whose measure has any, by the id of the criterion.
 
     Args:
         verdicts: of the stop; their definitions say what counts.
         record: every sample of the stop, SI.
+        wheelsets: what the result of the stop reports of each, for what no recording tells.
 
     """
     judged = [
@@ -94,7 +99,10 @@ def moments_of(verdicts: Iterable[evaluation.Verdict], record: Recording) -> dic
     changes = _changes(replay, cells)
     if "sliding_time" in record.metadata:  # more exact than the samples
         replay.train.sliding_time = float(record.metadata["sliding_time"])
-    return {verdict.id: _moments(verdict, measure, replay, changes, record) for verdict, measure in judged}
+    return {
+        verdict.id: _moments(verdict, measure, replay, changes, record, wheelsets)
+        for verdict, measure in judged
+    }
 
 
 def _replay(verdicts: Iterable[evaluation.Verdict], record: Recording) -> Replay:
@@ -172,6 +180,7 @@ def _moments(
     replay: Replay,
     changes: Mapping[Cell, _Changes],
     record: Recording,
+    wheelsets: Sequence[Mapping[str, float]],
 ) -> Moments:
     decided, definition, time = measure.decided, _definition(verdict), record["time"]
     assert decided is not None
@@ -196,7 +205,7 @@ def _moments(
             value = float(record[decided.channel][row]) if decided.channel else each.value
             extremes[n] = each.time, in_unit(value, _UNITS[decided.plot])
     known = span if span is not None and all(map(math.isfinite, span)) else None
-    return Moments(intervals, extremes, known, _deciding(verdict, measure, replay, intervals))
+    return Moments(intervals, extremes, known, _deciding(verdict, measure, replay, intervals, wheelsets))
 
 
 def _deciding(
@@ -204,12 +213,17 @@ def _deciding(
     measure: Measure,
     replay: Replay,
     intervals: Mapping[int, Sequence[Interval]],
+    wheelsets: Sequence[Mapping[str, float]],
 ) -> int | None:
     """Return the wheelset whose value is that of the criterion, or which has the longest interval of all."""
-    wanted = verdict.value
-    if measure.of_wheelsets and wanted is not None:
+    if measure.of_wheelsets and verdict.value is not None:
         values = measure.read(replay.train, replay.wheelsets, _definition(verdict)).values
-        distances = {n: abs(in_unit(value, verdict.unit) - wanted) for n, value in enumerate(values, start=1)}
+        own = [in_unit(value, verdict.unit) for value in values]
+        column = measure.column
+        if column is not None and not any(map(math.isfinite, own)):
+            scale = SIZES[column.unit] / SIZES[verdict.unit]
+            own = [scale * each.get(column.name, math.nan) for each in wheelsets]
+        distances = {n: abs(value - verdict.value) for n, value in enumerate(own, start=1)}
         known = {n: distance for n, distance in distances.items() if math.isfinite(distance)}
         return min(known, key=known.__getitem__, default=None)
     if measure.decided is not None and measure.decided.how == "longest":

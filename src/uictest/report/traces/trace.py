@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -143,12 +143,17 @@ class PlotTrace:
     faults: tuple[FaultSpan, ...] = ()
 
 
-def trace_of(record: recording.Recording, verdicts: Iterable[evaluation.Verdict] = ()) -> PlotTrace:
+def trace_of(
+    record: recording.Recording,
+    verdicts: Iterable[evaluation.Verdict] = (),
+    wheelsets: Sequence[Mapping[str, float]] = (),
+) -> PlotTrace:
     """Return what is drawn of a stop: the extremes of every signal, every change of a state.
 
     Args:
         record: samples of the stop, SI.
         verdicts: of the stop; the trace holds when each of them was decided.
+        wheelsets: what the result reports of each.
 
     """
     time = record["time"]
@@ -163,9 +168,15 @@ def trace_of(record: recording.Recording, verdicts: Iterable[evaluation.Verdict]
         {name: _states(time, samples) for name, samples in series.items() if name in states},
         dict(_loops(series)),
         tuple(name for name in series if name not in record.channels),
-        moments_of(verdicts, record),
+        moments_of(verdicts, record, wheelsets),
         fault_spans(record),
     )
+
+
+def trace_of_stop(record: recording.Recording, result: evaluation.CaseResult) -> PlotTrace:
+    """Return what is drawn of a judged case, whose drawn stop the record holds."""
+    stop = result.drawn_stop
+    return trace_of(record, stop.criteria, stop.wheelsets)
 
 
 def deceleration(time: Series, speed: Series) -> Series:

@@ -67,8 +67,8 @@ def sliding_share_of_wheelsets(
 def _sliding_shares(
     stop: StopMeasures, definition: DefinitionValues, tables: Sequence[Sequence[float]]
 ) -> MeasureValue:
-    k = round(definition["end_speed"] / SLIDE_CLASS) - 1
-    j = round((definition["sliding_below"] - SLOW_SHARES[0]) / SLOW_SHARE_CLASS)
+    first_place = _place_of_slow_time(definition)
+    k = first_place // len(SLOW_SHARES)
     end = f"{_kilometres_per_hour(definition['end_speed'])}, down to which sliding counts"
     if not stop.initial_speed > END_SPEEDS[k]:
         why = f"the train did not run faster than {end}"
@@ -76,8 +76,15 @@ def _sliding_shares(
     if math.isnan(stop.reached_time[k]):
         return unavailable(f"the train did not come down to {end}")
     duration = float(stop.reached_time[k])
-    places = range(k * len(SLOW_SHARES) + j, len(END_SPEEDS) * len(SLOW_SHARES), len(SLOW_SHARES))
+    places = range(first_place, len(END_SPEEDS) * len(SLOW_SHARES), len(SLOW_SHARES))
     return MeasureValue(tuple(sum(float(table[place]) for place in places) / duration for table in tables))
+
+
+def _place_of_slow_time(definition: DefinitionValues) -> int:
+    """Return the place of `sliding_below` in the band of train speeds that ends at `end_speed`."""
+    k = round(definition["end_speed"] / SLIDE_CLASS) - 1
+    j = round((definition["sliding_below"] - SLOW_SHARES[0]) / SLOW_SHARE_CLASS)
+    return k * len(SLOW_SHARES) + j
 
 
 def _down_to_end_speed(definition: DefinitionValues) -> str:
@@ -174,7 +181,9 @@ MEASURES = (
         meaning="share of the time from the brake command to `end_speed` in which the wheelset turns below"
         " the share `sliding_below` of the train's speed",
         read=sliding_share_of_wheelsets,
-        decided=Decided(how="span", plot="slide", down_to="end_speed"),
+        decided=Decided(
+            how="span", plot="slide", field="slow_time", place=_place_of_slow_time, down_to="end_speed"
+        ),
         of_wheelsets=True,
         definitions=("sliding_below", "end_speed"),
         speed_range=_down_to_end_speed,

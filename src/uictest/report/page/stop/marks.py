@@ -110,12 +110,12 @@ def _extremes(verdict: evaluation.Verdict, decided: Decided, moments: Moments) -
 
 
 def _intervals(verdict: evaluation.Verdict, decided: Decided, moments: Moments) -> Iterator[Mark]:
-    """Yield intervals in a strip; the longest carries the value, where the criterion did not pass.
+    """Yield intervals in a strip; the longest of the wheelset that decides carries a value that did not pass.
 
     A panel has no room for more than the longest.
     """
     rows = [(last - first, first, last, n) for n, own in moments.intervals.items() for first, last in own]
-    longest = max(rows, default=None)
+    longest = max((row for row in rows if moments.wheelset in (None, row[3])), default=None)
     label = "" if verdict.status == "pass" else printable(f"{verdict.id}: {value_and_limits(verdict)}")
     for row in rows:
         _, first, last, n = row
@@ -168,6 +168,8 @@ def taken_at(verdict: evaluation.Verdict, trace: PlotTrace) -> Taken | None:
             return None
         time, height = moments.extremes[number_of_extreme]
         return Taken(decided.plot, time, time, n, height)
+    if n is None and MEASURES[verdict.measure].of_wheelsets:
+        return None
     intervals = [each for k, own in moments.intervals.items() if n in (None, k) for each in own]
     if not intervals:
         return None
