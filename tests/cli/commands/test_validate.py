@@ -259,8 +259,8 @@ def test_without_the_option_nothing_is_said_and_results_with_a_domain_are_read_b
     [
         ({"schema": "uictest/result/1"}, "not the result of a validation"),
         ({"domains": []}, "none of its stops is counted"),
-        ({"domains": [{"stops": "two"}]}, "domains"),
-        ({"verdict": "pass"}, "verdict"),
+        ({"domains": [{"stops": "two"}]}, "other.json: domains.0."),
+        ({"verdict": "pass"}, "other.json: verdict: "),
         (None, "other.json"),
     ],
 )
@@ -275,6 +275,24 @@ def test_a_document_that_is_none_is_refused(call, validated, scenario, change, m
 
 
 def test_a_scenario_names_the_validation_that_its_cases_are_held_against(call, validated, scenario):
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"confidence": "high"}, "confidence: Input should be a valid number"),
+        ({"stops": [{"id": 3}]}, "stops.0."),
+    ],
+)
+def test_check_refuses_a_validation_that_run_refuses(call, validated, scenario, change, message):
+    """With the place in the scenario; both name the file and the key in it."""
+    document = json.loads(validated.read_text("utf-8")) | change
+    Path("scenarios/other.json").write_text(json.dumps(document), "utf-8")
+    scenario("stop", "validated: other.json\n")
+    run, check = (call(command, "scenarios/stop.yaml") for command in ("run", "check"))
+    assert run.code == check.code == 4
+    assert f"uictest: scenarios/other.json: {message}" in run.err
+    assert f"scenarios/stop.yaml:4:12: validated: scenarios/other.json: {message}" in check.out + check.err
+
+
     shutil.copy(validated, "scenarios/train.json")
     friction = "rail: {condition: wet, friction: 0.1}\n"
     scenario("fast", f"{friction}validated: train.json\n")

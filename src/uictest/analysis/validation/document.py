@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import ClassVar, Final
 
 from pydantic import ConfigDict, TypeAdapter
 
@@ -39,6 +39,8 @@ class Validation:
         not_compared: figures that no counted stop has both recorded and simulated.
         domains: where it holds.
     """
+
+    __pydantic_config__: ClassVar = ConfigDict(extra="forbid", defer_build=True)
 
     name: str
     title: str
@@ -79,14 +81,12 @@ class ValidationReference:
         return DomainOfValidity(self.validation.name, self.sha256, outside)
 
 
-# Of a list: its configuration then holds for everything inside.
-_VALIDATIONS: Final = TypeAdapter(list[Validation], config=ConfigDict(extra="forbid", defer_build=True))
+_VALIDATION: Final = TypeAdapter(Validation)
 
 
 def validation_json(validation: Validation) -> str:
     """Return a validation as JSON; NaN is null."""
-    [content] = to_json_form(_VALIDATIONS, [validation])
-    form: dict[str, Any] = {**document.head(document.RESULT, "validation"), **content}
+    form = {**document.head(document.RESULT, "validation"), **to_json_form(_VALIDATION, validation)}
     return json.dumps(form, indent=2, allow_nan=False) + "\n"
 
 
@@ -107,7 +107,7 @@ def read_validation(path: Path) -> ValidationReference:
     except ValueError as error:
         raise ValueError(f"not the result of a validation: {error}") from error
     own = {name: value for name, value in form.items() if name not in ("schema", "kind")}
-    [validation] = from_json_form(_VALIDATIONS, [own])
+    validation = from_json_form(_VALIDATION, own)
     if not validation.domains:
         raise ValueError("none of its stops is counted: nothing was validated")
     return ValidationReference(validation, display_name(path), hashlib.sha256(content).hexdigest())

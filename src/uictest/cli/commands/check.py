@@ -68,11 +68,24 @@ def _misfits(case: scenario.Case) -> Iterator[yaml.Diagnostic]:
     if case.scenario.expect == "invalid":
         return
     for each in scenario.misfits(case.scenario):
-        key = tuple(each.key.split("."))
-        entry, depth = yaml.entry_at(yaml.read_file(case.path), key)
-        place = entry.node.place if depth == len(key) else yaml.whole_file(case.path)
         hint = "write `rig.topology: four-caliper` or `rig.compensation_model: identify`"
-        yield yaml.diagnose(place, each.sentence, each.key, hint)
+        yield yaml.diagnose(_place(case, each.key), each.sentence, each.key, hint)
+
+
+def _place(case: scenario.Case, key: str) -> yaml.Place:
+    """Return where the file of a case sets a key; the whole file where another one does."""
+    keys = tuple(key.split("."))
+    entry, depth = yaml.entry_at(yaml.read_file(case.path), keys)
+    return entry.node.place if depth == len(keys) else yaml.whole_file(case.path)
+
+
+def _reference_problem(path: str) -> str:
+    """Return why a run could not read the validation that scenarios name; empty where it can."""
+    try:
+        runs.read_reference(Path(path))
+    except runs.InvalidInputError as error:
+        return "; ".join(error.messages)
+    return ""
 
 
 def _is_of_other_kind(path: Path) -> bool:
@@ -80,7 +93,17 @@ def _is_of_other_kind(path: Path) -> bool:
 
 
 def _require_fit(cases: Iterable[scenario.Case]) -> None:
-    if unfit := tuple(dict.fromkeys(each for case in cases for each in _misfits(case))):
+    """Raise ScenarioErrors for what is valid by itself and could not be run as it is meant."""
+    every = list(cases)
+    validated = {case.scenario.validated for case in every}
+    problems = {path: _reference_problem(path) for path in validated if path is not None}
+    unreadable = (
+        yaml.diagnose(_place(case, "validated"), problem, "validated")
+        for case in every
+        if (problem := problems.get(case.scenario.validated or ""))
+    )
+    misfits = (each for case in every for each in _misfits(case))
+    if unfit := tuple(dict.fromkeys((*unreadable, *misfits))):
         raise yaml.ScenarioErrors(unfit)
 
 
