@@ -1,4 +1,4 @@
-"""JUnit XML of any result that has testcases."""
+"""JUnit XML of any result that has testcases; properties by which Polarion, Xray and people know these."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from uictest.core.document import Suite, Testcase
 from uictest.judging import evaluation
 from uictest.report.escaping import xml_text
 
+WITH_TEST_PROPERTIES: Final = "junit-properties.xml"
+"""Name of the file whose testcases have properties, which the schema of Jenkins' xUnit plugin forbids."""
+_REQUIREMENT_SEPARATOR: Final = ","
 _COUNTS: Final = (("failures", "failure"), ("errors", "error"), ("skipped", "skipped"))
 
 
@@ -61,12 +64,6 @@ def _add_properties(element: ElementTree.Element, named: Mapping[str, str]) -> N
         properties = ElementTree.SubElement(element, "properties")
         for name, text in told.items():
             ElementTree.SubElement(properties, "property", name=xml_text(name), value=xml_text(text))
-
-
-WITH_TEST_PROPERTIES: Final = "junit-properties.xml"
-"""Name of the file whose testcases have properties, which the schema of Jenkins' xUnit plugin forbids."""
-
-_REQUIREMENT_SEPARATOR: Final = ","
 
 
 def suite_properties(

@@ -10,6 +10,8 @@ from uictest.core.lanes.layouts import type_of_layout
 from uictest.core.lanes.types import vector_of_llvm
 
 _POINTER = ir.IntType(8).as_pointer()
+_CACHE_LINE = 64
+_NUMBERS = _CACHE_LINE // 8
 
 
 def record_at(layout: Any) -> Any:
@@ -42,10 +44,6 @@ def call(typing: Any, function: Any, first: Any, second: Any, third: Any) -> Any
         return builder.sext(status, ir.IntType(64))
 
     return types.int64(types.int64, types.int64, types.int64, types.int64), lower
-
-
-_CACHE_LINE = 64
-_NUMBERS = _CACHE_LINE // 8
 
 
 @in_compiled_code

@@ -11,7 +11,7 @@ from functools import cached_property
 from pathlib import Path
 
 from uictest.core import files
-from uictest.runs.history.entry import UnreadableError
+from uictest.runs.history.foreign_files import UnreadableError
 from uictest.runs.history.listing import list_runs
 from uictest.runs.history.run_in_folder import Kind, ListedRun, started_in
 

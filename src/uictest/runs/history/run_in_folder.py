@@ -13,17 +13,13 @@ from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt, ValidationErr
 
 from uictest import report
 from uictest.core import document
-from uictest.runs.history.entry import (
-    ENTRY,
-    CaseEntry,
-    RunEntry,
+from uictest.runs.history.entry import ENTRY, CaseEntry, RunEntry, entry_of, read_entry
+from uictest.runs.history.foreign_files import (
     UnreadableError,
     bytes_of,
-    entry_of,
     exists,
     first_problem,
     json_object,
-    read_entry,
     require_file,
     shown,
 )
