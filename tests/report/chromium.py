@@ -28,10 +28,19 @@ ARGUMENTS = (
 
 PLOTTED = """
 const plots = document.querySelector('details.stop[open] .plots');
-if (plots && !plots.dataset.drawn) plots.scrollIntoView({block: 'nearest', behavior: 'instant'});
+if (plots && !plots.dataset.ready) {
+  plots.scrollIntoView({block: 'nearest', behavior: 'instant'});
+  return 0;
+}
 return document.querySelectorAll('.panels-plot .scatterlayer .trace').length;
 """
-"""How many lines the plots of the open stop have: they are drawn once they are near the window."""
+"""How many lines the plots of the open stop have, once they are drawn and answer, near the window."""
+
+COMPARED = """
+return document.querySelector('.compared-plot .scatterlayer .trace') &&
+  document.querySelectorAll('.cases li').length;
+"""
+"""How many cases are laid over each other, once they are drawn and the table beside them is filled."""
 
 
 def started() -> Any:

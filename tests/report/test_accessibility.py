@@ -18,7 +18,7 @@ from uictest.report.sweep.folder import SweepContent
 from uictest.report.traces.trace import trace_of
 
 from .builders import MakeSweep, make_recording, make_result
-from .chromium import PLOTTED, emulate, resize, run, wait
+from .chromium import COMPARED, PLOTTED, emulate, resize, run, wait
 from .sweep_rows import DRAWN, drawn_rows, sweep_result, write_rows
 
 _CHECK = """
@@ -66,7 +66,7 @@ def test_the_page_of_a_run(browser: Any, page: Path, scheme: str, width: int) ->
     """With two cases compared, and with every fold open."""
     shown(browser, page, scheme, width)
     run(browser, "document.querySelectorAll('input.compare').forEach((box, k) => k < 2 && box.click())")
-    wait(browser, "return document.querySelectorAll('.compared-plot .scatterlayer .trace').length")
+    wait(browser, COMPARED)
     run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
     wait(browser, _ALL_PLOTTED)
     assert_fit_for_all(browser)

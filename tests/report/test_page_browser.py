@@ -102,7 +102,7 @@ def test_lines_can_be_switched_off(browser: Any, page: Path) -> None:
     browser.get(page.as_uri())
     before = wait(browser, PLOTTED)
     run(browser, "document.querySelector('details[open] .key input[data-role=wheelset-2]').click()")
-    assert run(browser, PLOTTED) < before
+    assert wait(browser, f"const count = () => {{{PLOTTED}}}; return count() < {before}")
 
 
 def test_it_can_be_read_without_javascript(browser: Any, page: Path) -> None:

@@ -46,7 +46,7 @@ def _outcome(invocation: CommandLine) -> ExitCode:
     try:
         return _call(invocation)
     except typer.TyperException as error:
-        message(f"uictest: {error.format_message()}\nTry 'uictest --help', or 'uictest COMMAND --help'.")
+        message(f"uictest: {error.format_message()}\n{_advice(invocation.arguments)}")
         return ExitCode.USAGE
     except scenario.ScenarioErrors as error:
         for trace in error.traces if invocation.verbosity > 0 else ():
@@ -69,6 +69,12 @@ def _outcome(invocation: CommandLine) -> ExitCode:
             message(f"uictest: {reason or error}")
             return ExitCode.USAGE
         return _failed(reason or f"internal error: {type(error).__name__}: {error}", invocation)
+
+
+def _advice(arguments: Sequence[str]) -> str:
+    if arguments[:1] == ("reproduce",):
+        return "The studies are run by './reproduce' in a checkout of uictest."
+    return "Try 'uictest --help', or 'uictest COMMAND --help'."
 
 
 def _is_of_argument(error: Exception, arguments: Sequence[str]) -> bool:

@@ -274,7 +274,6 @@ def test_a_document_that_is_none_is_refused(call, validated, scenario, change, m
     call("run", "scenarios/stop.yaml", *options, code=4, says=message if named == "option" else "other.json")
 
 
-def test_a_scenario_names_the_validation_that_its_cases_are_held_against(call, validated, scenario):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
@@ -293,6 +292,7 @@ def test_check_refuses_a_validation_that_run_refuses(call, validated, scenario, 
     assert f"scenarios/stop.yaml:4:12: validated: scenarios/other.json: {message}" in check.out + check.err
 
 
+def test_a_scenario_names_the_validation_that_its_cases_are_held_against(call, validated, scenario):
     shutil.copy(validated, "scenarios/train.json")
     friction = "rail: {condition: wet, friction: 0.1}\n"
     scenario("fast", f"{friction}validated: train.json\n")

@@ -36,9 +36,6 @@ from uictest.plans.scenario.yaml import (
 )
 from uictest.plans.series import Recorded
 
-VALIDATION_SCHEMA: Final = "uictest/validation/1"
-_SCHEMA_HINT: Final = f"a validation starts with `schema: {VALIDATION_SCHEMA}`"
-
 
 @dataclass(frozen=True, slots=True)
 class PlannedComparison:
