@@ -82,7 +82,9 @@ def test_examples_load(page: Path, tmp_path: Path) -> None:
     prepare(page.read_text("utf-8"), tmp_path)
     for block in examples(page):
         kind = kind_of(block.text)
-        if kind == "scenario":
+        if block.file_name.endswith(scenario.SWEEP_SUFFIXES):
+            LOADERS["sweep"](tmp_path / block.file_name)
+        elif kind == "scenario":
             load_scenario(block, tmp_path)
         elif kind in KIND_OF_FOLDER.values():
             load_part(block, kind, tmp_path)
