@@ -114,16 +114,18 @@ def resampled_transfer_function(
     """
     if abs(step - sampling_time) < 1e-12 * sampling_time:
         return numerator, denominator
-    import numpy as np
+    # Scipy's `tf2ss` and `ss2tf` give the same bits; loading them takes as long as a hundred stops.
     from scipy.linalg import fractional_matrix_power
-    from scipy.signal import ss2tf, tf2ss
 
-    a, b, c, d = tf2ss(numerator, [1.0, *denominator])
-    identity = np.eye(len(a))
+    order, through = len(denominator), numerator[0]
+    identity = np.eye(order)
+    a = np.vstack([np.negative(denominator), np.eye(order - 1, order)])
+    b, c = identity[:, :1], np.array(numerator[1:]) - through * np.array(denominator)
     faster = np.real(fractional_matrix_power(a, step / sampling_time))
     held = (faster - identity) @ np.linalg.solve(a - identity, b)
-    b_new, a_new = ss2tf(faster, held, c, d)
-    return _unity_gain([float(x) for x in b_new[0]], [float(x) for x in a_new[1:]])
+    a_new = np.poly(faster)
+    b_new = np.poly(faster - held * c) + (through - 1.0) * a_new
+    return _unity_gain([float(x) for x in b_new], [float(x) for x in a_new[1:]])
 
 
 def _unity_gain(numerator: list[float], denominator: list[float]) -> tuple[list[float], list[float]]:

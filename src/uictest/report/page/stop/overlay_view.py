@@ -49,7 +49,7 @@ def packed(curves: Mapping[str, Curve], interval: float = 0.0) -> dict[str, Any]
         lines[name] = {"count": len(curve.x), "x": across, "y": up}
         parts += [_differences(_numbers(curve.x, across)), _differences(_numbers(curve.y, up))]
     numbers = np.concatenate(parts).astype("<i2") if parts else np.zeros(0, "<i2")
-    data = zlib.compress(numbers.view(np.uint8).reshape(-1, 2).T.tobytes(), 9)
+    data = zlib.compress(numbers.view(np.uint8).reshape(-1, 2).T.tobytes(), 6)
     return {"lines": lines, "data": base64.b64encode(data).decode("ascii")}
 
 
