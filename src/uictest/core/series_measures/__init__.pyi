@@ -1,3 +1,4 @@
+from .catalogue import SERIES_MEASURES as SERIES_MEASURES
 from .estimate import (
     Estimate as Estimate,
     Method as Method,
@@ -15,4 +16,3 @@ from .measure import (
     of_stop as of_stop,
     percent_of_dry as percent_of_dry,
 )
-from .registry import SERIES_MEASURES as SERIES_MEASURES

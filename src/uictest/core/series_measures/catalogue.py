@@ -1,0 +1,169 @@
+"""Every measure of a series, one row each, in the order of results and lists.
+
+K_wet: UNISIG SUBSET-040, 4.4.1.5. The deceleration distance is what remains of the distance to standstill
+behind the equivalent build-up time of the brake; K_wet = 100/(100 + increase of it over the dry stop in %),
+of the mean of the valid wet stops. One factor for all speeds takes the larger increase: the smaller K_wet.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Final
+
+from uictest.core.series_measures.estimate import Estimate, largest_of, mean_of, median_of, share_of
+from uictest.core.series_measures.measure import (
+    CountedStop,
+    SeriesMeasure,
+    SpeedStops,
+    largest_of_wheelsets,
+    median_and_worst,
+    of_stop,
+    percent_of_dry,
+)
+
+_BRAKING_DISTANCE = of_stop("braking_distance_m")
+_DECELERATION_DISTANCE = of_stop("deceleration_distance_m")
+_NO_DISTANCE: Final = -100.0
+"""Increase (%) to a distance of zero."""
+
+
+def increases(stops: SpeedStops) -> list[float]:
+    """Return by how much (%) the deceleration distance of every wet stop exceeds the mean of the dry ones."""
+    return [percent - 100.0 for percent in percent_of_dry(_DECELERATION_DISTANCE, stops)]
+
+
+def k_of_increase(increase: float) -> float:
+    """Return 100/(100 + increase), the increase in %."""
+    return 100.0 / (100.0 + increase)
+
+
+def _k_wet(values: Sequence[float], confidence: float) -> Estimate:
+    """Return K_wet of the mean increase; without an interval where that of the mean reaches -100 %.
+
+    No distance is below zero: so wide an interval says nothing, and its K_wet would run through infinity.
+    """
+    increase = mean_of(values, confidence)
+    if not increase.low <= _NO_DISTANCE:
+        return increase.mapped(k_of_increase)
+    return replace(increase, low=math.nan, high=math.nan).mapped(k_of_increase)
+
+
+def extensions(stops: SpeedStops) -> list[float]:
+    """Return by how much (%) the braking distance of every wet stop exceeds the mean of the dry ones."""
+    return [percent - 100.0 for percent in percent_of_dry(_BRAKING_DISTANCE, stops)]
+
+
+def adhesion_utilisation(stop: CountedStop) -> float:
+    """Return work done by the rail over work available at the friction maximum, %, for the train."""
+    return 100.0 * stop.measures.get("adhesion_utilisation", float("nan"))
+
+
+def bogie_imbalance(stop: CountedStop) -> float:
+    """Return by how much the decelerations that the bogies give differ, in % of their mean."""
+    first, second = (stop.measures.get(f"deceleration_bogie_{n}_mps2", math.nan) for n in (1, 2))
+    total = first + second
+    return 200.0 * abs(first - second) / total if total else math.nan
+
+
+_MEASURES: Final = (
+    SeriesMeasure(
+        name="deceleration_distance_extension",
+        kind="share",
+        unit="%",
+        meaning="mean increase of the deceleration distance over the mean of the dry stops of the same speed",
+        worse="larger",
+        values=increases,
+        statistic=mean_of,
+    ),
+    SeriesMeasure(
+        name="k_wet",
+        kind="number",
+        unit="1",
+        meaning="100/(100 + mean increase of the deceleration distance in %)",
+        worse="smaller",
+        values=increases,
+        statistic=_k_wet,
+    ),
+    SeriesMeasure(
+        name="stopping_distance_extension",
+        kind="share",
+        unit="%",
+        meaning="median increase of the braking distance over the mean of the dry stops of the same speed",
+        worse="larger",
+        values=extensions,
+        statistic=median_of,
+    ),
+    SeriesMeasure(
+        name="worst_stopping_distance_extension",
+        kind="share",
+        unit="%",
+        meaning="largest increase of the braking distance over the mean of the dry stops of the same speed",
+        worse="larger",
+        values=extensions,
+        statistic=largest_of,
+    ),
+    *median_and_worst("braking_distance", "length", "m", "braking distance", _BRAKING_DISTANCE),
+    SeriesMeasure(
+        name="passing_share",
+        kind="share",
+        unit="%",
+        meaning="share of the wet stops that meet every requirement on a stop",
+        worse="smaller",
+        values=lambda stops: [float(stop.passed) for stop in stops.wet],
+        statistic=share_of,
+        pooled=True,
+    ),
+    *median_and_worst(
+        "locked_time",
+        "time",
+        "s",
+        "time the most locked wheelset is locked in all",
+        largest_of_wheelsets("locked_time_s"),
+    ),
+    *median_and_worst(
+        "slid_distance",
+        "length",
+        "m",
+        "distance that the wheelset which slides farthest slides",
+        largest_of_wheelsets("slid_distance_m"),
+    ),
+    *median_and_worst(
+        "contact_energy",
+        "energy",
+        "kJ",
+        "largest contact energy of a wheelset",
+        largest_of_wheelsets("contact_energy_kj"),
+    ),
+    *median_and_worst(
+        "adhesion_utilisation",
+        "share",
+        "%",
+        "work done by the rail over work available at the friction maximum",
+        adhesion_utilisation,
+        worse="smaller",
+    ),
+    *median_and_worst(
+        "reservoir_margin",
+        "pressure",
+        "bar",
+        "least pressure of the reservoir over the cylinders",
+        of_stop("reservoir_margin_bar"),
+        worse="smaller",
+    ),
+    *median_and_worst(
+        "air_consumed", "normal volume", "NL", "air taken from the reservoir", of_stop("air_consumed_nl")
+    ),
+    *median_and_worst(
+        "bogie_imbalance",
+        "share",
+        "%",
+        "difference of the decelerations that the two bogies give, over their mean",
+        bogie_imbalance,
+    ),
+)
+
+SERIES_MEASURES: Final = MappingProxyType({measure.name: measure for measure in _MEASURES})
+"""Every measure of a series by name."""

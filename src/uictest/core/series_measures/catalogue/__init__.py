@@ -1,1 +1,0 @@
-"""Every measure of a series: each module declares its own as MEASURES."""
