@@ -265,7 +265,7 @@ def described_fmu(description):
         archive.writestr("modelDescription.xml", description.read_bytes())
         for platform in (fmpy.platform, fmpy.platform_tuple):
             archive.writestr(f"binaries/{platform}/any{fmpy.sharedLibraryExtension}", b"")
-    command("check -v uses-fmu.yaml")(description)
+    command("check uses-fmu.yaml")(description)
     fmu = Path("any.fmu")
     with contextlib.suppress(ControllerError):
         folder, read = fmu_slave.unpack(fmu, hashlib.sha256(fmu.read_bytes()).hexdigest())
@@ -316,9 +316,9 @@ PARTS = {
     "sensors": ("sensors", "rig: {sensors: part.yaml}"),
 }
 KINDS = (
-    Kind("scenario", "x.yaml", "scenarios/*-*[0-9].yaml full.yaml outside.yaml", command("check -v {}")),
-    Kind("sweep", "x.sweep.yaml", "scenarios/*.sweep.yaml", command("check -v {}")),
-    Kind("series", "x.series.yaml", "scenarios/*.series.yaml", command("check -v {}")),
+    Kind("scenario", "x.yaml", "scenarios/*-*[0-9].yaml full.yaml outside.yaml", command("check {}")),
+    Kind("sweep", "x.sweep.yaml", "scenarios/*.sweep.yaml", command("check {}")),
+    Kind("series", "x.series.yaml", "scenarios/*.series.yaml", command("check {}")),
     *(
         Kind(
             f"{name} part",
@@ -332,7 +332,7 @@ KINDS = (
         "controller from outside",
         "part.yaml",
         "wsp.yaml fmu.yaml socket.yaml",
-        command("check -v uses-controller.yaml"),
+        command("check uses-controller.yaml"),
     ),
     Kind("bench recipe", "x.yaml", "src/uictest/plans/library/benches/*.yaml", function(bench.load_bench)),
     Kind(
@@ -367,7 +367,7 @@ KINDS = (
         "results of a run",
         "bad/results.json",
         "good/results.json",
-        command("report -v bad --format md,junit,csv -o out"),
+        command("report bad --format md,junit,csv -o out"),
         3,
     ),
     Kind(
@@ -391,23 +391,21 @@ KINDS = (
         function(compared_baseline, ValueError, OSError),
         3,
     ),
-    Kind("manifest", "runs/one/manifest.json", "good/manifest.json", command("open -v runs"), 4),
-    Kind(
-        "entry of the index", "runs/one/index-entry.json", "good/index-entry.json", command("open -v runs"), 4
-    ),
+    Kind("manifest", "runs/one/manifest.json", "good/manifest.json", command("open runs"), 4),
+    Kind("entry of the index", "runs/one/index-entry.json", "good/index-entry.json", command("open runs"), 4),
     Kind(
         "result of a sweep",
         "sweep/sweep.json",
         "swept/sweep.json",
-        command("report -v sweep --format md,csv -o out"),
+        command("report sweep --format md,csv -o out"),
         3,
     ),
-    Kind("manifest of a sweep", "sweep/manifest.json", "swept/manifest.json", command("open -v ."), 4),
+    Kind("manifest of a sweep", "sweep/manifest.json", "swept/manifest.json", command("open ."), 4),
     Kind(
         "result of a validation",
         "validation.json",
         "valid/validation.json",
-        command("check -v uses-validation.yaml"),
+        command("check uses-validation.yaml"),
     ),
     Kind(
         "result of a validation that is used",
@@ -435,7 +433,7 @@ KINDS = (
         "recording of a run",
         "bad/recordings/stop.parquet",
         "good/recordings/stop.parquet",
-        command("report -v bad --format html -o out"),
+        command("report bad --format html -o out"),
         8,
     ),
     *(
@@ -579,7 +577,7 @@ def _place(tmp_path_factory):
         shutil.copytree("reports/latest/", "good")
         for copy in ("bad", "runs/one", "last/latest"):
             shutil.copytree("good", copy)
-        command("sweep -v two.sweep.yaml -o sweeps")(folder)
+        command("sweep two.sweep.yaml -o sweeps")(folder)
         shutil.copytree("sweeps/two", "swept")
         shutil.copytree("sweeps/two", "sweep")
         command("validate -v one.validation.yaml -o validations")(folder)

@@ -28,7 +28,8 @@ def train(workplace):
 
 
 def test_digits_are_those_of_the_command(train, command):
-    options = ["--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop"]
+    keys = ("rail.condition=dry", "brake.position=R", "rig.wsp=active", "criteria=uictest-stop")
+    options = [f"--set={key}" for key in keys]
     assert command("evaluate", train, *options, "-o", "out") == 0
     folder = latest_run(Path("out"))
     results = uictest.evaluate(train, **STATED)

@@ -20,7 +20,10 @@ from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, error_result
 from uictest.running.campaign import CaseRun, RecordingRequest, Stop, StopRun, batch
 
-STATED = ("--rail", "dry", "--position", "R", "--wsp", "active", "--criteria", "uictest-stop")
+STATED = tuple(
+    f"--set={each}"
+    for each in ("rail.condition=dry", "brake.position=R", "rig.wsp=active", "criteria=uictest-stop")
+)
 """What `evaluate` asks of a recorded stop."""
 HANGING = 600.0
 """Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""

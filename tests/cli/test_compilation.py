@@ -54,7 +54,7 @@ def test_a_terminal_has_a_bar_for_each_compilation(monkeypatch):
     monkeypatch.setattr("sys.stderr", terminal)
     monkeypatch.setattr(progress, "interactive", lambda stream: True)
     monkeypatch.setenv("TERM", "xterm")
-    with compilation_shown(colour="never"):
+    with compilation_shown():
         compile_(0.0, 0.5, 1.0)
         compile_(0.0, 1.0)
     shown = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", terminal.getvalue())

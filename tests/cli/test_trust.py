@@ -1,5 +1,6 @@
 """`--trust`: folders that references may lead into."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -35,7 +36,7 @@ def inside(workplace, monkeypatch):
 )
 def test_a_reference_out_of_the_folders_given_needs_trust(call, inside, command):
     refused = call(*command, code=4, says=f"'../beside/base.yaml' leads out of {inside}")
-    assert f"add --trust {inside.parent / 'beside'};" in refused.err
+    assert f"add --trust {inside.parent / 'beside'}, or UICTEST_TRUST=" in refused.err
     assert call(*command, "--trust", "../beside").code == 0
 
 
@@ -47,17 +48,31 @@ def test_a_reference_out_of_the_folders_given_needs_trust(call, inside, command)
         ["run"],
         ["sweep", "s.sweep.yaml"],
         ["evaluate", "stop.csv"],
+    ],
+    ids=" ".join,
+)
+def test_commands_that_read_scenarios_take_folders_to_trust(call, inside, command):
+    answer = call(*command, "--trust", "missing", code=4, says="'--trust'")
+    assert "missing" in answer.err
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["check"],
         ["fit", "stop.csv", "--scenario", "stop.yaml"],
         ["bench", "triangular"],
         ["identify", "hysteresis", "stop.csv"],
-        ["identify", "cylinder", "stop.csv"],
+        ["export-rig", "stop.yaml"],
         ["library", "show", "stop.yaml"],
     ],
     ids=" ".join,
 )
-def test_every_command_that_reads_scenarios_takes_folders_to_trust(call, inside, command):
-    answer = call(*command, "--trust", "missing", code=4, says="'--trust'")
-    assert "missing" in answer.err
+def test_every_command_takes_folders_to_trust_from_the_environment(call, inside, monkeypatch, command):
+    monkeypatch.setenv("UICTEST_TRUST", f"missing{os.pathsep}.")
+    call(*command, code=4, says="UICTEST_TRUST")
+    monkeypatch.setenv("UICTEST_TRUST", f".{os.pathsep}../beside")
+    assert "leads out of" not in call(*command).err
 
 
 @pytest.mark.parametrize(
@@ -67,14 +82,15 @@ def test_every_command_that_reads_scenarios_takes_folders_to_trust(call, inside,
         ("map.yaml", "schema: uictest/channel-map/1\nname: m\nchannels: {}\nextends: %s\n"),
     ],
 )
-def test_the_file_of_a_part_is_shown_with_what_lies_beside_it(call, inside, name, text):
+def test_the_file_of_a_part_is_shown_with_what_lies_beside_it(call, inside, monkeypatch, name, text):
     beside = inside.parent / "beside"
     (beside / "own.yaml").write_text(text % {"car.yaml": "crh380a", "map.yaml": "uictest"}[name])
     (beside / name).write_text(text % "own.yaml")
     (inside / name).write_text(text % "../beside/own.yaml")
     assert call("library", "show", beside / name).code == 0
     assert call("library", "show", name).code == 4
-    assert call("library", "show", name, "--trust", beside).code == 0
+    monkeypatch.setenv("UICTEST_TRUST", str(beside))
+    assert call("library", "show", name).code == 0
 
 
 def test_links_and_parts_that_lead_out_are_named_by_file_and_key(call, inside):

@@ -30,7 +30,6 @@ COMMANDS = {
     "open, output": ["open", "-o", "PATH"],
     "compare": ["compare", "PATH", "stop.parquet"],
     "compare, page": ["compare", "stop.parquet", "stop.parquet", "--html", "PATH"],
-    "schema, output": ["schema", "-o", "PATH"],
     "init": ["init", "PATH"],
     "init controller": ["init", "controller", "--python", "PATH"],
     "controller check": ["controller", "check", "PATH"],

@@ -33,7 +33,7 @@ def validator(schema: dict[str, Any]) -> Draft7Validator:
 
 
 def test_the_committed_schema_is_that_of_the_models(schema: dict[str, Any]) -> None:
-    # Written by `uictest schema --output schema/scenario.schema.json`.
+    # Written by `uictest schema > schema/scenario.schema.json`.
     assert json.loads(COMMITTED.read_text()) == schema
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from uictest import runs
@@ -88,7 +88,7 @@ def evaluate(
     paths, folders, request = as_paths(files), as_paths(trust), recording_request(record)
     if not paths:
         raise ValueError("nothing to evaluate: name recordings")
-    stated = runs.statements_of([criteria] if isinstance(criteria, str) else criteria, rail, position, wsp)
+    stated = _statements([criteria] if isinstance(criteria, str) else criteria, rail, position, wsp)
     statements, overrides = list(stated), override_texts(set)
     preparation = {"trigger": trigger, "trigger_lead": trigger_lead, "raster": raster, "low_pass": low_pass}
     options = {
@@ -142,3 +142,12 @@ def _case_of(
         raise ValueError(
             f"a recording does not say what was tested: state it with scenario=, or with {names}"
         ) from None
+
+
+def _statements(
+    criteria: Sequence[str] | None, rail: str | None, position: str | None, wsp: str | None
+) -> Iterator[str]:
+    """Yield what is stated of recordings in the form of `--set`."""
+    listed = f"[{', '.join(criteria)}]" if criteria else None
+    stated = {"rail.condition": rail, "brake.position": position, "rig.wsp": wsp, "criteria": listed}
+    yield from (f"{key}={text}" for key, text in stated.items() if text is not None)

@@ -49,7 +49,7 @@ def _outcome(invocation: CommandLine) -> ExitCode:
         message(f"uictest: {error.format_message()}\n{_advice(invocation.arguments)}")
         return ExitCode.USAGE
     except scenario.ScenarioErrors as error:
-        for trace in error.traces if invocation.verbosity > 0 else ():
+        for trace in error.traces:
             message(trace)
         message(str(error))
         return ExitCode.ERROR if error.traces else ExitCode.USAGE
@@ -68,7 +68,10 @@ def _outcome(invocation: CommandLine) -> ExitCode:
         if _is_of_argument(error, invocation.arguments):
             message(f"uictest: {reason or error}")
             return ExitCode.USAGE
-        return _failed(reason or f"internal error: {type(error).__name__}: {error}", invocation)
+        if not reason:
+            message(traceback.format_exc().rstrip())
+        message(f"uictest: {reason or f'internal error: {type(error).__name__}: {error}'}")
+        return ExitCode.ERROR
 
 
 def _advice(arguments: Sequence[str]) -> str:
@@ -109,15 +112,6 @@ def _call(invocation: CommandLine) -> ExitCode:
         # Outside its standalone mode typer returns this code for an interrupt.
         raise KeyboardInterrupt
     return ExitCode(code or 0)
-
-
-def _failed(reason: str, invocation: CommandLine) -> ExitCode:
-    if invocation.verbosity > 0:
-        message(traceback.format_exc().rstrip())
-        message(f"uictest: {reason}")
-    else:
-        message(f"uictest: {reason} (-v shows where)")
-    return ExitCode.ERROR
 
 
 def _reason(error: OSError) -> str:

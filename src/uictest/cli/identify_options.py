@@ -28,7 +28,6 @@ Name = Annotated[
         show_default=False,
     ),
 ]
-Date = Annotated[str, typer.Option("--date", help="Date for the provenance.")]
 HeldOut = Annotated[
     float, typer.Option("--held-out", min=0.05, max=0.5, help="Share of the record held out from the fit.")
 ]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import typer
 
@@ -17,10 +18,9 @@ from uictest.analysis import comparison
 
 @dataclass(slots=True)
 class CommandLine:
-    """The arguments as typed, and the verbosity: the number of `-v`."""
+    """The arguments as typed."""
 
     arguments: Sequence[str]
-    verbosity: int = 0
 
 
 class Format(StrEnum):
@@ -38,26 +38,12 @@ class PlainFormat(StrEnum):
     JSON = "json"
 
 
-class Colour(StrEnum):
-    """When to colour."""
-
-    AUTO = "auto"
-    ALWAYS = "always"
-    NEVER = "never"
-
-
 class Recorded(StrEnum):
     """Which cases are recorded."""
 
     ALL = "all"
     FAILED = "failed"
     NONE = "none"
-
-
-def _remember_verbosity(context: typer.Context, value: int) -> int:
-    if isinstance(context.obj, CommandLine):
-        context.obj.verbosity = value
-    return value
 
 
 def _jobs(text: str) -> int:
@@ -121,6 +107,8 @@ RealTime = Annotated[
         help="Pace controllers at a socket by the clock; a missed deadline makes a stop invalid.",
     ),
 ]
+TRUSTED_FOLDERS: Final = "UICTEST_TRUST"
+"""Variable of the environment with the folders of `--trust`, for commands that have no such option, too."""
 Trusted = Annotated[
     list[Path] | None,
     typer.Option(
@@ -128,6 +116,7 @@ Trusted = Annotated[
         metavar="DIR",
         exists=True,
         file_okay=False,
+        envvar=TRUSTED_FOLDERS,
         help="Allow references into this folder, besides the folders of the given files and the working"
         " folder. May be repeated.",
     ),
@@ -149,17 +138,7 @@ Strict = Annotated[
         " of a definition.",
     ),
 ]
-Verbosity = Annotated[
-    int,
-    typer.Option(
-        "-v",
-        "--verbose",
-        count=True,
-        callback=_remember_verbosity,
-        help="More detail, including tracebacks.",
-        show_default=False,
-    ),
-]
+Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="More detail.", show_default=False)]
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Show only cases that are not as expected.")]
 Output = Annotated[
     Path,
@@ -206,7 +185,6 @@ RecordRate = Annotated[
         "--record-rate", metavar="HZ", min=1.0, max=100e3, help="Samples per second of a recording."
     ),
 ]
-Colouring = Annotated[Colour, typer.Option("--color", help="Colour the output.")]
 Reports = Annotated[
     str,
     typer.Option(
@@ -229,6 +207,15 @@ def tolerances_of(texts: list[str] | None) -> comparison.Tolerances:
     """Return the tolerances that `--tolerance` asks for. Raises typer.BadParameter."""
     with rejected("--tolerance"):
         return comparison.Tolerances.read(texts or ())
+
+
+def trusted_folders() -> list[Path]:
+    """Return the folders of UICTEST_TRUST. Raises InvalidInputError for what is no folder."""
+    folders = [Path(text) for text in os.environ.get(TRUSTED_FOLDERS, "").split(os.pathsep) if text]
+    for folder in folders:
+        if not folder.is_dir():
+            raise runs.InvalidInputError(f"{TRUSTED_FOLDERS}: {folder} is no folder")
+    return folders
 
 
 @contextmanager

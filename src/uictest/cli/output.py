@@ -59,12 +59,11 @@ def use_safe_encoding() -> None:
             stream.reconfigure(errors="backslashreplace")
 
 
-def coloured(choice: str, stream: TextIO) -> bool:
-    """Return whether to colour a stream; with `auto`, on a terminal that is not dumb, without NO_COLOR."""
-    if choice != "auto":
-        return choice == "always"
-    plain = os.environ.get("NO_COLOR", "") != "" or os.environ.get("TERM") == "dumb"
-    return stream.isatty() and not plain
+def coloured(stream: TextIO) -> bool:
+    """Return whether to colour a stream: on a terminal, unless NO_COLOR or FORCE_COLOR say otherwise."""
+    if os.environ.get("NO_COLOR", "") != "":
+        return False
+    return os.environ.get("FORCE_COLOR", "") != "" or (stream.isatty() and os.environ.get("TERM") != "dumb")
 
 
 def interactive(stream: TextIO) -> bool:

@@ -22,21 +22,21 @@ HEARTBEAT = 30.0  # seconds between two lines where there is no terminal
 Advance = Callable[[int], None]
 
 
-def error_console(colour: str = "auto") -> Console:
-    """Return the console of stderr, with colours as chosen."""
+def error_console() -> Console:
+    """Return the console of stderr."""
     from rich.console import Console
 
-    in_colour = coloured(colour, sys.stderr)
+    in_colour = coloured(sys.stderr)
     return Console(stderr=True, no_color=not in_colour, color_system="auto" if in_colour else None)
 
 
 @contextlib.contextmanager
-def progress(total: int, *, quiet: bool, unit: str = "cases", colour: str = "auto") -> Iterator[Advance]:
+def progress(total: int, *, quiet: bool, unit: str = "cases") -> Iterator[Advance]:
     """Lend a function to call with how many more of `total` cases, or what `unit` says, are finished."""
     if quiet:
         yield lambda count: None
     elif interactive(sys.stderr):
-        with _bar(total, colour) as advance:
+        with _bar(total) as advance:
             yield advance
     else:
         with _heartbeat(total, unit) as advance:
@@ -44,11 +44,11 @@ def progress(total: int, *, quiet: bool, unit: str = "cases", colour: str = "aut
 
 
 @contextlib.contextmanager
-def _bar(total: int, colour: str) -> Iterator[Advance]:
+def _bar(total: int) -> Iterator[Advance]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("simulating"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=error_console(colour), transient=True) as bar:
+    with Progress(*columns, console=error_console(), transient=True) as bar:
         task = bar.add_task("simulating", total=total)
         yield lambda count: bar.advance(task, count)
 
@@ -81,7 +81,7 @@ _EVERY: Final = 5.0
 
 
 @contextlib.contextmanager
-def compilation_shown(*, quiet: bool = False, colour: str = "auto") -> Iterator[None]:
+def compilation_shown(*, quiet: bool = False) -> Iterator[None]:
     """Show on stderr what is compiled meanwhile, how much of it is done and how long it may still take.
 
     Where the cache holds the code nothing is compiled, and nothing shown; nor if `quiet`.
@@ -90,7 +90,7 @@ def compilation_shown(*, quiet: bool = False, colour: str = "auto") -> Iterator[
         if quiet:
             watcher: rig.Watcher = _ignore
         else:
-            watcher = _Bar(shown, colour) if interactive(sys.stderr) else _Lines()
+            watcher = _Bar(shown) if interactive(sys.stderr) else _Lines()
         shown.enter_context(rig.compilation_watched(watcher))
         yield
 
@@ -102,8 +102,8 @@ def _ignore(title: str, done: float) -> None:
 class _Bar:
     """One bar for each compilation; those that have ended disappear with `shown`."""
 
-    def __init__(self, shown: contextlib.ExitStack, colour: str) -> None:
-        self._shown, self._colour = shown, colour
+    def __init__(self, shown: contextlib.ExitStack) -> None:
+        self._shown = shown
 
     def __call__(self, title: str, done: float) -> None:
         if done == 0.0:
@@ -115,8 +115,8 @@ class _Bar:
 
         message(_announcement(title))
         columns = (TextColumn("compiling"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
-        console = error_console(self._colour)
-        self._bars = self._shown.enter_context(Progress(*columns, console=console, transient=True))
+        bars = Progress(*columns, console=error_console(), transient=True)
+        self._bars = self._shown.enter_context(bars)
         self._bar = self._bars.add_task("compiling", total=1.0)
 
 
@@ -145,9 +145,8 @@ def _announcement(title: str) -> str:
 class TerminalObserver(runs.Observer):
     """Shows on stderr what is compiled and how far a simulation is; nothing if `quiet`."""
 
-    def __init__(self, *, quiet: bool = False, colour: str = "auto") -> None:
+    def __init__(self, *, quiet: bool = False) -> None:
         self.quiet = quiet
-        self._colour = colour
 
     def foreign_in_process(self) -> None:
         """Announce that controllers from outside can crash this process."""
@@ -158,10 +157,10 @@ class TerminalObserver(runs.Observer):
 
     def compiling(self) -> AbstractContextManager[None]:
         """Show the compilation of the rig."""
-        return compilation_shown(quiet=self.quiet, colour=self._colour)
+        return compilation_shown(quiet=self.quiet)
 
     def simulating(
         self, count: int, finished: int = 0, unit: str = "cases"
     ) -> AbstractContextManager[Advance]:
         """Show the progress of the stops."""
-        return progress(count, quiet=self.quiet, unit=unit, colour=self._colour)
+        return progress(count, quiet=self.quiet, unit=unit)

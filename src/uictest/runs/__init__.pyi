@@ -19,7 +19,6 @@ from .recorded import (
     case_of_stop as case_of_stop,
     judge_recordings as judge_recordings,
     recorded_batch as recorded_batch,
-    statements_of as statements_of,
 )
 from .recorded_files import (
     CaseOfStop as CaseOfStop,

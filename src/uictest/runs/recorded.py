@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from uictest import report
@@ -21,15 +21,6 @@ class MissingStatementsError(Exception):
     def __init__(self, keys: Sequence[str]) -> None:
         self.keys = tuple(keys)
         super().__init__(*keys)
-
-
-def statements_of(
-    criteria: Sequence[str] | None, rail: str | None, position: str | None, wsp: str | None
-) -> Iterator[str]:
-    """Yield what is stated of recordings in the form of `--set`."""
-    listed = f"[{', '.join(criteria)}]" if criteria else None
-    stated = {"rail.condition": rail, "brake.position": position, "rig.wsp": wsp, "criteria": listed}
-    yield from (f"{key}={text}" for key, text in stated.items() if text is not None)
 
 
 def case_of_stop(

@@ -14,7 +14,6 @@ def test_valid_files_exit_0_and_say_how_many(call, scenario):
     answer = call("check")
     assert (answer.code, answer.out) == (0, "")
     assert answer.err == "uictest: 2 scenarios with 3 cases, no error\n"
-    assert call("check", "-q").err == ""
 
 
 def test_every_error_of_every_named_file_is_shown_with_its_place(call, scenario):
@@ -84,8 +83,7 @@ def test_an_internal_error_names_its_file_and_hides_no_other(call, scenario, mon
     assert "scenarios/a.yaml:1:1: internal error: ZeroDivisionError: no wheel load" in answer.err
     assert "scenarios/b.yaml:4:1: vehicel: unknown key" in answer.err
     assert ("scenarios/c.series.yaml:" in answer.err) is (len(arguments) == 1)
-    assert "Traceback" not in answer.err
-    assert "Traceback" in call(*arguments, "-v").err
+    assert answer.err.count("Traceback") == 1
 
 
 def test_an_internal_error_in_a_series_hides_no_other_file(call, scenario, monkeypatch):

@@ -40,7 +40,7 @@ def test_the_page_of_a_recorded_stop_draws_the_first_phase_and_says_that_it_is_r
     time = rolling_train()["time"]
     slid = np.where((time > 1.0) & (time < 6.0), 0.8, 1.0) * rolling_train()["speed"]
     writer_of("csv")(rolling_train(wheel_speed_2=slid), workplace / "slid.csv")
-    stated = (*STATED[2:-1], "uictest-slide.yaml", "--rail", "wet")
+    stated = (*STATED[1:-1], "--set=criteria=uictest-slide.yaml", "--set=rail.condition=wet")
     (workplace / "uictest-slide.yaml").write_text(
         "schema: uictest/criteria/1\nname: slide\ncriteria:\n"
         "  - {id: adhesion, layer: validity, measure: initial_adhesion, upper: 0.2 g,"
@@ -99,7 +99,9 @@ def test_a_record_without_wheel_speeds_is_inconclusive_and_an_unusable_one_an_er
 
 
 def test_files_of_one_name_get_different_ids_and_unstated_circumstances_are_asked_for(call, stop, workplace):
-    call("evaluate", stop, "--rail", "dry", code=4, says="--position, --wsp, --criteria")
+    call(
+        "evaluate", stop, STATED[0], code=4, says="--set brake.position=... --set rig.wsp=... --set criteria"
+    )
     assert not Path("reports").exists()
     (workplace / "other").mkdir()
     (workplace / "other" / "stop-1.csv").write_bytes(stop.read_bytes())
@@ -118,7 +120,7 @@ def test_files_of_one_name_get_different_ids_and_unstated_circumstances_are_aske
         ["Stop 1.csv", *STATED, "--trigger", "pressure"],
         ["Stop 1.csv", *STATED, "--raster", "0 ms"],
         ["Stop 1.csv", *STATED, "--low-pass", "nan Hz"],
-        ["Stop 1.csv", *STATED, "--rail", "icy"],
+        ["Stop 1.csv", *STATED[1:], "--set=rail.condition=icy"],
         ["Stop 1.csv", *STATED, "--set", "rail.friction=0.1,0.2"],
         ["Stop 1.csv", "--scenario", "missing.yaml"],
         ["."],

@@ -59,9 +59,10 @@ def read(path):
     return load_compensation(str(path))
 
 
-def test_hysteresis_writes_a_compensation_with_provenance_and_marks(call, record, workplace):
+def test_hysteresis_writes_a_compensation_with_provenance_and_marks(call, record, workplace, monkeypatch):
     command = "identify hysteresis record.parquet -o found.yaml"
-    answer = call(*command.split(), "--date", "2026-01-02", code=0)
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1767312000")
+    answer = call(*command.split(), code=0)
     assert "bc loop width" in answer.out
     found = read(workplace / "found.yaml")
     assert (found.name, found.title) == ("record", "Compensation record")
@@ -79,6 +80,7 @@ def test_hysteresis_writes_a_compensation_with_provenance_and_marks(call, record
     assert found.sources[found.hysteresis.wsp_acting_time.source].mark == "chosen"
     library = load_part("compensations/six-inch")
     assert tuple(found.cylinder.numerator) == tuple(library.cylinder.numerator)
+    monkeypatch.delenv("SOURCE_DATE_EPOCH")
     # Facts of an earlier identification do not stay; the origin of a record is what its file states.
     known = read_parquet(record)
     write_parquet(Recording(known.channels, known.units, {ORIGIN: "test rig of ours"}), record)

@@ -36,7 +36,7 @@ def test_the_schema_of_each_kind_is_kept_in_the_repository(kind):
     text = schema_text(kind)
     jsonschema.Draft7Validator.check_schema(json.loads(text))
     kept = REPOSITORY / "schema" / f"{kind}.schema.json"
-    assert kept.read_text("utf-8") == text, f"run uictest schema {kind} -o {kept.name}"
+    assert kept.read_text("utf-8") == text, f"run uictest schema {kind} > schema/{kept.name}"
 
 
 @pytest.mark.parametrize("path", list(_files()), ids=lambda path: path.stem)

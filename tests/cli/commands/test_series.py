@@ -189,7 +189,7 @@ def test_a_series_is_compared_with_its_baseline(call, campaign):
     [
         (("run", "--real-time"), "is a series"),
         (("evaluate",), "small.dry names no recording: list them under `recordings`"),
-        (("evaluate", "--rail", "wet"), "a series says itself"),
+        (("evaluate", "--scenario", "stop.yaml"), "a series says itself"),
     ],
 )
 def test_what_a_series_cannot_be_used_for_is_said(call, campaign, command, said):

@@ -83,7 +83,7 @@ def test_a_terminal_table_marks_the_case_that_differs(call, scenario, baseline, 
     scenario("a", DIFFERENT)
     monkeypatch.setenv("COLUMNS", "120")
     monkeypatch.setattr("uictest.cli.running.display.interactive", lambda stream: True)
-    shown = call("run", "--baseline", baseline, "--color", "never").out
+    shown = call("run", "--baseline", baseline).out
     assert ["a", "differs", "fail"] in [line.split()[:3] for line in shown.splitlines()]
     assert "baseline: outcome was pass, is fail" in shown
 

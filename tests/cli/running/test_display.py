@@ -3,7 +3,7 @@ from contextlib import redirect_stdout
 
 import pytest
 
-from uictest.cli.options import Colour, Format
+from uictest.cli.options import Format
 from uictest.cli.output import interactive
 from uictest.cli.running.display import Annotations, Lines, ResultsDocument, VerdictTable, chosen_display
 from uictest.judging.evaluation import CaseResult
@@ -37,7 +37,7 @@ def terminal(monkeypatch):
 )
 def test_text_is_a_table_on_a_terminal_and_lines_elsewhere(stream, shown, display):
     with redirect_stdout(stream()):
-        assert type(chosen_display(shown, Colour.AUTO, quiet=False, verbose=False)) is display
+        assert type(chosen_display(shown, quiet=False, verbose=False)) is display
 
 
 @pytest.mark.parametrize(("ci", "watched"), [("true", False), ("1", False), ("", True), ("false", True)])
@@ -46,27 +46,29 @@ def test_on_a_ci_service_nobody_watches(monkeypatch, ci, watched):
     assert interactive(Terminal()) is watched
 
 
-def _shown(terminal, colour=Colour.AUTO, *, quiet=False):
+def _shown(terminal, *, quiet=False):
     with redirect_stdout(terminal):
-        display = chosen_display(Format.TEXT, colour, quiet=quiet, verbose=False)
+        display = chosen_display(Format.TEXT, quiet=quiet, verbose=False)
         for result in (MET, MISSED):
             display.show(result)
         display.end(RunContent("run", [MET, MISSED]), "{}")
     return terminal.getvalue()
 
 
-def test_the_table_explains_what_is_not_met_and_a_quiet_one_holds_nothing_else(terminal):
-    shown = _shown(terminal, Colour.NEVER)
+def test_the_table_explains_what_is_not_met_and_a_quiet_one_holds_nothing_else(terminal, monkeypatch):
+    monkeypatch.setenv("NO_COLOR", "1")
+    shown = _shown(terminal)
     assert "[bold]a" in shown
     assert "fail b\n  fail. Expected: pass\n  locked\n" in shown
     assert "\x1b" not in shown
     terminal.truncate(0)
-    assert "[bold]a" not in _shown(terminal, Colour.NEVER, quiet=True)
+    assert "[bold]a" not in _shown(terminal, quiet=True)
 
 
 def test_the_table_is_as_wide_as_columns_says(terminal, monkeypatch):
     monkeypatch.setenv("COLUMNS", "100")
-    assert max(map(len, _shown(terminal, Colour.NEVER).splitlines())) <= 100
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert max(map(len, _shown(terminal).splitlines())) <= 100
 
 
 @pytest.mark.parametrize(("variable", "value"), [("NO_COLOR", "1"), ("TERM", "dumb")])

@@ -11,7 +11,7 @@ import typer
 
 from uictest import runs
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Trusted, Verbosity
+from uictest.cli.options import trusted_folders
 from uictest.cli.output import data, message
 from uictest.cli.progress import compilation_shown
 from uictest.core import recording
@@ -44,7 +44,6 @@ RigOverrides = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Set a key of the rig. May be repeated."),
 ]
-Seed = Annotated[int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="Seed of the sensor noise.")]
 Output = Annotated[
     Path | None,
     typer.Option(
@@ -56,7 +55,6 @@ Output = Annotated[
     ),
 ]
 Listing = Annotated[bool, typer.Option("--list", help="List the recipes of the library.")]
-Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Write the recording without a summary.")]
 
 
 def bench(
@@ -65,26 +63,21 @@ def bench(
     pressure: PressureChannel = "demanded_pressure",
     command: CommandChannel = None,
     overrides: RigOverrides = None,
-    seed: Seed = None,
-    trusted: Trusted = None,
     output: Output = None,
     listing: Listing = False,
-    quiet: Quiet = False,
-    verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Test the caliper on the bench. Writes a recording of pressures, forces, stroke and commands."""
     if listing:
         data("\n".join(rig_bench.recipe_names()))
         return ExitCode.MET
-    test = _test(recipe, trace, pressure, command, overrides or (), seed, trusted or ())
+    test = _test(recipe, trace, pressure, command, overrides or ())
     target = output or Path(f"{test.recipe.name}.parquet")
     write = _writer(target)
-    with compilation_shown(quiet=quiet):
+    with compilation_shown():
         samples = _run(test)
     write(samples, target)
-    if not quiet:
-        message(f"uictest: wrote {len(samples)} samples of {samples['time'][-1]:.1f} s to {target}")
-        data(_summary(samples))
+    message(f"uictest: wrote {len(samples)} samples of {samples['time'][-1]:.1f} s to {target}")
+    data(_summary(samples))
     return ExitCode.MET
 
 
@@ -94,8 +87,6 @@ def _test(
     pressure: str,
     command: str | None,
     overrides: Sequence[str],
-    seed: int | None,
-    trusted: Sequence[Path],
 ) -> rig_bench.BenchTest:
     """Return the test of a recipe or of a recorded pressure. Raises InvalidInputError."""
     names = rig_bench.recipe_names()
@@ -104,12 +95,12 @@ def _test(
             f"name one recipe ({', '.join(names)}, or a .yaml file) or give --trace FILE"
         )
     if trace is not None:
-        return rig_bench.trace_recipe(trace, pressure, command, overrides, seed, trusted)
+        return rig_bench.trace_recipe(trace, pressure, command, overrides, None, trusted_folders())
     assert recipe is not None
     if not os.path.exists(rig_bench.recipe_path(recipe)):  # noqa: PTH110 - Path.exists raises for long names
         hint = yaml.suggestion(recipe, names)
         raise runs.InvalidInputError(f"no bench recipe {recipe!r}; {hint}")
-    return rig_bench.load_bench(rig_bench.recipe_path(recipe), overrides, seed, trusted)
+    return rig_bench.load_bench(rig_bench.recipe_path(recipe), overrides, None, trusted_folders())
 
 
 def _run(test: rig_bench.BenchTest) -> recording.Recording:

@@ -5,13 +5,10 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from uictest import report, runs
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import CheckFormat, Format, Paths, Trusted, Verbosity
+from uictest.cli.options import CheckFormat, Format, Paths, Trusted
 from uictest.cli.output import data, message
 from uictest.plans import scenario, series, sweeps
 from uictest.plans.scenario import yaml
@@ -23,8 +20,6 @@ def check(
     paths: Paths = None,
     trusted: Trusted = None,
     shown: CheckFormat = Format.TEXT,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing if there is no error.")] = False,
-    verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Validate scenario, sweep and series files and what they refer to. Every error comes with its place."""
     places = runs.scenario_paths(paths)
@@ -40,15 +35,14 @@ def check(
         with yaml.collecting(errors, yaml.whole_file(path)):
             load(path, trusted or ())
     if errors:
-        _show(errors, shown, verbosity)
+        _show(errors, shown)
         message(f"uictest: {report.counted(len(errors), 'error')}")
         return ExitCode.ERROR if any(each.trace for each in errors) else ExitCode.USAGE
     if shown is Format.JSON:
         data("[]")
-    if not quiet:
-        and_sweeps = f" and {report.counted(len(sweep_paths), 'sweep')}" if sweep_paths else ""
-        and_series = f" and {len(series_paths)} series" if series_paths else ""
-        message(f"uictest: {counts}{and_sweeps}{and_series}, no error")
+    and_sweeps = f" and {report.counted(len(sweep_paths), 'sweep')}" if sweep_paths else ""
+    and_series = f" and {len(series_paths)} series" if series_paths else ""
+    message(f"uictest: {counts}{and_sweeps}{and_series}, no error")
     return ExitCode.MET
 
 
@@ -128,7 +122,7 @@ def _consequence(plan: sweeps.Plan) -> str:
     return "sensitivities hold for the range only"
 
 
-def _show(diagnostics: Sequence[yaml.Diagnostic], shown: Format, verbosity: int) -> None:
+def _show(diagnostics: Sequence[yaml.Diagnostic], shown: Format) -> None:
     if shown is Format.JSON:
         data(json.dumps([{name: getattr(each, name) for name in _FIELDS} for each in diagnostics], indent=2))
         return
@@ -136,6 +130,6 @@ def _show(diagnostics: Sequence[yaml.Diagnostic], shown: Format, verbosity: int)
         if shown is Format.GITHUB:
             title = each.key or "scenario"
             data(report.annotation(str(each.file), title, each.message, each.line, each.column))
-        if each.trace and verbosity > 0:
+        if each.trace:
             message(each.trace)
         message(str(each))

@@ -13,7 +13,7 @@ from uictest import report, runs
 from uictest.analysis import comparison
 from uictest.cli.compared_variants import compare_variants
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbosity, tolerances_of
+from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbose, tolerances_of
 from uictest.cli.output import data, message, terminal_width
 from uictest.core import files, recording
 from uictest.core.recording import formats
@@ -46,7 +46,7 @@ def compare(
         typer.Option("--html", metavar="FILE", help="Also write a page, with overlay plots of A and B."),
     ] = None,
     shown: ListFormat = PlainFormat.TEXT,
-    verbosity: Verbosity = 0,
+    verbose: Verbose = False,
 ) -> ExitCode:
     """Compare two runs or two recordings. Exit 1 if anything is out of tolerance.
 
@@ -63,7 +63,7 @@ def compare(
     if shown is PlainFormat.JSON:
         data(comparison.comparison_json(compared))
     else:
-        document = comparison.comparison_document(compared, every=verbosity > 0)
+        document = comparison.comparison_document(compared, every=verbose)
         for line in report.document_lines(document, terminal_width(sys.stdout)):
             data(line)
     if page is not None:

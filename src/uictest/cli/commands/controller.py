@@ -57,7 +57,6 @@ def check(
     trusted: options.Trusted = None,
     junit: options.JUnitFile = None,
     shown: options.ListFormat = options.PlainFormat.TEXT,
-    verbosity: options.Verbosity = 0,
 ) -> ExitCode:
     """Check that a controller keeps what every WSP should, in a child process and without the rig.
 

@@ -18,14 +18,6 @@ from uictest.core.recording import formats
 from uictest.recorded import field_data
 from uictest.running import campaign
 
-_OPTIONS = {
-    "rail.condition": "--rail",
-    "brake.position": "--position",
-    "rig.wsp": "--wsp",
-    "criteria": "--criteria",
-}
-"""Key that must be stated for a recording -> the option that states it."""
-
 Listing = Annotated[
     bool, typer.Option("--list", help="List the channels of the files and the channel map that fits.")
 ]
@@ -33,13 +25,6 @@ ScenarioFile = Annotated[
     Path | None,
     typer.Option("--scenario", metavar="FILE", help="Scenario with the test conditions and the criteria."),
 ]
-Criteria = Annotated[
-    list[str] | None,
-    typer.Option("--criteria", metavar="NAME", help="Criteria to judge by. May be repeated."),
-]
-Rail = Annotated[str | None, typer.Option("--rail", metavar="NAME", help="Rail condition.")]
-Position = Annotated[str | None, typer.Option("--position", metavar="NAME", help="Brake position.")]
-Wsp = Annotated[str | None, typer.Option("--wsp", metavar="STATE", help="WSP: active or bypassed.")]
 
 
 def evaluate(
@@ -49,10 +34,6 @@ def evaluate(
     listing: Listing = False,
     scenario: ScenarioFile = None,
     expression: options.Expression = None,
-    criteria: Criteria = None,
-    rail: Rail = None,
-    position: Position = None,
-    wsp: Wsp = None,
     overrides: options.Overrides = None,
     trusted: options.Trusted = None,
     trigger: recordings.Trigger = None,
@@ -66,21 +47,19 @@ def evaluate(
     strict: options.Strict = False,
     shown: options.RunFormat = options.Format.TEXT,
     quiet: options.Quiet = False,
-    verbosity: options.Verbosity = 0,
-    colour: options.Colouring = options.Colour.AUTO,
+    verbose: options.Verbose = False,
 ) -> ExitCode:
     """Judge recordings of real or simulated stops. Reports and exit codes are those of 'run'.
 
     FILE may also be a *.series.yaml whose stops name recordings: they are judged together, as a campaign.
     A recording does not contain the rail condition, the brake position, the state of the WSP or the criteria:
-    state them with a scenario or with options.
+    state them with --scenario, or with --set: rail.condition, brake.position, rig.wsp and criteria.
     """
     named = named_paths(*files, scenario, junit)
     request = campaign.RecordingRequest(recorded.value)
-    display = running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
-    statements = [*runs.statements_of(criteria, rail, position, wsp), *(overrides or ())]
+    display = running.chosen_display(shown, quiet=quiet, verbose=verbose)
     if any(map(runs.is_series, files)):
-        stated = (listing, scenario, expression, criteria, rail, position, wsp)
+        stated = (listing, scenario, expression)
         preparation = (trigger, trigger_lead, raster, low_pass)
         planned, stops = runs.read_recorded_series(
             files, overrides, trusted, (*stated, *preparation), "--set"
@@ -92,7 +71,7 @@ def evaluate(
         )
         if listing:
             return _list(files, mapped)
-        case_of = _case_of_stop(scenario, expression, statements, trusted)
+        case_of = _case_of_stop(scenario, expression, overrides or (), trusted)
         stops = runs.read_files(files, mapped)
         cases = [stop.case(case_of, inputs) for stop in stops]
         batch = runs.recorded_batch(stops, context.obj.arguments, cases=cases, strict=strict)
@@ -121,7 +100,7 @@ def _case_of_stop(
     except runs.MissingStatementsError as error:
         raise runs.InvalidInputError(
             "a recording does not say what was tested: state it with --scenario FILE, or with"
-            f" {', '.join(_OPTIONS[key] for key in error.keys)}"
+            f" {' '.join(f'--set {key}=...' for key in error.keys)}"
         ) from None
 
 

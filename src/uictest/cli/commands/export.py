@@ -11,7 +11,6 @@ import typer
 
 from uictest import __version__, runs
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Verbosity
 from uictest.cli.output import data
 from uictest.cli.recordings import Files
 from uictest.core import recording
@@ -43,7 +42,6 @@ def export(
         ),
     ] = Path(),
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.")] = False,
-    verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Write recordings as MDF 4.10, TDMS, MAT 5, CSV or Parquet. Prints the names of the files."""
     targets = _targets(files, formats or [], output)

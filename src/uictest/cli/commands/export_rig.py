@@ -11,9 +11,9 @@ import typer
 
 from uictest import runs
 from uictest.api import rig_fmu
-from uictest.cli.cases import case_lines, select_by_options
+from uictest.cli.cases import case_lines
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Expression, Overrides, Seed, Trusted, Verbosity
+from uictest.cli.options import Overrides, trusted_folders
 from uictest.cli.output import data, message
 from uictest.cli.progress import compilation_shown
 from uictest.core import files
@@ -41,19 +41,13 @@ def export_rig(
     output: Output = Path("rig.fmu"),
     version: Version = Fmi.TWO,
     case_id: CaseId = None,
-    expression: Expression = None,
     overrides: Overrides = None,
-    seed: Seed = None,
-    trusted: Trusted = None,
     force: Force = False,
-    verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Write the rig of one case as an FMU for co-simulation. Prints the name of the file."""
     _reject_target(output, force=force)
-    cases = runs.load_cases([path], overrides, seed, trusted)
-    selected = select_by_options(cases, expression, None)
-    if case_id is not None:
-        selected = [case for case in selected if case.id == case_id]
+    cases = runs.load_cases([path], overrides, None, trusted_folders())
+    selected = [case for case in cases if case_id in (None, case.id)]
     if not selected:
         message(f"uictest: {runs.nothing_selected(cases)}")
         message(case_lines(cases))

@@ -88,7 +88,6 @@ def fit(
     scenario: ScenarioFile,
     expression: options.Expression = None,
     overrides: options.Overrides = None,
-    trusted: options.Trusted = None,
     breaks: Breaks = None,
     with_pads: WithPads = False,
     with_cleaning: WithCleaning = False,
@@ -98,7 +97,6 @@ def fit(
     raster: recordings.Raster = None,
     low_pass: recordings.LowPass = None,
     output: Output = Path("reports"),
-    verbosity: options.Verbosity = 0,
 ) -> ExitCode:
     """Fit the rail friction to a recorded stop. Writes a scenario with the fitted friction.
 
@@ -107,6 +105,7 @@ def fit(
 
     Exit code 1: the record does not determine all of it. Without sliding there is only a lower bound.
     """
+    trusted = options.trusted_folders()
     _require_fitting_together(files, with_pads=with_pads, with_cleaning=with_cleaning)
     mapped, _ = recordings.channel_map(
         map_name, trusted, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
@@ -116,7 +115,7 @@ def fit(
     places = _places(breaks or ())
     result = _fit(files, stops, case, places, with_pads=with_pads, with_cleaning=with_cleaning)
     named = dict(zip(runs.stop_names(files), stops, strict=True))
-    fitted = _FittedStops(named, case, scenario, overrides or (), trusted or (), result)
+    fitted = _FittedStops(named, case, scenario, overrides or (), trusted, result)
     data("\n".join(_lines(fitted)))
     with compilation_shown():
         folder = _publish(fitted, context.obj.arguments, output)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 from collections.abc import Sequence
+from datetime import UTC, datetime
 from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,7 +21,6 @@ from uictest.cli.identify_options import (
     Base,
     CommandChannel,
     CylinderChannel,
-    Date,
     ForceChannel,
     HeldOut,
     Intervals,
@@ -33,7 +34,7 @@ from uictest.cli.identify_options import (
     TransitionTime,
     interval,
 )
-from uictest.cli.options import Trusted, Verbosity
+from uictest.cli.options import trusted_folders
 from uictest.cli.output import data, message
 from uictest.cli.recordings import rig_of_record
 from uictest.core import files
@@ -69,7 +70,6 @@ def hysteresis(
     output: Output = None,
     base: Base = "six-inch",
     name: Name = "",
-    trusted: Trusted = None,
     pressure: PressureChannel = "cylinder_pressure_1",
     force: ForceChannel = "clamping_force_1",
     command: CommandChannel = "valve_command_1",
@@ -77,11 +77,9 @@ def hysteresis(
     acting_time: ActingTime = 2.0,
     transition_time: TransitionTime = 0.1,
     held_out: HeldOut = 0.25,
-    date: Date = "",
-    verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Fit the lines of the four phases, equations (4)-(7), to a record of pressure and clamping force."""
-    base_part = _base(base, trusted or ())
+    base_part = _base(base)
     part_name = "" if output is None else _name(name, record)
     acting_intervals = [interval(text) for text in intervals or ()]
     roles = {"pressure": pressure, "force": force} | ({} if acting_intervals else {"command": command})
@@ -90,7 +88,7 @@ def hysteresis(
     result = _hysteresis(record, recorded, acting, transition_time, held_out)
     data(identification.hysteresis_text(result))
     if output is not None:
-        provenance = _provenance(context, record, recorded, date)
+        provenance = _provenance(context, record, recorded)
         text = identification.with_hysteresis(
             base_part, part_name, result, provenance, acting_time, transition_time
         )
@@ -105,21 +103,18 @@ def cylinder(
     output: Output = None,
     base: Base = "six-inch",
     name: Name = "",
-    trusted: Trusted = None,
     tank: TankChannel = "measured_pressure_2",
     cylinder: CylinderChannel = "cylinder_pressure_1",
     held_out: HeldOut = 0.25,
-    date: Date = "",
-    verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Identify the third-order transfer function, equation (8), from tank pressure to cylinder pressure."""
-    base_part = _base(base, trusted or ())
+    base_part = _base(base)
     part_name = "" if output is None else _name(name, record)
     recorded = _record(record, {"input": tank, "output": cylinder})
     result = _cylinder(record, recorded, held_out)
     data(identification.cylinder_text(result))
     if output is not None:
-        provenance = _provenance(context, record, recorded, date)
+        provenance = _provenance(context, record, recorded)
         _write(output, record, identification.with_cylinder(base_part, part_name, result, provenance))
     return ExitCode.MET
 
@@ -131,26 +126,23 @@ def air(
     output: Output = None,
     base: Base = "six-inch",
     name: Name = "",
-    trusted: Trusted = None,
     tank: TankChannel = "measured_pressure_2",
     cylinder: CylinderChannel = "cylinder_pressure_1",
     line: LineChannel = "brake_line_pressure",
     command: CommandChannel = "valve_command_1",
     overrides: RigOverrides = None,
     held_out: HeldOut = 0.25,
-    date: Date = "",
-    verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Identify the air of the caliper's module, which the setting `thermal` follows beside a tank."""
-    base_part = _base(base, trusted or ())
+    base_part = _base(base)
     part_name = "" if output is None else _name(name, record)
     roles = {"input": tank, "output": cylinder, "line": line, "command": command}
     recorded = _record(record, roles)
-    case = rig_of_record(record, recorded.rig, overrides or (), trusted or ())
+    case = rig_of_record(record, recorded.rig, overrides or (), trusted_folders())
     result = _air(record, recorded, case, held_out)
     data(identification.air_text(result))
     if output is not None:
-        provenance = _provenance(context, record, recorded, date)
+        provenance = _provenance(context, record, recorded)
         _write(output, record, identification.with_air(base_part, part_name, result, provenance))
     return ExitCode.MET
 
@@ -235,9 +227,9 @@ def _existing(record: Path) -> Path:
     return record
 
 
-def _base(reference: str, trusted: Sequence[Path]) -> scenario.Compensation:
+def _base(reference: str) -> scenario.Compensation:
     """Return the compensation, of the library or in a file, whose other numbers are kept."""
-    return identification.load_compensation(reference, trusted)
+    return identification.load_compensation(reference, trusted_folders())
 
 
 def _name(name: str, record: Path) -> str:
@@ -253,7 +245,7 @@ def _name(name: str, record: Path) -> str:
 
 
 def _provenance(
-    context: typer.Context, record: Path, recorded: identification.RecordedChannels, date: str
+    context: typer.Context, record: Path, recorded: identification.RecordedChannels
 ) -> identification.Provenance:
     from uictest import __version__
 
@@ -264,9 +256,17 @@ def _provenance(
         origin=recorded.origin,
         command=shlex.join(["uictest", *context.obj.arguments]),
         version=__version__,
-        date=date,
+        date=_date(),
         rig=recorded.rig,
     )
+
+
+def _date() -> str:
+    """Return the day of SOURCE_DATE_EPOCH, empty without it: then the same record gives the same file."""
+    text = os.environ.get("SOURCE_DATE_EPOCH", "")
+    if text and not (text.isascii() and text.isdigit()):
+        raise runs.InvalidInputError(f"SOURCE_DATE_EPOCH={text!r}: write seconds since 1970")
+    return f"{datetime.fromtimestamp(int(text), UTC):%Y-%m-%d}" if text else ""
 
 
 def _write(output: Path, record: Path, text: str) -> None:

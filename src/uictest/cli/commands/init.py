@@ -11,7 +11,6 @@ import typer
 from uictest import report, runs
 from uictest.cli.commands.schema import schema_text
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Verbosity
 from uictest.cli.output import message
 from uictest.core import files
 from uictest.plans import templates
@@ -64,7 +63,6 @@ def init(
     what: What = Path(),
     python: PythonFolder = None,
     c: CFolder = None,
-    verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Write a first scenario, and the schema with which editors complete it. Overwrites nothing.
 

@@ -11,7 +11,7 @@ import typer
 from uictest import runs
 from uictest.cli.app import command
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Trusted, Verbosity
+from uictest.cli.options import trusted_folders
 from uictest.cli.output import data
 from uictest.plans import library as library_files, scenario
 from uictest.plans.scenario import yaml
@@ -26,7 +26,7 @@ _FOLDERS = sorted((*library_files.FOLDERS, *library_files.OTHER_FOLDERS))
 
 
 @command(library, "list")
-def list_parts(verbosity: Verbosity = 0) -> ExitCode:
+def list_parts() -> ExitCode:
     """List the parts, one per line, each with its title."""
     data(_aligned([(reference, _title(reference)) for reference in _references()]))
     return ExitCode.MET
@@ -38,8 +38,6 @@ def show_part(
         str,
         typer.Argument(metavar="PART", help="Part of the library (vehicles/intercity-180), or its file."),
     ],
-    trusted: Trusted = None,
-    verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Show every number of a part with unit, mark (stated, published, identified or chosen) and source.
 
@@ -48,7 +46,7 @@ def show_part(
     each channel may have in a file.
     """
     if reference.endswith((".yaml", ".yml")):
-        _show_file(Path(reference), trusted or ())
+        _show_file(Path(reference))
         return ExitCode.MET
     if reference not in _references():
         raise runs.InvalidInputError(f"no part {reference!r} in the library; {_hint(reference)}")
@@ -61,9 +59,9 @@ def show_part(
     return ExitCode.MET
 
 
-def _show_file(path: Path, trusted: Sequence[Path]) -> None:
+def _show_file(path: Path) -> None:
     """Show the file of a part, a bench recipe or a channel map. Raises InvalidInputError for any other."""
-    written = yaml.plain(yaml.read_file(path))
+    trusted, written = trusted_folders(), yaml.plain(yaml.read_file(path))
     title = written.get("title", "")
     heading = printable(f"{path}: {title}")
     schema = written.get("schema")

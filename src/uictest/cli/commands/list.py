@@ -21,7 +21,7 @@ from uictest.cli.cases import (
     series_lines,
 )
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Expression, ListFormat, Overrides, Paths, PlainFormat, Tag, Trusted, Verbosity
+from uictest.cli.options import Expression, ListFormat, Overrides, Paths, PlainFormat, Tag, Trusted, Verbose
 from uictest.cli.output import data, message, terminal_width
 from uictest.cli.requirement_listing import RequirementRequest, list_requirements
 from uictest.plans import scenario, series, sweeps
@@ -50,7 +50,7 @@ def list_cases(
         typer.Option("--fail-uncovered", help="With --requirements: exit with 1 if one is not covered."),
     ] = False,
     shown: ListFormat = PlainFormat.TEXT,
-    verbosity: Verbosity = 0,
+    verbose: Verbose = False,
 ) -> ExitCode:
     """List the ids of all cases, one per line; with -v, titles and tags. Sweeps must be named."""
     if not requirements and (requirement_list is not None or fail_uncovered):
@@ -70,7 +70,7 @@ def list_cases(
         return ExitCode.NOTHING_SELECTED
     if requirements:
         return list_requirements(selected, request, shown, of_series)
-    _list_selected(selected, of_series, shown, described=verbosity > 0)
+    _list_selected(selected, of_series, shown, described=verbose)
     return ExitCode.MET
 
 

@@ -12,7 +12,6 @@ import typer
 
 from uictest import report, runs
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Verbosity
 from uictest.cli.output import data, message
 from uictest.plans.scenario import yaml
 from uictest.runs import history
@@ -35,7 +34,6 @@ def open_page(
     place: Place = None,
     last: Last = False,
     output: Output = Path("reports"),
-    verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Open the index of the runs in the browser, or the page of a run. Prints the path of the page.
 

@@ -12,7 +12,7 @@ import typer
 from uictest import report as reports, runs
 from uictest.cli.cases import malformed
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Draw, Verbosity, report_formats
+from uictest.cli.options import Draw, report_formats
 from uictest.cli.output import data
 from uictest.core import files
 
@@ -34,7 +34,6 @@ def report(
         Path | None,
         typer.Option("-o", "--output", metavar="DIR", help="Folder for the files [default: DIR]."),
     ] = None,
-    verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Write a finished run or sweep in more formats. Prints the names of the files.
 

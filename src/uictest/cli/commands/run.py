@@ -86,8 +86,7 @@ def run(
     in_process: options.InProcess = False,
     real_time: options.RealTime = False,
     quiet: options.Quiet = False,
-    verbosity: options.Verbosity = 0,
-    colour: options.Colouring = options.Colour.AUTO,
+    verbose: options.Verbose = False,
 ) -> ExitCode:
     """Run scenarios, judge each case and write the reports."""
     named = named_paths(baseline, validated, junit, *(paths or ()))
@@ -124,7 +123,7 @@ def run(
         baseline=None if accept else accepted,
         drawn_first=drawn_first(selected, of_series, draw),
     )
-    display = running.chosen_display(shown, colour, quiet=quiet, verbose=verbosity > 0)
+    display = running.chosen_display(shown, quiet=quiet, verbose=verbose)
     published = running.publish_and_show(batch, output, names, options.junit_file(junit, output), display)
     if published is None:
         return ExitCode.INTERRUPTED

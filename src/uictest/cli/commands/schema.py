@@ -5,15 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from enum import StrEnum
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Verbosity
 from uictest.cli.output import data
-from uictest.core import files
 from uictest.plans import scenario, series, validation
 from uictest.recorded import field_data
 from uictest.rig import bench as rig_bench
@@ -43,18 +40,9 @@ def schema(
     kind: Annotated[
         SchemaKind, typer.Argument(metavar="[KIND]", help="Kind of file: what `schema: uictest/KIND/1` says.")
     ] = (SchemaKind.SCENARIO),
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write to FILE instead of stdout.")
-    ] = None,
-    verbosity: Verbosity = 0,
 ) -> ExitCode:
     """Print the JSON Schema (draft-07) of a kind of file, with which an editor completes and checks it."""
-    text = schema_text(kind)
-    if output is None:
-        data(text.rstrip("\n"))
-        return ExitCode.MET
-
-    files.write_to(output, text)
+    data(schema_text(kind).rstrip("\n"))
     return ExitCode.MET
 
 

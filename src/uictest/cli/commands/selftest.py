@@ -14,7 +14,6 @@ from uictest.cli.progress import compilation_shown
 def selftest(
     junit: options.JUnitFile = None,
     shown: options.ListFormat = options.PlainFormat.TEXT,
-    verbosity: options.Verbosity = 0,
 ) -> ExitCode:
     """Check that this installation gives known answers: stored bits, closed forms, verdicts, controllers.
 

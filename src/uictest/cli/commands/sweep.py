@@ -24,7 +24,6 @@ from uictest.cli.options import (
     Seed,
     Trusted,
     Validated,
-    Verbosity,
     junit_file,
     report_formats,
 )
@@ -125,7 +124,6 @@ def sweep(
     shown: SweepFormat = Format.TEXT,
     formats: SweepReports = None,
     quiet: Quiet = False,
-    verbosity: Verbosity = 0,
     in_process: InProcess = False,
 ) -> ExitCode:
     """Run a sweep. After an interruption the same command continues it."""

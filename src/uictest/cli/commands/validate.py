@@ -37,7 +37,7 @@ def validate(
     jobs: options.Jobs = "auto",  # type: ignore[assignment]  # typer hands the text to the option's parser
     output: Output = Path("reports"),
     shown: options.ListFormat = options.PlainFormat.TEXT,
-    verbosity: options.Verbosity = 0,
+    verbose: options.Verbose = False,
 ) -> ExitCode:
     """Compare recorded stops with their simulation: bias and spread of every figure, and the domain.
 
@@ -54,7 +54,7 @@ def validate(
     for plan in plans:
         run = runs.run_validation(plan, jobs, trusted, TerminalObserver())
         place = runs.publish_validation(run.validation, context.obj.arguments, output)
-        _show(run.validation, shown, every_figure=verbosity > 0)
+        _show(run.validation, shown, every_figure=verbose)
         message(f"uictest: {plan.name}: {validation.tally(run.validation)}; validation in {place}")
         codes.append(_code(run))
     return worst(*codes)

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterator, Sequence
 
 from uictest import report
-from uictest.cli.options import Colour, Format
+from uictest.cli.options import Format
 from uictest.cli.output import coloured, data, interactive, message
 from uictest.cli.progress import TerminalObserver
 from uictest.judging import evaluation, series
@@ -19,10 +19,10 @@ _ANSI_END = "\x1b[0m"
 class Display(TerminalObserver):
     """Shows progress and tracebacks on stderr. What it shows on stdout a subclass says: this one, nothing."""
 
-    def __init__(self, colour: Colour, *, quiet: bool, verbose: bool) -> None:
-        super().__init__(quiet=quiet, colour=colour)
+    def __init__(self, *, quiet: bool, verbose: bool) -> None:
+        super().__init__(quiet=quiet)
         self.verbose = verbose
-        self._in_colour = coloured(colour, sys.stdout)
+        self._in_colour = coloured(sys.stdout)
 
     def case(self, run: campaign.CaseRun, differences: Sequence[report.Difference]) -> None:
         """Show a case; with -v, the traceback of its crash, too."""
@@ -145,12 +145,12 @@ def _common_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     yield from report.part_lines(results)
 
 
-def chosen_display(shown: Format, colour: Colour, *, quiet: bool, verbose: bool) -> Display:
+def chosen_display(shown: Format, *, quiet: bool, verbose: bool) -> Display:
     """Return the display for a format; `text` is a table on a terminal and lines elsewhere."""
     kind: type[Display] = VerdictTable if interactive(sys.stdout) else Lines
     if shown is not Format.TEXT:
         kind = ResultsDocument if shown is Format.JSON else Annotations
-    return kind(colour, quiet=quiet, verbose=verbose)
+    return kind(quiet=quiet, verbose=verbose)
 
 
 def _shown(content: report.RunContent, *, quiet: bool) -> list[evaluation.CaseResult]:

@@ -109,7 +109,10 @@ _in_library = cache(read_library)
 def trust_hint(path: Path) -> str:
     """The hint for a file outside the roots."""
     folder = visible(str(real(path).parent))
-    return f"add --trust {folder}; without it only the working folder and those of the files given are read"
+    return (
+        f"add --trust {folder}, or UICTEST_TRUST={folder} to the environment;"
+        " without it only the working folder and those of the files given are read"
+    )
 
 
 def nearest_file(path: Path, otherwise: str) -> str:

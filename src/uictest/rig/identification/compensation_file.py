@@ -45,7 +45,7 @@ class Provenance:
         origin: what was recorded, as the file states it.
         command: the command line.
         version: of this program.
-        date: as stated by the user; empty: omitted, so that the same record gives the same file.
+        date: empty: omitted, so that the same record gives the same file.
         rig: the rig of the record as built, key of a scenario -> value as written; empty: not known.
     """
 

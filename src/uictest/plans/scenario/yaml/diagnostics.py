@@ -85,7 +85,7 @@ def collecting(diagnostics: list[Diagnostic], place: Place) -> Iterator[None]:
     except Exception as error:
         message = visible(f"internal error: {type(error).__name__}: {error}")
         trace = visible(traceback.format_exc()).replace("\\x0a", "\n").rstrip()
-        diagnostics.append(replace(diagnose(place, message, hint="-v shows where"), trace=trace))
+        diagnostics.append(replace(diagnose(place, message), trace=trace))
 
 
 def in_reading_order(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
