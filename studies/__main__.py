@@ -55,10 +55,6 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument(
         *("-q", "--quiet"), action="store_true", help="show only the values that miss their band"
     )
-    parser.add_argument("-v", "--verbose", action="store_true", help="show where an error arose")
-    parser.add_argument(
-        "--color", choices=("auto", "always", "never"), default="auto", help="colour the output"
-    )
     options = parser.parse_args(arguments)
     for name in options.names:
         if name not in STUDIES:
@@ -90,10 +86,11 @@ def main(arguments: Sequence[str]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return HOLDS
     except Exception as error:
-        if options.verbose:
+        if isinstance(error, OSError):
+            _message(str(error))
+        else:
             traceback.print_exc()
-        name = "" if isinstance(error, OSError) else f"internal error: {type(error).__name__}: "
-        _message(f"{name}{error}{'' if options.verbose else ' (-v shows where)'}")
+            _message(f"internal error: {type(error).__name__}: {error}")
         return ERROR
 
 
@@ -116,7 +113,7 @@ def _reproduce(selected: Sequence[Study], options: argparse.Namespace, arguments
     elif options.quiet:
         _print("\n".join([*misses(results), *claims(results)]))
     else:
-        _show(results, options.color)
+        _show(results)
     failed = [each.study.name for each in results if each.fails]
     if not options.quiet:
         amiss = f"; not as claimed: {', '.join(failed)}" if failed else ""
@@ -154,16 +151,12 @@ def _draw(results: Sequence[StudyResult], output: Path) -> list[Path]:
         return []
 
 
-def _show(results: Sequence[StudyResult], colour: str) -> None:
+def _show(results: Sequence[StudyResult]) -> None:
     """Print the values of every study, as tables where a person watches."""
     if sys.stdout.isatty() and os.environ.get("CI", "").lower() in ("", "0", "false"):
         from rich.console import Console
 
-        console = Console(
-            color_system=None if colour == "never" else "auto",
-            force_terminal=colour == "always" or None,
-            highlight=False,
-        )
+        console = Console(highlight=False)
         for each in results:
             console.print(study_table(each))
     else:

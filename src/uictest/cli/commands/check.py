@@ -40,20 +40,22 @@ def check(
         return ExitCode.ERROR if any(each.trace for each in errors) else ExitCode.USAGE
     if shown is Format.JSON:
         data("[]")
-    and_sweeps = f" and {report.counted(len(sweep_paths), 'sweep')}" if sweep_paths else ""
-    and_series = f" and {len(series_paths)} series" if series_paths else ""
-    message(f"uictest: {counts}{and_sweeps}{and_series}, no error")
+    sweeping = report.counted(len(sweep_paths), "sweep") if sweep_paths else ""
+    of_series = f"{len(series_paths)} series" if series_paths else ""
+    message(f"uictest: {' and '.join(filter(None, (counts, sweeping, of_series)))}, no error")
     return ExitCode.MET
 
 
 def _scenarios(paths: Sequence[Path], trusted: Sequence[Path]) -> tuple[list[yaml.Diagnostic], str]:
-    """Return the errors of scenario files, and without any how many files and cases there are."""
+    """Return the errors of scenario files, and in words how many files and cases are without."""
     try:
         cases = scenario.load(paths, trusted=trusted)
         _require_fit(cases)
     except yaml.ScenarioErrors as errors:
         return list(errors.diagnostics), ""
     files = {case.path for case in cases}
+    if not files:
+        return [], ""
     return [], f"{report.counted(len(files), 'scenario')} with {report.counted(len(cases), 'case')}"
 
 
