@@ -31,6 +31,22 @@ def test_a_usage_error_exits_4_and_shows_the_way_to_help(call, arguments):
     assert "\x1b" not in answer.err
 
 
+@pytest.mark.parametrize(
+    ("arguments", "written"),
+    [
+        (["evaluate", "stop.csv", "--rail=wet"], "In place of --rail write: --set rail.condition=NAME"),
+        (["identify", "air", "stop.csv", "--trust", "."], "UICTEST_TRUST=DIR"),
+        (["export-rig", "stop.yaml", "-k", "dry"], "--case ID"),
+    ],
+)
+def test_an_option_that_is_written_otherwise_is_refused_with_what_to_write(call, arguments, written):
+    call(*arguments, code=4, says=written)
+
+
+def test_an_option_that_a_command_never_had_shows_the_way_to_help(call):
+    assert "--help" in call("open", "--rail=wet", code=4).err
+
+
 @pytest.mark.parametrize("columns", ["40", "60", "80", "120"])
 @pytest.mark.parametrize("group", [[], ["identify"], ["library"]])
 def test_the_list_of_commands_holds_whole_sentences(call, monkeypatch, columns, group):

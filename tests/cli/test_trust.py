@@ -56,6 +56,11 @@ def test_commands_that_read_scenarios_take_folders_to_trust(call, inside, comman
     assert "missing" in answer.err
 
 
+def test_folders_of_the_option_and_of_the_environment_are_trusted_together(call, inside, monkeypatch):
+    monkeypatch.setenv("UICTEST_TRUST", "../beside")
+    assert call("list", "stop.yaml", "--trust", ".").code == 0
+
+
 @pytest.mark.parametrize(
     "command",
     [

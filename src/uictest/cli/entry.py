@@ -14,13 +14,27 @@ import typer
 from uictest import runs
 from uictest.cli.app import application
 from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import CommandLine
+from uictest.cli.options import TRUSTED_FOLDERS, CommandLine
 from uictest.cli.output import lost_data, message, use_safe_encoding
 from uictest.plans import scenario
 
 _TYPER_INTERRUPTED = 130
 _OPTIONS: Final = {"restart": "--restart", "output": "-o", "cluster": "--dask"}
 """Argument that an error names -> the option that sets it."""
+_WRITTEN_OTHERWISE: Final = {
+    "--rail": (("evaluate",), "--set rail.condition=NAME"),
+    "--position": (("evaluate",), "--set brake.position=NAME"),
+    "--wsp": (("evaluate",), "--set rig.wsp=STATE"),
+    "--criteria": (("evaluate",), "--set criteria=NAME"),
+    "--trust": (("fit", "bench", "export-rig", "identify", "library"), f"{TRUSTED_FOLDERS}=DIR uictest ..."),
+    "--color": (("run", "evaluate"), "NO_COLOR=1 uictest ... or FORCE_COLOR=1 uictest ..."),
+    "--date": (("identify",), "SOURCE_DATE_EPOCH=SECONDS uictest ..."),
+    "--seed": (("bench", "export-rig"), "--set seed=N"),
+    "-k": (("export-rig",), "--case ID"),
+    "--output": (("schema",), "> FILE"),
+    "-o": (("schema",), "> FILE"),
+}
+"""Option that some commands do not have -> these commands, and what to write there."""
 _OF_PATHS: Final = frozenset(
     {
         *(errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.EEXIST, errno.ENAMETOOLONG, errno.ELOOP),
@@ -46,7 +60,8 @@ def _outcome(invocation: CommandLine) -> ExitCode:
     try:
         return _call(invocation)
     except typer.TyperException as error:
-        message(f"uictest: {error.format_message()}\n{_advice(invocation.arguments)}")
+        option = getattr(error, "option_name", "")
+        message(f"uictest: {error.format_message()}\n{_advice(invocation.arguments, option)}")
         return ExitCode.USAGE
     except scenario.ScenarioErrors as error:
         for trace in error.traces:
@@ -74,8 +89,12 @@ def _outcome(invocation: CommandLine) -> ExitCode:
         return ExitCode.ERROR
 
 
-def _advice(arguments: Sequence[str]) -> str:
-    if arguments[:1] == ("reproduce",):
+def _advice(arguments: Sequence[str], option: str) -> str:
+    command = next(iter(arguments), "")
+    commands, otherwise = _WRITTEN_OTHERWISE.get(option, ((), ""))
+    if command in commands:
+        return f"In place of {option} write: {otherwise}"
+    if command == "reproduce":
         return "The studies are run by './reproduce' in a checkout of uictest."
     return "Try 'uictest --help', or 'uictest COMMAND --help'."
 

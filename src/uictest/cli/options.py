@@ -108,7 +108,18 @@ RealTime = Annotated[
     ),
 ]
 TRUSTED_FOLDERS: Final = "UICTEST_TRUST"
-"""Variable of the environment with the folders of `--trust`, for commands that have no such option, too."""
+"""Variable of the environment with folders as those of `--trust`, which every command trusts."""
+
+
+def trusted_folders(named: list[Path] | None = None) -> list[Path]:
+    """Return the named folders and those of UICTEST_TRUST. Raises InvalidInputError for what is no folder."""
+    folders = [Path(text) for text in os.environ.get(TRUSTED_FOLDERS, "").split(os.pathsep) if text]
+    for folder in folders:
+        if not folder.is_dir():
+            raise runs.InvalidInputError(f"{TRUSTED_FOLDERS}: {folder} is no folder")
+    return [*(named or ()), *folders]
+
+
 Trusted = Annotated[
     list[Path] | None,
     typer.Option(
@@ -116,9 +127,9 @@ Trusted = Annotated[
         metavar="DIR",
         exists=True,
         file_okay=False,
-        envvar=TRUSTED_FOLDERS,
-        help="Allow references into this folder, besides the folders of the given files and the working"
-        " folder. May be repeated.",
+        callback=trusted_folders,
+        help="Allow references into this folder, besides the folders of the given files, the working"
+        f" folder and those of {TRUSTED_FOLDERS}. May be repeated.",
     ),
 ]
 Validated = Annotated[
@@ -207,15 +218,6 @@ def tolerances_of(texts: list[str] | None) -> comparison.Tolerances:
     """Return the tolerances that `--tolerance` asks for. Raises typer.BadParameter."""
     with rejected("--tolerance"):
         return comparison.Tolerances.read(texts or ())
-
-
-def trusted_folders() -> list[Path]:
-    """Return the folders of UICTEST_TRUST. Raises InvalidInputError for what is no folder."""
-    folders = [Path(text) for text in os.environ.get(TRUSTED_FOLDERS, "").split(os.pathsep) if text]
-    for folder in folders:
-        if not folder.is_dir():
-            raise runs.InvalidInputError(f"{TRUSTED_FOLDERS}: {folder} is no folder")
-    return folders
 
 
 @contextmanager

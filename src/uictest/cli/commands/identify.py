@@ -264,9 +264,10 @@ def _provenance(
 def _date() -> str:
     """Return the day of SOURCE_DATE_EPOCH, empty without it: then the same record gives the same file."""
     text = os.environ.get("SOURCE_DATE_EPOCH", "")
-    if text and not (text.isascii() and text.isdigit()):
-        raise runs.InvalidInputError(f"SOURCE_DATE_EPOCH={text!r}: write seconds since 1970")
-    return f"{datetime.fromtimestamp(int(text), UTC):%Y-%m-%d}" if text else ""
+    try:
+        return f"{datetime.fromtimestamp(int(text), UTC):%Y-%m-%d}" if text else ""
+    except (ValueError, OverflowError, OSError) as error:
+        raise runs.InvalidInputError(f"SOURCE_DATE_EPOCH={text!r}: write seconds since 1970") from error
 
 
 def _write(output: Path, record: Path, text: str) -> None:
