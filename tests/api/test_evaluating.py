@@ -67,8 +67,7 @@ def test_missing_statements_are_named_as_arguments(train):
     ("arguments", "message"),
     [
         ({"channel_map": "uictes"}, "no channel map 'uictes': name a preset"),
-        ({"raster": "soon"}, "raster: "),
-        ({"trigger": "now"}, "trigger: "),
+        ({"trigger": "now"}, "trigger 'now': "),
         ({"record": "every"}, "record is 'every'; accepted: all, failed, none"),
     ],
 )
@@ -92,8 +91,8 @@ def test_every_file_that_cannot_be_read_is_named(files, message):
 
 def test_the_manifest_names_the_command_that_does_the_same(train, write):
     path = write(rail="{condition: dry}")
-    folder = uictest.evaluate(train.name, scenario=path, low_pass="5 Hz", record="all", output="out").folder
-    words = ["evaluate", "Stop 1.csv", "--scenario", "scenarios/stop.yaml", "--low-pass", "5 Hz"]
+    folder = uictest.evaluate(train.name, scenario=path, trigger="start", record="all", output="out").folder
+    words = ["evaluate", "Stop 1.csv", "--scenario", "scenarios/stop.yaml", "--trigger", "start"]
     command = json.loads((folder / "manifest.json").read_text())["command"]
     assert command == ["uictest", *words, "--record", "all", "-o", "out"]
 

@@ -42,9 +42,6 @@ def evaluate(
     wsp: str | None = None,
     channel_map: PathName = DEFAULT_MAP,
     trigger: str | None = None,
-    trigger_lead: str | None = None,
-    raster: str | None = None,
-    low_pass: str | None = None,
     set: Assignments | None = None,  # noqa: A002 - the name of the option
     trust: Trusted = (),
     record: Record = "failed",
@@ -66,9 +63,6 @@ def evaluate(
         wsp: `active` or `bypassed`.
         channel_map: a preset or a YAML file.
         trigger: the brake command, as `--trigger`: `auto`, `start`, ... or a time such as `12.3 s`.
-        trigger_lead: time from the brake command to the trigger.
-        raster: interval to which the samples are resampled.
-        low_pass: low-pass filter for every signal, such as `10 Hz`.
         set: dotted key -> value, as for :func:`uictest.load`.
         trust: folders that files may refer to, besides their own and the working folder.
         record: samples that `output` gets: of stops `failed` (not as expected), of `all` or `none`.
@@ -90,26 +84,25 @@ def evaluate(
         raise ValueError("nothing to evaluate: name recordings")
     stated = _statements([criteria] if isinstance(criteria, str) else criteria, rail, position, wsp)
     statements, overrides = list(stated), override_texts(set)
-    preparation = {"trigger": trigger, "trigger_lead": trigger_lead, "raster": raster, "low_pass": low_pass}
     options = {
         "--scenario": scenario.path if isinstance(scenario, scenarios.Case) else scenario,
         "-k": select,
         "--set": [*statements, *overrides],
         "--trust": folders,
         "--map": None if channel_map == DEFAULT_MAP else channel_map,
-        **{f"--{name.replace('_', '-')}": text for name, text in preparation.items()},
+        "--trigger": trigger,
         "--record": None if record == "failed" else record,
         "-o": output,
     }
     words = command_words(["evaluate", *paths, *(["--strict"] if strict else [])], options)
     if any(map(runs.is_series, paths)):
-        said = (scenario, select, *statements, *preparation.values())
+        said = (scenario, select, *statements, trigger)
         planned, stops = runs.read_recorded_series(paths, overrides, folders, said, "set")
         batch = runs.recorded_batch(stops, words, planned=planned, strict=strict)
     else:
         case_of = _case_of(scenario, select, [*statements, *overrides], folders)
         mapped, inputs = runs.named_map(str(channel_map), folders)
-        stops = runs.read_files(paths, runs.prepared_map(mapped, preparation))
+        stops = runs.read_files(paths, runs.triggered_map(mapped, trigger))
         cases = [stop.case(case_of, inputs) for stop in stops]
         batch = runs.recorded_batch(stops, words, cases=cases, strict=strict)
     content, recordings = runs.judge_recordings(batch)

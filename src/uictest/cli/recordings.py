@@ -11,6 +11,7 @@ import typer
 
 from uictest import runs
 from uictest.cli.cases import malformed
+from uictest.cli.options import rejected
 from uictest.plans import scenario
 from uictest.recorded import field_data
 from uictest.rig import bench
@@ -30,36 +31,18 @@ Trigger = Annotated[
         help="Brake command at: auto, stated, start, command, demand, pressure, or a time such as '12.3 s'.",
     ),
 ]
-TriggerLead = Annotated[
-    str | None,
-    typer.Option("--trigger-lead", metavar="TIME", help="Time from the brake command to the trigger."),
-]
-Raster = Annotated[
-    str | None, typer.Option("--raster", metavar="TIME", help="Interval to which the samples are resampled.")
-]
-LowPass = Annotated[
-    str | None,
-    typer.Option(
-        "--low-pass",
-        metavar="FREQUENCY",
-        help="Low-pass filter for every signal, such as '10 Hz'.",
-    ),
-]
 
 
 def channel_map(
-    reference: str, trusted: Sequence[Path] | None, **preparation: str | None
+    reference: str, trusted: Sequence[Path] | None, trigger: str | None
 ) -> tuple[field_data.ChannelMap, dict[str, str]]:
-    """Return a channel map, its preparation changed by options, and the files read for it.
+    """Return a channel map, its trigger that of the option, and the files read for it.
 
-    Raises as :func:`uictest.runs.named_map`, and typer.BadParameter for an option that does not fit.
+    Raises as :func:`uictest.runs.named_map`, and typer.BadParameter for what is no trigger.
     """
     loaded, inputs = runs.named_map(reference, trusted)
-    try:
-        return runs.prepared_map(loaded, preparation), inputs
-    except runs.PreparationError as error:
-        option = f"--{error.name.replace('_', '-')}"
-        raise typer.BadParameter(error.reason, param_hint=option) from error
+    with rejected("--trigger"):
+        return runs.triggered_map(loaded, trigger), inputs
 
 
 def one_case(

@@ -22,14 +22,13 @@ from .recorded import (
 )
 from .recorded_files import (
     CaseOfStop as CaseOfStop,
-    PreparationError as PreparationError,
     RecordedFile as RecordedFile,
     each_file as each_file,
     named_map as named_map,
-    prepared_map as prepared_map,
     read_files as read_files,
     read_recorded_series as read_recorded_series,
     stop_names as stop_names,
+    triggered_map as triggered_map,
 )
 from .run_folders import holds_sweep as holds_sweep, run_folder as run_folder, why_no_run as why_no_run
 from .scenario_files import (

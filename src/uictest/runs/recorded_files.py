@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
@@ -83,40 +83,22 @@ def named_map(
         ) from None
 
 
-class PreparationError(ValueError):
-    """A preparation of recordings that cannot be carried out; `name` is that of its argument."""
+def triggered_map(channel_map: field_data.ChannelMap, trigger: str | None) -> field_data.ChannelMap:
+    """Return a channel map with another trigger, a name or a time; None: as the map says.
 
-    def __init__(self, name: str, message: str) -> None:
-        self.name = name
-        self.reason = message
-        super().__init__(f"{name}: {message}")
-
-
-def prepared_map(
-    channel_map: field_data.ChannelMap, texts: Mapping[str, str | None]
-) -> field_data.ChannelMap:
-    """Return a channel map with another preparation, as far as there is one.
-
-    Args:
-        channel_map: the channel map.
-        texts: `trigger` (a name or a time), `trigger_lead`, `raster`, `low_pass`; None: as the map says.
-
-    Raises:
-        PreparationError: one of them does not fit.
-
+    Raises ValueError for a trigger that is neither.
     """
     from pydantic import ValidationError
 
-    stated = {name: text for name, text in texts.items() if text is not None}
-    if (trigger := stated.get("trigger")) is not None and any(map(str.isdigit, trigger)):
-        stated["trigger_time"] = stated.pop("trigger")
+    if trigger is None:
+        return channel_map
+    key = "trigger_time" if any(map(str.isdigit, trigger)) else "trigger"
+    stated = {**dict(channel_map.preparation), "trigger_time": None, key: trigger}
     try:
-        changed = field_data.Preparation.model_validate({**dict(channel_map.preparation), **stated})
+        preparation = field_data.Preparation.model_validate(stated)
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        name = str(first["loc"][0]) if first["loc"] else ""
-        raise PreparationError(name.removesuffix("_time"), str(first["msg"])) from error
-    return channel_map.model_copy(update={"preparation": changed})
+        raise ValueError(f"trigger {trigger!r}: {error.errors(include_url=False)[0]['msg']}") from error
+    return channel_map.model_copy(update={"preparation": preparation})
 
 
 def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Result]:

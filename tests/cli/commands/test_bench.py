@@ -74,6 +74,6 @@ def test_what_cannot_be_used_is_told_and_nothing_is_written(call, workplace, arg
     assert list(workplace.iterdir()) == []
 
 
-def test_the_recipes_of_the_library_are_listed(call):
-    answer = call("bench", "--list", code=0)
-    assert {"stepwise", "triangular", "random", "wsp-cycling"} <= set(answer.out.split())
+def test_the_recipes_of_the_library_are_listed_with_its_parts(call):
+    listed = set(call("library", "list", code=0).out.split())
+    assert {f"benches/{name}" for name in ("stepwise", "triangular", "random", "wsp-cycling")} <= listed

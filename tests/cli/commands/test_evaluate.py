@@ -9,6 +9,8 @@ from uictest.core.recording.formats import ReadingInterruptedError, writer_of
 
 from ..conftest import STATED, rolling_train
 
+OWN_MAP = "schema: uictest/channel-map/1\nname: own\nextends: uictest\n"
+
 
 @pytest.fixture
 def stop(workplace):
@@ -28,8 +30,9 @@ def test_a_stop_is_judged_and_reported_as_by_run(call, stop):
     assert {"Stop 1.csv", "library:channel_maps/uictest.yaml"} <= manifest["inputs"].keys()
 
 
-def test_json_is_the_document_with_the_preparation_in_it(call, stop):
-    document = json.loads(call("evaluate", stop, *STATED, "--format", "json", "--low-pass", "5 Hz").out)
+def test_json_is_the_document_with_the_preparation_in_it(call, stop, workplace):
+    (workplace / "own.yaml").write_text(OWN_MAP + "preparation: {low_pass: 5 Hz}\n")
+    document = json.loads(call("evaluate", stop, *STATED, "--format", "json", "--map", "own.yaml").out)
     [case] = document["cases"] if "cases" in document else document["results"]
     assert case["criteria"][0]["definition"]["filter"].startswith("low-pass 5 Hz")
     assert case["measures"]["energy_residual"] is None
@@ -118,8 +121,6 @@ def test_files_of_one_name_get_different_ids_and_unstated_circumstances_are_aske
         ["Stop 1.csv", *STATED, "--trigger", "sometime"],
         ["Stop 1.csv", *STATED, "--trigger", "12"],
         ["Stop 1.csv", *STATED, "--trigger", "pressure"],
-        ["Stop 1.csv", *STATED, "--raster", "0 ms"],
-        ["Stop 1.csv", *STATED, "--low-pass", "nan Hz"],
         ["Stop 1.csv", *STATED[1:], "--set=rail.condition=icy"],
         ["Stop 1.csv", *STATED, "--set", "rail.friction=0.1,0.2"],
         ["Stop 1.csv", "--scenario", "missing.yaml"],
@@ -132,6 +133,21 @@ def test_what_cannot_be_used_exits_4_with_a_message(call, stop, arguments):
     assert answer.err
     assert "Traceback" not in answer.err
     assert not Path("reports").exists()
+
+
+@pytest.mark.parametrize("preparation", ["raster: 0 ms", "low_pass: nan Hz", "trigger_lead: -1 s"])
+def test_a_preparation_that_cannot_be_is_refused_at_its_place(call, stop, workplace, preparation):
+    (workplace / "own.yaml").write_text(f"{OWN_MAP}preparation:\n  {preparation}\n")
+    key = f"preparation.{preparation.partition(':')[0]}"
+    refused = call("evaluate", stop, *STATED, "--map", "own.yaml", code=4, says="own.yaml:5:")
+    assert key in refused.err
+
+
+def test_the_trigger_of_the_option_counts_where_the_map_states_a_time(call, stop, workplace):
+    (workplace / "own.yaml").write_text(OWN_MAP + "preparation: {trigger_time: 2 s}\n")
+    command = ("evaluate", stop, *STATED, "--map", "own.yaml")
+    assert "trigger: at 2 s, stated by the user" in call(*command).err
+    assert "trigger: the record begins with it" in call(*command, "--trigger", "start").err
 
 
 def test_list_shows_channels_and_the_preset_that_fits_or_proposes_a_map(call, stop, workplace):

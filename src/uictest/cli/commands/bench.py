@@ -26,7 +26,9 @@ _FORMATS = {".parquet": "parquet", ".csv": "csv"}
 Recipe = Annotated[
     str | None,
     typer.Argument(
-        metavar="[RECIPE]", help="Recipe of the library (see --list), or a .yaml file.", show_default=False
+        metavar="[RECIPE]",
+        help="Recipe of the library, in 'uictest library list', or a .yaml file.",
+        show_default=False,
     ),
 ]
 TraceFile = Annotated[
@@ -54,7 +56,6 @@ Output = Annotated[
         show_default=False,
     ),
 ]
-Listing = Annotated[bool, typer.Option("--list", help="List the recipes of the library.")]
 
 
 def bench(
@@ -64,12 +65,8 @@ def bench(
     command: CommandChannel = None,
     overrides: RigOverrides = None,
     output: Output = None,
-    listing: Listing = False,
 ) -> ExitCode:
     """Test the caliper on the bench. Writes a recording of pressures, forces, stroke and commands."""
-    if listing:
-        data("\n".join(rig_bench.recipe_names()))
-        return ExitCode.MET
     test = _test(recipe, trace, pressure, command, overrides or ())
     target = output or Path(f"{test.recipe.name}.parquet")
     write = _writer(target)

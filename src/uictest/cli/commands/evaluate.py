@@ -37,9 +37,6 @@ def evaluate(
     overrides: options.Overrides = None,
     trusted: options.Trusted = None,
     trigger: recordings.Trigger = None,
-    trigger_lead: recordings.TriggerLead = None,
-    raster: recordings.Raster = None,
-    low_pass: recordings.LowPass = None,
     output: options.Output = Path("reports"),
     keep: options.KeptRuns = None,
     junit: options.JUnitFile = None,
@@ -59,16 +56,11 @@ def evaluate(
     request = campaign.RecordingRequest(recorded.value)
     display = running.chosen_display(shown, quiet=quiet, verbose=verbose)
     if any(map(runs.is_series, files)):
-        stated = (listing, scenario, expression)
-        preparation = (trigger, trigger_lead, raster, low_pass)
-        planned, stops = runs.read_recorded_series(
-            files, overrides, trusted, (*stated, *preparation), "--set"
-        )
+        stated = (listing, scenario, expression, trigger)
+        planned, stops = runs.read_recorded_series(files, overrides, trusted, stated, "--set")
         batch = runs.recorded_batch(stops, context.obj.arguments, planned=planned, strict=strict)
     else:
-        mapped, inputs = recordings.channel_map(
-            map_name, trusted, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
-        )
+        mapped, inputs = recordings.channel_map(map_name, trusted, trigger)
         if listing:
             return _list(files, mapped)
         case_of = _case_of_stop(scenario, expression, overrides or (), trusted)

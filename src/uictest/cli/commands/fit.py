@@ -93,9 +93,6 @@ def fit(
     with_cleaning: WithCleaning = False,
     map_name: recordings.MapName = "uictest",
     trigger: recordings.Trigger = None,
-    trigger_lead: recordings.TriggerLead = None,
-    raster: recordings.Raster = None,
-    low_pass: recordings.LowPass = None,
     output: Output = Path("reports"),
 ) -> ExitCode:
     """Fit the rail friction to a recorded stop. Writes a scenario with the fitted friction.
@@ -107,9 +104,7 @@ def fit(
     """
     trusted = options.trusted_folders()
     _require_fitting_together(files, with_pads=with_pads, with_cleaning=with_cleaning)
-    mapped, _ = recordings.channel_map(
-        map_name, trusted, trigger=trigger, trigger_lead=trigger_lead, raster=raster, low_pass=low_pass
-    )
+    mapped, _ = recordings.channel_map(map_name, trusted, trigger)
     case = recordings.one_case(scenario, expression, overrides or (), trusted)
     stops = runs.each_file(files, lambda path: _stop(path, mapped))
     places = _places(breaks or ())
