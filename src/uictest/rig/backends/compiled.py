@@ -24,7 +24,7 @@ from uictest.rig.model.external_controller import call_step, exchange_at
 Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
 _SOURCES = (
-    *("core/record.py", "core/physics", "core/lanes", "controllers", "plans/faults", "rig"),
+    *("core/record.py", "core/physics", "core/lanes", "controllers", "plans/faults.py", "rig"),
     *(f"core/measures/{name}.py" for name in ("records", "layouts", "train", "wheelset")),
     *(f"core/measures/{name}.py" for name in ("build_up", "contact", "reaction", "sliding_share")),
 )

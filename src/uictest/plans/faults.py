@@ -1,26 +1,113 @@
-"""Every kind of fault, one row each.
+"""Faults of the brake and its controller that a scenario can inject: every kind in one row.
 
-The kinds are those of the fault tables of brake controllers; the ranges of their values are chosen: wide
-enough for what happens, narrow enough for the equations of the rig.
+A row declares the part that is faulty, the value that the fault takes and its effects: a scenario reads it to
+check what a user writes, the rig to compute what a fault changes. The kinds are those of the fault tables of
+brake controllers; the ranges of their values are chosen: wide enough for what happens, narrow enough for the
+equations of the rig.
 """
 
+import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
 
-from uictest.plans.faults.kind import SPEED_SENSOR, Effects, FaultKind, FaultValue
+MOST_FAULTS: Final = 8
+"""Faults that a stop can have."""
+SPEED_SENSOR: Final = "speed-sensor"
+"""The part without which the controller cannot protect a wheelset by its own speed."""
 
-_OFFSET_OF_SPEED = FaultValue("speed", "-200 km/h", "200 km/h")
+
+@dataclass(frozen=True, slots=True)
+class Effects:
+    """What a fault changes while it is active, SI units; by default nothing.
+
+    Attributes:
+        speed_valid: 0 where the speed sensor reports a fault.
+        speed_held: 1 where it goes on reading what it read last.
+        speed_factor: factor on its reading.
+        speed_offset: added to its reading, m/s.
+        speed_jump: largest random error of its reading, new in every controller cycle, m/s.
+        drop_out: share of its readings that are zero.
+        lost_teeth: teeth that its pole wheel lacks besides those that it lacked before.
+        fill_at_least, fill_at_most: bounds of the opening from the brake line to the tank, 0 to 1.
+        vent_at_least, vent_at_most: bounds of the opening from the tank to the atmosphere, 0 to 1.
+        travel_time: of the valve between closed and open, if longer than its own, s.
+        tank_leak, line_leak: sonic conductance from the tank, from the brake line, m3/(s Pa).
+        pressure_held: 1 where the pressure that the controller is given stays what it was.
+        pressure_factor: factor on that pressure.
+        pressure_offset: added to it, gauge, Pa.
+        silent: 1 where the valves keep the last command of the controller.
+        release_time: silence after which they fill, s.
+    """
+
+    speed_valid: float = 1.0
+    speed_held: float = 0.0
+    speed_factor: float = 1.0
+    speed_offset: float = 0.0
+    speed_jump: float = 0.0
+    drop_out: float = 0.0
+    lost_teeth: float = 0.0
+    fill_at_least: float = 0.0
+    fill_at_most: float = 1.0
+    vent_at_least: float = 0.0
+    vent_at_most: float = 1.0
+    travel_time: float = 0.0
+    tank_leak: float = 0.0
+    line_leak: float = 0.0
+    pressure_held: float = 0.0
+    pressure_factor: float = 1.0
+    pressure_offset: float = 0.0
+    silent: float = 0.0
+    release_time: float = math.inf
+
+
+@dataclass(frozen=True, slots=True)
+class FaultValue:
+    """The value that a kind of fault takes.
+
+    Attributes:
+        kind: of quantity, a name of :data:`uictest.core.units.KINDS`.
+        at_least, at_most: its range, as a user would write it.
+        without: what the fault does without one; empty where it must have one.
+    """
+
+    kind: str
+    at_least: str
+    at_most: str
+    without: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class FaultKind:
+    """One kind of fault of one part.
+
+    Attributes:
+        part: what is faulty.
+        name: how.
+        description: one sentence for people; `value` stands for the value of the fault.
+        effects: returns what it changes, from its value in SI units or None without one.
+        value: the value that it takes; None where it takes none.
+        of_wheelset: whether each wheelset has such a part.
+    """
+
+    part: str
+    name: str
+    description: str
+    effects: Callable[[float | None], Effects]
+    value: FaultValue | None = None
+    of_wheelset: bool = True
+
+
 _ANY_SPEED = "600 km/h"
 _SHARE_OF_AREA = FaultValue("share", "0 %", "100 %")
 _LEAK = FaultValue("conductance", "0 m3/(s Pa)", "3e-8 m3/(s Pa)")
 _FACTOR = FaultValue("share", "0 %", "500 %")
 
-_NO_EFFECT = Effects()
-_Valued = Callable[[float], Effects]
 
-
-def _valued(effects: _Valued, otherwise: Effects = _NO_EFFECT) -> Callable[[float | None], Effects]:
+def _valued(
+    effects: Callable[[float], Effects], otherwise: Effects = Effects()
+) -> Callable[[float | None], Effects]:
     """Return the effects of a value, `otherwise` without one."""
     return lambda value: otherwise if value is None else effects(value)
 
@@ -44,10 +131,7 @@ _ROWS: Final = (
         SPEED_SENSOR,
         "stuck",
         "It goes on reading `value` and reports no fault.",
-        _valued(
-            lambda value: Effects(speed_factor=0.0, speed_offset=value),
-            Effects(speed_held=1.0),
-        ),
+        _valued(lambda value: Effects(speed_factor=0.0, speed_offset=value), Effects(speed_held=1.0)),
         FaultValue("speed", "0 km/h", _ANY_SPEED, without="what it read when the fault began"),
     ),
     FaultKind(
@@ -62,7 +146,7 @@ _ROWS: Final = (
         "offset",
         "It reads the speed and `value`, no less than 0.",
         _valued(lambda value: Effects(speed_offset=value)),
-        _OFFSET_OF_SPEED,
+        FaultValue("speed", "-200 km/h", "200 km/h"),
     ),
     FaultKind(
         SPEED_SENSOR,
@@ -188,8 +272,7 @@ _ROWS: Final = (
         "stuck",
         "The controller goes on being given `value`.",
         _valued(
-            lambda value: Effects(pressure_factor=0.0, pressure_offset=value),
-            Effects(pressure_held=1.0),
+            lambda value: Effects(pressure_factor=0.0, pressure_offset=value), Effects(pressure_held=1.0)
         ),
         FaultValue("pressure", "0 bar", "10 bar", without="the pressure when the fault began"),
     ),
@@ -203,10 +286,7 @@ _ROWS: Final = (
         "controller",
         "silent",
         "No command reaches the valves: they keep the last one for `value`, then they fill.",
-        _valued(
-            lambda value: Effects(silent=1.0, release_time=value),
-            Effects(silent=1.0),
-        ),
+        _valued(lambda value: Effects(silent=1.0, release_time=value), Effects(silent=1.0)),
         FaultValue("time", "0 s", "3600 s", without="they keep it as long as the fault lasts"),
         of_wheelset=False,
     ),
