@@ -38,7 +38,7 @@ from uictest.controllers import Config, ControllerError
 from uictest.controllers.adapters.fmu import instance as fmu_instance, slave as fmu_slave
 from uictest.core.recording import Recording
 from uictest.core.recording.formats import FORMATS, UnreadableError, read_contents, writer_of
-from uictest.plans import scenario, validation as validation_plans
+from uictest.plans import scenario, series as series_plans
 from uictest.recorded.field_data.time_axis import DefectKind
 from uictest.rig import bench
 
@@ -341,9 +341,7 @@ KINDS = (
         "src/uictest/plans/library/channel_maps/*.yaml map.yaml",
         command("evaluate -v --list stop.csv --map {}"),
     ),
-    Kind(
-        "validation", "x.validation.yaml", "plan.validation.yaml", function(validation_plans.load_validation)
-    ),
+    Kind("validation", "x.validation.yaml", "plan.validation.yaml", function(series_plans.load_validation)),
     Kind(
         "requirements in YAML",
         "x.yaml",

@@ -6,7 +6,7 @@ import pytest
 
 from uictest.plans import series
 from uictest.plans.scenario import ScenarioErrors
-from uictest.plans.validation import load_validation, plan_of_series
+from uictest.plans.series import load_validation, plan_of_series
 
 STOP = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 100 km/h\nrail: {{condition: {rail}}}\n"
 BEGIN = "schema: uictest/validation/1\nname: my-train\nstops:\n"

@@ -14,7 +14,7 @@ from uictest.analysis import validation
 from uictest.core import files
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import evaluation
-from uictest.plans import scenario, validation as validation_plans
+from uictest.plans import scenario, series
 from uictest.plans.scenario import yaml
 from uictest.recorded import field_data
 from uictest.running import campaign
@@ -31,13 +31,13 @@ class RecordedStopOfPlan:
     """A recorded stop: its file, the case as planned, and that from the recorded speed where it is usable."""
 
     file: RecordedFile
-    planned: validation_plans.PlannedComparison
+    planned: series.PlannedComparison
     case: scenario.Case
     not_counted: str
 
 
 def recorded_stops(
-    plan: validation_plans.ValidationPlan, trusted: Sequence[Path] | None
+    plan: series.ValidationPlan, trusted: Sequence[Path] | None
 ) -> tuple[list[RecordedStopOfPlan], dict[str, str]]:
     """Return the recorded stops of a plan, and every file that was read with its SHA-256.
 
@@ -80,8 +80,8 @@ def conditions_of_stop(stop: RecordedStopOfPlan) -> list[validation.Conditions]:
 
 
 def _stops(
-    plan: validation_plans.ValidationPlan,
-    planned: validation_plans.PlannedComparison,
+    plan: series.ValidationPlan,
+    planned: series.PlannedComparison,
     read: dict[str, str],
     trusted: Sequence[Path] | None,
 ) -> Iterator[RecordedStopOfPlan]:
@@ -97,7 +97,7 @@ def _stops(
         yield RecordedStopOfPlan(file, planned, case, _why_not_counted(plan, planned, file))
 
 
-def _require_distinct(plan: validation_plans.ValidationPlan, stops: Sequence[RecordedStopOfPlan]) -> None:
+def _require_distinct(plan: series.ValidationPlan, stops: Sequence[RecordedStopOfPlan]) -> None:
     """Raise InvalidInputError where two stops have one id: each is compared with the simulation of its id."""
     files: dict[str, Path] = {}
     for stop in stops:
@@ -123,7 +123,7 @@ def _counted_once(stops: Sequence[RecordedStopOfPlan]) -> list[RecordedStopOfPla
 
 
 def _why_not_counted(
-    plan: validation_plans.ValidationPlan, planned: validation_plans.PlannedComparison, file: RecordedFile
+    plan: series.ValidationPlan, planned: series.PlannedComparison, file: RecordedFile
 ) -> str:
     if file.stop is None:
         return "; ".join(map(str, file.defects))
@@ -158,7 +158,7 @@ class ValidationRun:
 
 
 def run_validation(
-    plan: validation_plans.ValidationPlan, jobs: int, trusted: Sequence[Path] | None, observer: Observer
+    plan: series.ValidationPlan, jobs: int, trusted: Sequence[Path] | None, observer: Observer
 ) -> ValidationRun:
     """Compare the recorded stops of a plan with their simulations.
 
@@ -191,14 +191,14 @@ def publish_validation(validated: validation.Validation, arguments: Sequence[str
 
 def load_validations(
     paths: Sequence[Path], overrides: Sequence[str] | None = None, trusted: Sequence[Path] | None = None
-) -> list[validation_plans.ValidationPlan]:
+) -> list[series.ValidationPlan]:
     """Return the validations of validation and series files. Raises ScenarioErrors, InvalidInputError."""
-    plans: list[validation_plans.ValidationPlan] = []
+    plans: list[series.ValidationPlan] = []
     for path in paths:
         if is_series(path):
-            plans += map(validation_plans.plan_of_series, load_series([path], overrides, None, trusted))
+            plans += map(series.plan_of_series, load_series([path], overrides, None, trusted))
         else:
-            plans.append(validation_plans.load_validation(path, tuple(overrides or ()), trusted or ()))
+            plans.append(series.load_validation(path, tuple(overrides or ()), trusted or ()))
     for plan in plans:
         if not plan.comparisons:
             raise InvalidInputError(f"{plan.path}: no stop names a recording: list them under `recordings`")

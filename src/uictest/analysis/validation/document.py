@@ -18,7 +18,7 @@ from uictest.core import document
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS, column_unit
 from uictest.judging.evaluation import DomainOfValidity, EffectivePart, from_json_form, to_json_form
 from uictest.plans.scenario.yaml import display_name
-from uictest.plans.validation import ValidationPlan
+from uictest.plans.series import ValidationPlan
 
 RESULT: Final = "validation.json"
 """Name of the file of a result."""

@@ -11,7 +11,7 @@ import typer
 
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import data
-from uictest.plans import scenario, series, validation
+from uictest.plans import scenario, series
 from uictest.recorded import field_data
 from uictest.rig import bench as rig_bench
 
@@ -55,7 +55,7 @@ def _schema(kind: SchemaKind) -> dict[str, Any]:
     of_files: dict[str, Callable[[], dict[str, Any]]] = {
         SchemaKind.SCENARIO: lambda: scenario.json_schema(),
         SchemaKind.SERIES: lambda: series.series_schema(),
-        SchemaKind.VALIDATION: lambda: scenario.schema_of(validation.ValidationFile, "uictest validation"),
+        SchemaKind.VALIDATION: lambda: scenario.schema_of(series.ValidationFile, "uictest validation"),
         SchemaKind.BENCH: lambda: scenario.schema_of(rig_bench.BenchRecipe, "uictest bench"),
         SchemaKind.CHANNEL_MAP: lambda: field_data.channel_map_schema(),
     }

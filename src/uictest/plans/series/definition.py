@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
@@ -37,9 +36,8 @@ from uictest.plans.scenario.yaml import (
     validated,
     without_axis,
 )
-from uictest.plans.series.model import DEFAULT_CRITERIA, SeriesFile
-from uictest.plans.series.series import Series
-from uictest.plans.series.stop_reader import StopReader
+from uictest.plans.series.model import DEFAULT_CRITERIA, Series, SeriesFile
+from uictest.plans.series.stops import StopReader, values_set_by
 
 _NOT_A_SERIES: Final = {
     SCENARIO_SCHEMA: "give a scenario a file name that does not end in .series.yaml",
@@ -63,68 +61,27 @@ def load_series(
 
     """
     files = Files(Roots.of([path], trusted))
-    written = read_file(path, SERIES_SCHEMA)
-    require_schema(written, SERIES_SCHEMA, hints=_NOT_A_SERIES)
+    tree = read_file(path, SERIES_SCHEMA)
+    require_schema(tree, SERIES_SCHEMA, hints=_NOT_A_SERIES)
     of_command_line = parse_overrides(overrides, seed)
-    profiles, documents = _criteria(written, Parts(files))
-    file: SeriesFile = validated(SeriesFile, {**plain(written), "criteria": profiles}, written)
-    reader = _Reader(path, file, written, files, [*_set_for_all(written)], of_command_line)
-    inputs = {each.display: each.sha256 for each in (written.place.document, *documents) if each.sha256}
-    return [reader.series(variant, inputs) for variant in reader.variants]
-
-
-def _set_for_all(tree: Map) -> Iterator[Override]:
-    """Yield what the file sets for all of its stops: `repeat`, then the keys under `set`."""
-    if (repeat := tree.entries.get("repeat")) is not None:
-        yield Override("repeat", repeat.key, (repeat.node,))
-    section = tree.get("set")
-    for key, entry in section.entries.items() if isinstance(section, Map) else ():
-        yield Override(key, entry.key, (entry.node,))
-
-
-@dataclass(frozen=True)
-class _Reader:
-    """Reads the series of one file; `common` and then `fixed` change the scenarios of all of its stops."""
-
-    path: Path
-    file: SeriesFile
-    tree: Map
-    files: Files
-    common: Sequence[Override]
-    of_command_line: Sequence[Override]
-
-    @property
-    def fixed(self) -> list[Override]:
-        """The values of the command line that all series have."""
-        return [each for each in self.of_command_line if len(each.values) == 1]
-
-    @property
-    def variants(self) -> list[Variant]:
-        """The values by which the series of the file differ; one variant without any."""
-        tree = self.tree
-        for override in self.fixed:
-            tree = without_axis(tree, override.key)
-        varied = [each for each in self.of_command_line if len(each.values) > 1]
-        return expand(apply_overrides(tree, varied, frozenset()))
-
-    def series(self, variant: Variant, inputs: dict[str, str]) -> Series:
-        """Return one series. Raises ScenarioErrors."""
-        settings = [setting for each in self.variants for setting in each]
-        labels = controller_labels(settings, Parts(self.files))
+    profiles, documents = _criteria(tree, Parts(files))
+    file: SeriesFile = validated(SeriesFile, {**plain(tree), "criteria": profiles}, tree)
+    inputs = {each.display: each.sha256 for each in (tree.place.document, *documents) if each.sha256}
+    common = [*values_set_by(tree, swept=False)]
+    fixed = [each for each in of_command_line if len(each.values) == 1]
+    variants = _variants(tree, of_command_line)
+    settings = [setting for variant in variants for setting in variant]
+    labels = controller_labels(settings, Parts(files))
+    short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
+    every: list[Series] = []
+    for variant in variants:
+        name = case_id(file.name, variant, short, labels)
         own = [Override(each.key, each.value.key, (each.value.node,)) for each in variant]
-        short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
-        name = case_id(self.file.name, variant, short, labels)
-        reader = StopReader(name, self.file.criteria, self.files, self.common, [*own, *self.fixed])
-        stops = reader.stops(self.tree, self.file)
+        stops = StopReader(name, file.criteria, files, common, [*own, *fixed]).stops(tree, file)
         read = {shown: digest for stop in stops for shown, digest in stop.case.inputs.items()}
-        return Series(
-            id=name,
-            path=Path(display_name(self.path)),
-            file=self.file,
-            parameters={each.key: as_written(each.value.node) for each in variant},
-            stops=stops,
-            inputs={**inputs, **read},
-        )
+        parameters = {each.key: as_written(each.value.node) for each in variant}
+        every.append(Series(name, Path(display_name(path)), file, parameters, stops, {**inputs, **read}))
+    return every
 
 
 def _criteria(tree: Map, parts: Parts) -> tuple[tuple[Criteria, ...], tuple[Document, ...]]:
@@ -135,3 +92,12 @@ def _criteria(tree: Map, parts: Parts) -> tuple[tuple[Criteria, ...], tuple[Docu
     resolved = [parts.resolve(each, Criteria, ("criteria",)) for each in nodes]
     documents = tuple(document for each in resolved for document in each.documents)
     return tuple(each.part for each in resolved), documents
+
+
+def _variants(tree: Map, of_command_line: Sequence[Override]) -> list[Variant]:
+    """Return the values by which the series of a file differ; one variant without any."""
+    for each in of_command_line:
+        if len(each.values) == 1:
+            tree = without_axis(tree, each.key)
+    varied = [each for each in of_command_line if len(each.values) > 1]
+    return expand(apply_overrides(tree, varied, frozenset()))

@@ -1,14 +1,19 @@
-"""The models of a series file: the dry and the wet stops, and how they are judged."""
+"""A series: what its file says of the dry and the wet stops, and the cases of these as they are run."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, Field
 
+from uictest.core.series_measures import Rail
 from uictest.plans.scenario import (
+    Case,
     Criteria,
+    Criterion,
     TestFile,
     schema_of,
 )
@@ -131,3 +136,79 @@ def series_schema() -> dict[str, Any]:
         description = schema["properties"][role]["description"]
         schema["properties"][role] = {"description": description, "anyOf": [*_STOPS["anyOf"], listed]}
     return schema
+
+
+Role = Literal["dry", "wet", "bypassed"]
+"""dry: the reference. wet: a stop on a slippery rail, in which the WSP is at work. bypassed: the same stop
+without it, simulated to compare K_wet; it decides nothing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Recorded:
+    """Recorded stops that are judged as one case, and the reference of their channel map."""
+
+    files: tuple[Path, ...]
+    channel_map: str
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedStop:
+    """One case of a series; `recorded` is None where the file names no recording of it.
+
+    `rail` is the kind of rail of a simulated stop that is not dry.
+    """
+
+    role: Role
+    case: Case
+    recorded: Recorded | None = None
+    rail: Rail = ""
+
+    @property
+    def speed(self) -> float:
+        """The nominal initial speed, m/s."""
+        return float(self.case.scenario.initial_speed)
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """One series.
+
+    Args:
+        id: its name, with the values by which series of the same file differ; safe as a file name.
+        path: its file, as shown to users.
+        file: what the file says.
+        parameters: dotted keys and values, as written, by which series of the same file differ.
+        stops: dry ones first.
+        inputs: every file read for it, by shown name, and its SHA-256.
+
+    """
+
+    id: str
+    path: Path
+    file: SeriesFile
+    parameters: Mapping[str, str]
+    stops: tuple[PlannedStop, ...]
+    inputs: Mapping[str, str]
+
+    @property
+    def cases(self) -> list[Case]:
+        """The cases of its stops."""
+        return [stop.case for stop in self.stops]
+
+    @property
+    def criteria(self) -> tuple[Criteria, ...]:
+        """The profiles that it is judged by."""
+        return self.file.criteria
+
+    @property
+    def judged_criteria(self) -> list[tuple[Criteria, Criterion]]:
+        """The criteria that the series as a whole has a verdict on, each with its profile.
+
+        A criterion of validity of stops is none of them: it decides which stops count.
+        """
+        return [
+            (profile, criterion)
+            for profile in self.criteria
+            for criterion in profile.criteria
+            if criterion.scope == "series" or criterion.layer == "requirement"
+        ]

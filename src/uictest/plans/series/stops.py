@@ -1,31 +1,126 @@
-"""Read the stops of a series from the scenarios that it names."""
+"""Read lists of stops from the scenarios and the recordings that they name; and the stops of a series."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
 from uictest.core.series_measures import Rail
 from uictest.plans import scenario as scenarios
-from uictest.plans.scenario import LONGEST, Case, Criteria, Files, load_file
+from uictest.plans.scenario import LONGEST, Case, Criteria, Files, Scenario, is_path, load_file
 from uictest.plans.scenario.yaml import (
     Diagnostic,
     Entry,
     Map,
+    Node,
     Override,
     Scalar,
     ScenarioErrors,
+    Sequence as List,
     diagnose,
     entry_at,
     in_reading_order,
+    is_file,
     quoted,
     single_error,
 )
-from uictest.plans.series.model import SeriesFile, Stops
-from uictest.plans.series.series import PlannedStop, Role
-from uictest.plans.series.stop_entry import differences_of_train, recorded_by, scenario_of, values_set_by
+from uictest.plans.series.model import PlannedStop, Recorded, Role, SeriesFile, Stops
+
+
+def values_set_by(node: Node, *, swept: bool = True) -> Iterator[Override]:
+    """Yield what a file or one of its entries sets: `repeat`, then the keys under `set`.
+
+    With `swept`, every key is an axis, so that the ids of its stops name the values. Raises ScenarioErrors
+    for an empty list.
+    """
+    if not isinstance(node, Map):
+        return
+    if (repeat := node.entries.get("repeat")) is not None:
+        yield Override("repeat", repeat.key, (repeat.node,))
+    section = node.get("set")
+    for key, entry in section.entries.items() if isinstance(section, Map) else ():
+        values = entry.node.items if swept and isinstance(entry.node, List) else (entry.node,)
+        if not values:
+            raise single_error(entry.node.place, "an empty list makes no stop", f"set.{key}")
+        yield Override(key, entry.key, tuple(values), swept=swept)
+
+
+@dataclass(frozen=True)
+class Stop:
+    """What one entry of a list of stops names: a scenario, its cases, and recordings of them."""
+
+    reference: Scalar
+    cases: list[Case]
+    recorded: Recorded | None
+
+
+def read_entry(
+    node: Node, key: str, files: Files, common: Sequence[Override] = (), last: Sequence[Override] = ()
+) -> Stop:
+    """Return what an entry names, which may be the reference of a scenario alone. Raises ScenarioErrors.
+
+    `common` and `last` are set before and after what the entry sets; errors of the scenario are at `key`.
+    """
+    reference = node.get("scenario") if isinstance(node, Map) else node
+    assert isinstance(reference, Scalar)
+    files.beside(reference, key)
+    path = files.path_of(reference, key)
+    cases = load_file(path, [*common, *values_set_by(node), *last], files)
+    listed = node.get("recordings") if isinstance(node, Map) else None
+    if not isinstance(listed, List) or not listed.items:
+        return Stop(reference, cases, None)
+    recorded = Recorded(tuple(_existing(each, files) for each in listed.items), _channel_map(node, files))
+    if len(cases) > 1:
+        message = f"recordings belong to one stop, the scenario has {len(cases)} cases"
+        raise single_error(reference.place, message, key, "give each its own entry, with `set`")
+    return Stop(reference, cases, recorded)
+
+
+def _existing(reference: Node, files: Files) -> Path:
+    assert isinstance(reference, Scalar)
+    path = files.path_of(reference, "recordings")
+    if not is_file(path):
+        raise single_error(reference.place, f"no such file: {quoted(reference.text)}", "recordings")
+    return path
+
+
+def _channel_map(node: Node, files: Files) -> str:
+    reference = node.get("map") if isinstance(node, Map) else None
+    if not isinstance(reference, Scalar):
+        return Stops.model_fields["map"].get_default()  # type: ignore[no-any-return]
+    return str(files.path_of(reference, "map")) if is_path(reference.text) else reference.text
+
+
+def recorded_twice(read: Iterable[tuple[Recorded | None, Node]]) -> Iterator[Diagnostic]:
+    """Yield every recording that is named before: one stop would count as two."""
+    seen: set[Path] = set()
+    for recorded, node in read:
+        for file in recorded.files if recorded else ():
+            if file.resolve() in seen:
+                message = f"{quoted(file.name)} is named twice"
+                yield diagnose(node.place, message, "recordings", "each recording is one stop")
+            seen.add(file.resolve())
+
+
+def _differences_of_train(dry: Scenario, wet: Scenario) -> Iterator[str]:
+    """Yield the keys of what must be the same in both stops and is not."""
+    dry_discs, wet_discs = dry.brake.initial_disc_temperature, wet.brake.initial_disc_temperature
+    for key, one, other in (
+        ("vehicle", dry.vehicle, wet.vehicle),
+        ("brake.command", dry.brake.command, wet.brake.command),
+        ("brake.position", dry.brake.position, wet.brake.position),
+        ("brake.system", dry.brake.system, wet.brake.system),
+        ("brake.pad", dry.brake.pad, wet.brake.pad),
+        ("brake.disc_temperature", dry.brake.disc_temperature, wet.brake.disc_temperature),
+        ("brake.initial_disc_temperature", dry_discs, wet_discs),
+        ("faults", dry.faults, wet.faults),
+        ("rail.gradient", dry.rail.gradient, wet.rail.gradient),
+    ):
+        if one != other:
+            yield key
+
 
 _DECISIVE: Final = ("vehicle", "initial_speed", "brake", "rail", "rig", "controller", "faults", "simulation")
 """Keys of a scenario that decide, with the seed, how the stop goes."""
@@ -57,7 +152,7 @@ class StopReader:
         roles: tuple[tuple[Role, tuple[Stops, ...]], ...] = (("dry", file.dry), ("wet", file.wet))
         for role, entries in roles:
             for number in range(len(entries)):
-                entry = _entry(tree, role, number)
+                entry, _ = entry_at(tree, (role, number))
                 try:
                     read += [(stop, entry) for stop in self._of_entry(role, entry)]
                 except ScenarioErrors as errors:
@@ -65,7 +160,7 @@ class StopReader:
         if not diagnostics:
             diagnostics.extend(_repeated(read))
             diagnostics.extend(_drawn_twice(read))
-            diagnostics.extend(_recorded_twice(read))
+            diagnostics.extend(recorded_twice((stop.recorded, entry.node) for stop, entry in read))
             diagnostics.extend(_not_dry(read))
             diagnostics.extend(_unmatched(read))
         if diagnostics:
@@ -92,17 +187,11 @@ class StopReader:
                 yield PlannedStop("bypassed", case, rail=stop.rail)
 
     def _of_entry(self, role: Role, entry: Entry) -> Iterator[PlannedStop]:
-        reference = scenario_of(entry.node)
-        self.files.beside(reference, role)
-        path = self.files.path_of(reference, role)
-        cases = load_file(path, [*self.common, *values_set_by(entry.node), *self.last], self.files)
-        recorded = recorded_by(entry.node, self.files)
-        if recorded is not None and len(cases) > 1:
-            message = f"recordings belong to one stop, the scenario has {len(cases)} cases"
-            raise single_error(reference.place, message, role, "give each its own entry, with `set`")
-        for case in cases:
+        read = read_entry(entry.node, role, self.files, self.common, self.last)
+        for case in read.cases:
             rail: Rail = "uncleaned" if case.scenario.rail.cleaning_in_force is None else "cleaned"
-            yield PlannedStop(role, self._case(case, reference), recorded, "" if role == "dry" else rail)
+            own = self._case(case, read.reference)
+            yield PlannedStop(role, own, read.recorded, "" if role == "dry" else rail)
 
     def _case(self, case: Case, reference: Scalar) -> Case:
         """Return a case of a scenario as a stop of this series."""
@@ -126,11 +215,6 @@ class StopReader:
         return replace(case, id=name, scenario=case.scenario.model_copy(update=judged_by))
 
 
-def _entry(tree: Map, role: Role, number: int) -> Entry:
-    entry, _ = entry_at(tree, (role, number))
-    return entry
-
-
 def _repeated(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
     """Yield every case with the id of an earlier one."""
     seen: set[str] = set()
@@ -151,17 +235,6 @@ def _drawn_twice(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnost
                 advice = "take other seeds, or a larger `repeat` of one of them"
                 yield diagnose(entry.node.place, message, stop.role, advice)
                 break
-
-
-def _recorded_twice(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
-    """Yield every recording that is named before: one stop would count as two."""
-    seen: set[Path] = set()
-    for stop, entry in read:
-        for file in stop.recorded.files if stop.recorded else ():
-            if file.resolve() in seen:
-                message = f"{quoted(file.name)} is named twice"
-                yield diagnose(entry.node.place, message, "recordings", "each recording is one stop")
-            seen.add(file.resolve())
 
 
 def _not_dry(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
@@ -195,6 +268,6 @@ def _unmatched(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic
             speeds = ", ".join(dict.fromkeys(each.case.scenario.initial_speed.text for each in others))
             yield diagnose(entry.node.place, message, stop.role, f"there are such from {speeds}")
         elif stop.role == "wet":
-            for key in differences_of_train(same_speed[0].case.scenario, stop.case.scenario):
+            for key in _differences_of_train(same_speed[0].case.scenario, stop.case.scenario):
                 message = f"{quoted(stop.case.id)} and the dry stop from {shown} differ in {quoted(key)}"
                 yield diagnose(entry.node.place, message, "wet", "the reference is of the same train")

@@ -9,15 +9,13 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from uictest.plans import series
-from uictest.plans.scenario import Case, Files, NamedFile, Roots, load_file
+from uictest.plans.scenario import Case, Files, NamedFile, Roots
 from uictest.plans.scenario.yaml import (
     VALIDATION_SCHEMA,
     Diagnostic,
     Inconsistency,
     Map,
     Model,
-    Node,
     Override,
     Quantity,
     ScenarioErrors,
@@ -28,13 +26,12 @@ from uictest.plans.scenario.yaml import (
     of_kind,
     parse_overrides,
     plain,
-    quoted,
     read_file,
     require_schema,
-    single_error,
     validated,
 )
-from uictest.plans.series import Recorded
+from uictest.plans.series.model import Recorded, Series
+from uictest.plans.series.stops import Stop, read_entry, recorded_twice
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +132,7 @@ def load_validation(
     return ValidationPlan(file.name, file.title, Path(display_name(path)), comparisons, *limits, inputs)
 
 
-def plan_of_series(planned: series.Series) -> ValidationPlan:
+def plan_of_series(planned: Series) -> ValidationPlan:
     """Return the validation by those stops of a series that name recordings."""
     comparisons = [
         PlannedComparison(stop.case, stop.recorded) for stop in planned.stops if stop.recorded is not None
@@ -153,39 +150,18 @@ def _comparisons(
     nodes = tree.get("stops")
     assert isinstance(nodes, List)
     diagnostics: list[Diagnostic] = []
-    read: list[PlannedComparison] = []
-    for stops, node in zip(file.stops, nodes.items, strict=True):
+    read: list[Stop] = []
+    for node in nodes.items:
         try:
-            read.append(_comparison(file.name, stops, node, files, overrides))
+            read.append(read_entry(node, "scenario", files, last=overrides))
         except ScenarioErrors as errors:
             diagnostics.extend(errors.diagnostics)
+    if not diagnostics:
+        named = ((stop.recorded, node) for stop, node in zip(read, nodes.items, strict=True))
+        diagnostics.extend(recorded_twice(named))
     if diagnostics:
         raise ScenarioErrors(in_reading_order(diagnostics))
-    yield from _all_different(read, nodes.items)
-
-
-def _comparison(
-    name: str, stops: RecordedStops, node: Node, files: Files, overrides: Sequence[Override]
-) -> PlannedComparison:
-    reference = series.scenario_of(node)
-    files.beside(reference, "scenario")
-    path = files.path_of(reference, "scenario")
-    cases = load_file(path, [*series.values_set_by(node), *overrides], files)
-    if len(cases) != 1:
-        message = f"recordings belong to one stop, the scenario has {len(cases)} cases"
-        raise single_error(reference.place, message, "scenario", "give each its own entry, with `set`")
-    recorded = series.recorded_by(node, files)
-    assert recorded is not None
-    return PlannedComparison(replace(cases[0], id=f"{name}.{cases[0].id}"), recorded, stops.tuned)
-
-
-def _all_different(read: Sequence[PlannedComparison], nodes: Sequence[Node]) -> Iterator[PlannedComparison]:
-    """Yield the comparisons. Raises ScenarioErrors where a recording is named twice: it would count twice."""
-    seen: set[Path] = set()
-    for comparison, node in zip(read, nodes, strict=True):
-        for file in comparison.recorded.files:
-            if file.resolve() in seen:
-                message = f"{quoted(file.name)} is named twice"
-                raise single_error(node.place, message, "recordings", "each recording is one stop")
-            seen.add(file.resolve())
-        yield comparison
+    for stop, stops in zip(read, file.stops, strict=True):
+        (case,), recorded = stop.cases, stop.recorded
+        assert recorded is not None
+        yield PlannedComparison(replace(case, id=f"{file.name}.{case.id}"), recorded, stops.tuned)

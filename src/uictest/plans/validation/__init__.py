@@ -1,5 +1,0 @@
-"""What a validation file says: recorded stops and the scenarios that simulate them."""
-
-import lazy_loader
-
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
