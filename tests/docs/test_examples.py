@@ -19,13 +19,11 @@ import yaml
 
 from studies.study import STUDIES
 from uictest.cli.entry import execute
-from uictest.plans import scenario
+from uictest.plans import library, scenario
 from uictest.plans.scenario import ScenarioErrors
-from uictest.plans.scenario.references import KIND_OF_FOLDER
 from uictest.plans.scenario.yaml import plain, read_file, validated
-from uictest.plans.series import load_series
+from uictest.plans.series import ValidationFile, load_series
 from uictest.plans.sweeps import load_sweep
-from uictest.plans.validation import ValidationFile
 from uictest.recorded.field_data import load_map
 from uictest.rig.bench.recipe import load_bench
 
@@ -86,7 +84,7 @@ def test_examples_load(page: Path, tmp_path: Path) -> None:
             LOADERS["sweep"](tmp_path / block.file_name)
         elif kind == "scenario":
             load_scenario(block, tmp_path)
-        elif kind in KIND_OF_FOLDER.values():
+        elif kind in library.FOLDERS.values():
             load_part(block, kind, tmp_path)
         elif kind:
             LOADERS[kind](tmp_path / block.file_name)

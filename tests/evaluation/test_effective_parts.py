@@ -97,7 +97,7 @@ def test_criteria_that_were_left_out_or_added_are_told(cases):
 
 
 def test_every_number_of_every_part_is_there(cases):
-    from uictest.plans.scenario.part_keys import PART_KEYS
+    from uictest.plans.scenario.resolution import PART_KEYS
 
     (case,) = cases("")
     parts = of(case)

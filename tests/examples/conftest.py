@@ -23,7 +23,7 @@ from uictest.plans.scenario.parts.external_controller import (
     LibraryController,
     SocketController,
 )
-from uictest.plans.scenario.parts.program_file import ProgramFile
+from uictest.plans.scenario.program_files import ProgramFile
 from uictest.plans.scenario.yaml import Document
 
 ROOT = Path(__file__).parents[2]

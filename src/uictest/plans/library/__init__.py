@@ -7,19 +7,19 @@ from typing import Final
 # Plain paths: importing importlib.resources would take longer than reading the files does.
 _HERE: Final = Path(__file__).parent
 
-FOLDERS: Final = (
-    "brakes",
-    "calipers",
-    "compensations",
-    "controllers",
-    "criteria",
-    "measures",
-    "pads",
-    "rails",
-    "sensors",
-    "vehicles",
-)
-"""The folders of the library with parts of a scenario, one per kind of part."""
+FOLDERS: Final = {
+    "brakes": "brake",
+    "calipers": "caliper",
+    "compensations": "compensation",
+    "controllers": "controller",
+    "criteria": "criteria",
+    "measures": "measures",
+    "pads": "pad",
+    "rails": "rail",
+    "sensors": "sensors",
+    "vehicles": "vehicle",
+}
+"""The folders of the library with parts of a scenario -> the kind of part in each."""
 
 OTHER_FOLDERS: Final = ("benches", "channel_maps")
 """The folders of files that no scenario refers to: bench recipes and channel maps."""

@@ -20,7 +20,6 @@ from .discovery import (
     OTHER_SCHEMAS as OTHER_SCHEMAS,
     SERIES_SUFFIXES as SERIES_SUFFIXES,
     SWEEP_SUFFIXES as SWEEP_SUFFIXES,
-    chosen_case as chosen_case,
     link_outside as link_outside,
     may_be_scenario as may_be_scenario,
 )
@@ -51,20 +50,12 @@ from .json_schema import (
 )
 from .loading import (
     LoadedCase as LoadedCase,
+    chosen_case as chosen_case,
     load as load,
     load_file as load_file,
     load_with_trees as load_with_trees,
 )
 from .model import Case as Case, Scenario as Scenario
-from .part_keys import (
-    PART_KEYS as PART_KEYS,
-    PART_KINDS as PART_KINDS,
-    SourcedNumber as SourcedNumber,
-    load_part as load_part,
-    load_part_file as load_part_file,
-    numbers as numbers,
-    with_default_parts as with_default_parts,
-)
 from .parts.brake import BrakeSystem as BrakeSystem, DiscRing as DiscRing
 from .parts.compensation import (
     COMPENSATION_SETTINGS as COMPENSATION_SETTINGS,
@@ -72,7 +63,6 @@ from .parts.compensation import (
     ModuleAir as ModuleAir,
 )
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion
-from .parts.definition import RangedDefinition as RangedDefinition
 from .parts.external_controller import ExternalController as ExternalController
 from .parts.fault import Fault as Fault
 from .parts.measures import (
@@ -93,7 +83,11 @@ from .parts.rail import (
     FrictionProfile as FrictionProfile,
     RailCondition as RailCondition,
 )
-from .parts.reading import Applicability as Applicability, Nominal as Nominal
+from .parts.reading import (
+    Applicability as Applicability,
+    Nominal as Nominal,
+    RangedDefinition as RangedDefinition,
+)
 from .parts.tail_requests import KDryRequest as KDryRequest, QuantileRequest as QuantileRequest
 from .parts.vary import (
     Distribution as Distribution,
@@ -104,6 +98,16 @@ from .parts.vary import (
     Vary as Vary,
 )
 from .parts.vehicle import Vehicle as Vehicle
+from .parts.wheelsets import (
+    DESCRIPTIVE as DESCRIPTIVE,
+    WHEELSET_NUMBERS as WHEELSET_NUMBERS,
+    Value as Value,
+    is_changed as is_changed,
+    mark_of as mark_of,
+    values_in as values_in,
+    wheelset_keys as wheelset_keys,
+    wheelset_value as wheelset_value,
+)
 from .rail_friction import (
     CONDITION as CONDITION,
     changed_alone as changed_alone,
@@ -115,17 +119,16 @@ from .requirement_list import (
     named_requirements as named_requirements,
     read_requirement_list as read_requirement_list,
 )
-from .resolution import resolve as resolve
-from .sections import SURVEY as SURVEY
-from .wheelset_values import (
-    DESCRIPTIVE as DESCRIPTIVE,
-    WHEELSET_NUMBERS as WHEELSET_NUMBERS,
-    Value as Value,
-    is_changed as is_changed,
-    mark_of as mark_of,
-    values_in as values_in,
-    wheelset_keys as wheelset_keys,
-    wheelset_value as wheelset_value,
+from .resolution import (
+    PART_KEYS as PART_KEYS,
+    PART_KINDS as PART_KINDS,
+    SourcedNumber as SourcedNumber,
+    load_part as load_part,
+    load_part_file as load_part_file,
+    numbers as numbers,
+    resolve as resolve,
+    with_default_parts as with_default_parts,
 )
+from .sections import SURVEY as SURVEY
 from .yaml.diagnostics import Diagnostic as Diagnostic, ScenarioErrors as ScenarioErrors
 from .yaml.quantities import Quantity as Quantity

@@ -13,7 +13,7 @@ from uictest.plans.scenario.parts.compensation import (
     RigAsBuilt,
     ValveAsBuilt,
 )
-from uictest.plans.scenario.wheelset_values import WHEELSET_NUMBERS, wheelset_value
+from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, wheelset_value
 from uictest.plans.scenario.yaml import Inconsistency, Quantity, Section, Source
 
 FIT_KEYS: Final = (

@@ -7,10 +7,10 @@ from typing import Any
 
 from uictest.plans.scenario.files import Files, Roots
 from uictest.plans.scenario.loading import load
-from uictest.plans.scenario.part_keys import PART_KEYS
 from uictest.plans.scenario.parts.external_controller import ControllerPart
 from uictest.plans.scenario.program_files import KIND_OF_ENDING, SOCKET
 from uictest.plans.scenario.references import Parts, is_path
+from uictest.plans.scenario.resolution import PART_KEYS
 from uictest.plans.scenario.yaml import (
     SCENARIO_SCHEMA,
     Document,

@@ -5,9 +5,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Final
 
+from uictest.plans import library
 from uictest.plans.scenario.files import Files, trust_hint
-from uictest.plans.scenario.model import Case
-from uictest.plans.scenario.references import KIND_OF_FOLDER
 from uictest.plans.scenario.yaml import (
     Diagnostic,
     Map,
@@ -15,14 +14,13 @@ from uictest.plans.scenario.yaml import (
     ScenarioErrors,
     collecting,
     diagnose,
-    suggestion,
     unreadable_error,
     whole_file,
 )
 
 SWEEP_SUFFIXES: Final = (".sweep.yaml", ".sweep.yml")
 SERIES_SUFFIXES: Final = (".series.yaml", ".series.yml")
-_OTHER_KINDS: Final = (*KIND_OF_FOLDER.values(), "bench", "channel-map", "validation")
+_OTHER_KINDS: Final = (*library.FOLDERS.values(), "bench", "channel-map", "validation")
 OTHER_SCHEMAS: Final = frozenset(f"uictest/{kind}/1" for kind in _OTHER_KINDS)
 """Schemas of files that may lie among scenarios and are none: parts, benches, channel maps, validations."""
 
@@ -93,15 +91,3 @@ def may_be_scenario(name: str) -> bool:
 def _is_of_other_kind(tree: Map) -> bool:
     schema = tree.get("schema")
     return isinstance(schema, Scalar) and schema.value in OTHER_SCHEMAS
-
-
-def chosen_case(cases: Sequence[Case], case_id: str | None) -> Case:
-    """Return the case of an id, or the only one. Raises ValueError."""
-    ids = [case.id for case in cases]
-    if case_id is None:
-        if len(cases) != 1:
-            raise ValueError(f"the scenario has {len(cases)} cases: pass case= one of {', '.join(ids)}")
-        return cases[0]
-    if case_id not in ids:
-        raise ValueError(f"no case {case_id!r}; {suggestion(case_id, ids)}")
-    return cases[ids.index(case_id)]

@@ -9,16 +9,14 @@ from typing import Any, Final, NamedTuple
 from uictest.core import physics
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.scenario.files import Files
-from uictest.plans.scenario.parts.brake import Disc
-from uictest.plans.scenario.parts.caliper import Caliper
+from uictest.plans.scenario.parts.brake import Caliper, Disc
 from uictest.plans.scenario.parts.compensation import Compensation
 from uictest.plans.scenario.parts.criteria import Criteria
 from uictest.plans.scenario.parts.fault import SPEED
 from uictest.plans.scenario.parts.vehicle import Vehicle
+from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, deciding_key, wheelset_value
 from uictest.plans.scenario.references import Parts
-from uictest.plans.scenario.total import total
-from uictest.plans.scenario.wheelset_values import WHEELSET_NUMBERS, deciding_key, wheelset_value
-from uictest.plans.scenario.yaml import Document, Inconsistency, Model, Place, Scalar
+from uictest.plans.scenario.yaml import Document, Inconsistency, Model, Place, Scalar, total
 
 
 class BrakedWheelset(NamedTuple):

@@ -8,9 +8,9 @@ from types import MappingProxyType
 from typing import Any, Final
 
 from uictest.plans.scenario.expansion import Setting, Variant
-from uictest.plans.scenario.part_keys import PART_KEYS
-from uictest.plans.scenario.parts.external_controller import PROGRAM_FILES
+from uictest.plans.scenario.program_files import PROGRAM_FILES
 from uictest.plans.scenario.references import Parts, is_path
+from uictest.plans.scenario.resolution import PART_KEYS
 from uictest.plans.scenario.yaml import Map, Node, Scalar, ScenarioErrors, Sequence
 
 LONGEST: Final = 200

@@ -10,8 +10,8 @@ from pydantic.json_schema import GenerateJsonSchema
 
 from uictest.core.units import KINDS
 from uictest.plans.scenario.model import Scenario
-from uictest.plans.scenario.part_keys import PART_KEYS, PART_KINDS
 from uictest.plans.scenario.parts.vary import Vary
+from uictest.plans.scenario.resolution import PART_KEYS, PART_KINDS
 from uictest.plans.scenario.yaml import QUANTITY_KEYWORD, Quantity, QuantityField, written
 
 SCHEMA_DRAFT: Final = "http://json-schema.org/draft-07/schema#"

@@ -17,10 +17,9 @@ from uictest.plans.scenario.identifiers import (
     short_keys,
 )
 from uictest.plans.scenario.model import Case
-from uictest.plans.scenario.part_keys import PART_KEYS, with_default_parts
 from uictest.plans.scenario.rail_friction import changed_alone, overridden_alone
 from uictest.plans.scenario.references import Parts
-from uictest.plans.scenario.resolution import resolve
+from uictest.plans.scenario.resolution import PART_KEYS, resolve, with_default_parts
 from uictest.plans.scenario.yaml import (
     SCENARIO_SCHEMA,
     Diagnostic,
@@ -42,6 +41,7 @@ from uictest.plans.scenario.yaml import (
     quoted,
     require_schema,
     single_error,
+    suggestion,
     whole_file,
     with_value,
 )
@@ -264,3 +264,15 @@ def _twice(node: Node, twin: Node) -> str:
 
 def _inputs(documents: Iterable[Document]) -> dict[str, str]:
     return {each.display: each.sha256 for each in documents if each.sha256}
+
+
+def chosen_case(cases: Sequence[Case], case_id: str | None) -> Case:
+    """Return the case of an id, or the only one. Raises ValueError."""
+    ids = [case.id for case in cases]
+    if case_id is None:
+        if len(cases) != 1:
+            raise ValueError(f"the scenario has {len(cases)} cases: pass case= one of {', '.join(ids)}")
+        return cases[0]
+    if case_id not in ids:
+        raise ValueError(f"no case {case_id!r}; {suggestion(case_id, ids)}")
+    return cases[ids.index(case_id)]

@@ -37,9 +37,9 @@ from uictest.plans.scenario.parts.measures import (
 )
 from uictest.plans.scenario.parts.named_file import TestFile
 from uictest.plans.scenario.parts.vehicle import Vehicle
+from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, distinct_values, wheelset_value
 from uictest.plans.scenario.sections import Brake, Rail, Rig, Simulation
 from uictest.plans.scenario.stability import ValveConductances, limit_of_air, limit_of_vehicle
-from uictest.plans.scenario.wheelset_values import WHEELSET_NUMBERS, distinct_values, wheelset_value
 from uictest.plans.scenario.yaml import (
     DEFAULT_SOURCE,
     Inconsistency,

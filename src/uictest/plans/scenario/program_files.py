@@ -10,12 +10,10 @@ from contextlib import suppress
 from functools import partial
 from pathlib import Path, PurePosixPath
 from types import MappingProxyType
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, Self
 
 from uictest.controllers import installed_version, shown_version
 from uictest.plans.scenario.files import Files, nearest_file
-from uictest.plans.scenario.parts.external_controller import PROGRAM_FILES
-from uictest.plans.scenario.parts.program_file import ProgramFile
 from uictest.plans.scenario.yaml import (
     Document,
     Map,
@@ -27,6 +25,38 @@ from uictest.plans.scenario.yaml import (
     unreadable_error,
     visible,
 )
+
+_NOWHERE: Final = Document("", Path(), "")
+
+
+class ProgramFile(str):
+    """The path of a program as a scenario writes it, with where the file lies and what it holds."""
+
+    __slots__ = ("document", "location", "version")
+
+    location: str
+    document: Document
+    version: str
+
+    def __new__(cls, text: str, location: str = "", document: Document = _NOWHERE, version: str = "") -> Self:
+        """A path as written; ``location`` is absolute, ``document`` has the SHA-256 of the content.
+
+        ``version`` is what the file states, empty where it states none.
+        """
+        file = super().__new__(cls, text)
+        file.location = location
+        file.document = document
+        file.version = version
+        return file
+
+    def __getnewargs__(self) -> tuple[str, str, Document, str]:  # type: ignore[override]
+        return str.__str__(self), self.location, self.document, self.version
+
+    @property
+    def sha256(self) -> str:
+        """Of the content."""
+        return self.document.sha256
+
 
 _LARGEST: Final = 65536
 """Most bytes of a statement; chosen: longer ones are no declarations."""
@@ -127,6 +157,8 @@ KIND_OF_ENDING: Final = {
     ".fmu": "fmu",
 }
 """Ending of a program's file -> the key that names it in a scenario."""
+PROGRAM_FILES: Final = ("python", "library", "fmu")
+"""Keys that name a file."""
 SOCKET: Final = "tcp://"
 """Beginning of the address of a socket."""
 

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
 
 from uictest.plans.scenario.expansion import EXPANSION_KEYS
-from uictest.plans.scenario.part_keys import PART_KEYS
+from uictest.plans.scenario.resolution import PART_KEYS
 from uictest.plans.scenario.yaml import (
     COMMAND_LINE,
     Diagnostic,

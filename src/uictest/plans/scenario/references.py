@@ -34,18 +34,6 @@ from uictest.plans.scenario.yaml import (
 )
 
 _CONTROLLERS: Final = "controllers"
-KIND_OF_FOLDER: Final = {
-    "brakes": "brake",
-    "calipers": "caliper",
-    "compensations": "compensation",
-    "controllers": "controller",
-    "criteria": "criteria",
-    "measures": "measures",
-    "pads": "pad",
-    "rails": "rail",
-    "sensors": "sensors",
-    "vehicles": "vehicle",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,7 +135,7 @@ class Parts:
         else:
             _require_known_name(reference, folder, full_key)
             tree = self.files.in_library(folder, reference.text)
-        require_schema(tree, f"uictest/{KIND_OF_FOLDER[folder]}/1")
+        require_schema(tree, f"uictest/{library.FOLDERS[folder]}/1")
         return tree
 
 
@@ -186,7 +174,7 @@ def _require_known_name(reference: Scalar, folder: str, full_key: str) -> None:
         hint = "a path ends in .yaml; " + hint
     raise single_error(
         reference.place,
-        f"no {KIND_OF_FOLDER[folder]} {quoted(reference.text)} in the library",
+        f"no {library.FOLDERS[folder]} {quoted(reference.text)} in the library",
         full_key,
         hint,
     )

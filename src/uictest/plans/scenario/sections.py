@@ -6,8 +6,7 @@ from typing import Annotated, Final, Literal
 from pydantic import BeforeValidator, Discriminator, Field, Tag
 from pydantic_core import PydanticCustomError
 
-from uictest.plans.scenario.parts.brake import BrakeSystem
-from uictest.plans.scenario.parts.caliper import Caliper
+from uictest.plans.scenario.parts.brake import BrakeSystem, Caliper
 from uictest.plans.scenario.parts.compensation import Compensation
 from uictest.plans.scenario.parts.pad import DiscTemperature, Pad
 from uictest.plans.scenario.parts.rail import (

@@ -5,10 +5,9 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from uictest.core.physics import REFERENCE_DENSITY, orifice_law
-from uictest.plans.scenario.parts.brake import BrakeSystem
-from uictest.plans.scenario.parts.caliper import Caliper
+from uictest.plans.scenario.parts.brake import BrakeSystem, Caliper
 from uictest.plans.scenario.parts.vehicle import Vehicle
-from uictest.plans.scenario.total import total
+from uictest.plans.scenario.yaml import total
 
 _PRIMARIES, _SECONDARIES = 2.0, 2.0
 """Axle boxes of a wheelset, sides of a bogie."""

@@ -108,7 +108,7 @@ def drawn_column(numbers: NDArray[np.float64], unit: str, kind: str) -> Column:
     """
     import pyarrow.compute as pc
 
-    from uictest.plans.sweeps.rounded_numbers import rounded_numbers
+    from uictest.plans.sweeps.sampling import rounded_numbers
 
     rounded = rounded_numbers(numbers)
     written = pc.binary_join_element_wise(rounded.texts, unit, " ") if unit else rounded.texts

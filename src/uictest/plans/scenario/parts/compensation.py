@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal, Type
 from pydantic import Field, create_model
 
 from uictest.core.units import BAR
-from uictest.plans.scenario.parts.brake import Volume, WspValve
-from uictest.plans.scenario.parts.caliper import Caliper
-from uictest.plans.scenario.total import total
-from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section, of_kind
+from uictest.plans.scenario.parts.brake import Caliper, Volume, WspValve
+from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section, of_kind, total
 
 Coefficient = Annotated[Quantity, of_kind("number", at_least="-1e6", at_most="1e6")]
 

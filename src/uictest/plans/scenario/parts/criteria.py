@@ -15,12 +15,12 @@ from uictest.plans.scenario.parts.bounded_measure import (
     MeasureName,
     Scope,
 )
-from uictest.plans.scenario.parts.definition import Definition
 from uictest.plans.scenario.parts.measures import RequirementIds, repeated_requirements
 from uictest.plans.scenario.parts.reading import (
     ID,
     Applicability,
     AtLeast,
+    Definition,
     Reading,
     WheelsetsThatKeep,
     definition_problems,

@@ -12,7 +12,7 @@ from pydantic.functional_validators import PlainValidator
 from pydantic_core import CoreSchema, PydanticCustomError
 
 from uictest.controllers import LONGEST_VERSION, ControllerProgram, Kind, parameter_problems
-from uictest.plans.scenario.parts.program_file import ProgramFile
+from uictest.plans.scenario.program_files import ProgramFile
 from uictest.plans.scenario.yaml import Inconsistency, Part, Quantity, Section, default, of_kind, quoted
 
 
@@ -284,5 +284,3 @@ EXTERNAL_MODELS: Final[dict[str, type[ExternalController]]] = {
     )
 }
 """Models by the key that names the program."""
-PROGRAM_FILES: Final = ("python", "library", "fmu")
-"""Keys that name a file."""

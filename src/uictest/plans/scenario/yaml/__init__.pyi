@@ -43,6 +43,7 @@ from .quantities import (
     rounded_decimal as rounded_decimal,
     rounded_text as rounded_text,
     spaced_by_step as spaced_by_step,
+    total as total,
 )
 from .quantity_field import (
     QUANTITY_KEYWORD as QUANTITY_KEYWORD,
