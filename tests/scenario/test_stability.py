@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uictest.plans.scenario import Case, ScenarioErrors
-from uictest.plans.scenario.stability import StepLimit, ValveConductances, limit_of_air, limit_of_vehicle
+from uictest.plans.scenario.feasibility import StepLimit, ValveConductances, limit_of_air, limit_of_vehicle
 from uictest.rig import simulate
 
 STEP = 0.5e-3

@@ -14,15 +14,7 @@ from .compensation_fit import (
     rig_differences as rig_differences,
     with_listed_rig as with_listed_rig,
 )
-from .controller_loading import load_controller as load_controller
 from .declared_parameters import with_parameters as with_parameters
-from .discovery import (
-    OTHER_SCHEMAS as OTHER_SCHEMAS,
-    SERIES_SUFFIXES as SERIES_SUFFIXES,
-    SWEEP_SUFFIXES as SWEEP_SUFFIXES,
-    link_outside as link_outside,
-    may_be_scenario as may_be_scenario,
-)
 from .expansion import (
     EXPANSION_KEYS as EXPANSION_KEYS,
     Setting as Setting,
@@ -30,7 +22,15 @@ from .expansion import (
     distinct as distinct,
     expand as expand,
 )
-from .files import Files as Files, Roots as Roots
+from .files import (
+    OTHER_SCHEMAS as OTHER_SCHEMAS,
+    SERIES_SUFFIXES as SERIES_SUFFIXES,
+    SWEEP_SUFFIXES as SWEEP_SUFFIXES,
+    Files as Files,
+    Roots as Roots,
+    link_outside as link_outside,
+    may_be_scenario as may_be_scenario,
+)
 from .identifiers import (
     LONGEST as LONGEST,
     case_id as case_id,
@@ -56,6 +56,11 @@ from .loading import (
     load_with_trees as load_with_trees,
 )
 from .model import Case as Case, Scenario as Scenario
+from .part_loading import (
+    load_controller as load_controller,
+    load_part as load_part,
+    load_part_file as load_part_file,
+)
 from .parts.brake import BrakeSystem as BrakeSystem, DiscRing as DiscRing
 from .parts.compensation import (
     COMPENSATION_SETTINGS as COMPENSATION_SETTINGS,
@@ -123,8 +128,6 @@ from .resolution import (
     PART_KEYS as PART_KEYS,
     PART_KINDS as PART_KINDS,
     SourcedNumber as SourcedNumber,
-    load_part as load_part,
-    load_part_file as load_part_file,
     numbers as numbers,
     resolve as resolve,
     with_default_parts as with_default_parts,

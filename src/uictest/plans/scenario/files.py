@@ -1,23 +1,30 @@
-"""The files that a load may read: those at or below the folders that the user named."""
+"""The files that a load may read, at or below the folders that the user named; and which are scenarios."""
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path, PureWindowsPath
-from typing import Any, Self
+from typing import Any, Final, Self
 
+from uictest.plans import library
 from uictest.plans.scenario.yaml import (
     COMMAND_LINE,
+    Diagnostic,
     Map,
     Scalar,
+    ScenarioErrors,
+    collecting,
+    diagnose,
     is_file,
     nearest,
     quoted,
     read_file,
     read_library,
     single_error,
+    unreadable_error,
     visible,
+    whole_file,
 )
 
 
@@ -122,3 +129,68 @@ def nearest_file(path: Path, otherwise: str) -> str:
     except (OSError, ValueError):
         return otherwise
     return f"did you mean {quoted(guess)}?" if guess else otherwise
+
+
+SWEEP_SUFFIXES: Final = (".sweep.yaml", ".sweep.yml")
+SERIES_SUFFIXES: Final = (".series.yaml", ".series.yml")
+_OTHER_KINDS: Final = (*library.FOLDERS.values(), "bench", "channel-map", "validation")
+OTHER_SCHEMAS: Final = frozenset(f"uictest/{kind}/1" for kind in _OTHER_KINDS)
+"""Schemas of files that may lie among scenarios and are none: parts, benches, channel maps, validations."""
+
+
+def scenario_trees(
+    paths: Sequence[Path], files: Files, diagnostics: list[Diagnostic]
+) -> Iterator[tuple[Path, Map]]:
+    """Yield the tree of every scenario file at or below ``paths``, once and in order; append errors.
+
+    A folder is searched for ``*.yaml`` and ``*.yml``, except sweeps (``*.sweep.yaml``), series
+    (``*.series.yaml``), parts, bench recipes, channel maps, validations, hidden files, and files that
+    begin with an underscore (parents only). A file that is named explicitly is always read.
+    """
+    seen: set[str] = set()
+    for given in paths:
+        named = not os.path.isdir(given)  # noqa: PTH112 - Path.is_dir raises for names that are too long
+        for path in [given] if named else _below(given, diagnostics):
+            key = os.path.abspath(path)  # noqa: PTH100 - one file under two spellings, links left alone
+            if key in seen:
+                continue
+            seen.add(key)
+            if not named and not files.roots.contain(path):
+                diagnostics.append(link_outside(path))
+                continue
+            tree = None
+            with collecting(diagnostics, whole_file(path)):
+                try:
+                    tree = files.at(path)
+                except ScenarioErrors as errors:
+                    tree = errors.salvaged if isinstance(errors.salvaged, Map) else None
+                    raise
+            schema = None if tree is None else tree.get("schema")
+            is_other = isinstance(schema, Scalar) and schema.value in OTHER_SCHEMAS
+            if tree is not None and (named or not is_other):
+                yield path, tree
+
+
+def link_outside(path: Path) -> Diagnostic:
+    """The error of a file in a given folder that is a link to a place outside: it is not read."""
+    return diagnose(whole_file(path), "a link that leads out of the folders given", hint=trust_hint(path))
+
+
+def _below(folder: Path, diagnostics: list[Diagnostic]) -> list[Path]:
+    def report(error: OSError) -> None:
+        diagnostics.extend(unreadable_error(whole_file(Path(error.filename or folder)), error).diagnostics)
+
+    inside: list[Path] = []
+    for parent, folders, names in os.walk(folder, onerror=report):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        inside.extend(Path(parent, name) for name in names if may_be_scenario(name))
+    return sorted(inside, key=Path.as_posix)
+
+
+def may_be_scenario(name: str) -> bool:
+    """Whether a file of this name in a folder is taken for a scenario, unless its schema is another."""
+    return (
+        name.endswith((".yaml", ".yml"))
+        and not name.startswith((".", "_"))
+        and not name.endswith((*SWEEP_SUFFIXES, *SERIES_SUFFIXES))
+    )

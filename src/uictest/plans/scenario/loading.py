@@ -5,9 +5,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from uictest.plans.scenario.discovery import scenario_trees
 from uictest.plans.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_valid
-from uictest.plans.scenario.files import Files, Roots
+from uictest.plans.scenario.files import Files, Roots, scenario_trees
 from uictest.plans.scenario.identifiers import (
     CONTROLLER,
     LONGEST,

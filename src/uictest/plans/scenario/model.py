@@ -16,10 +16,13 @@ from uictest.plans.scenario.compensation_fit import unresolved_air, unresolved_c
 from uictest.plans.scenario.feasibility import (
     RIG_CHECKS,
     BrakedWheelset,
+    ValveConductances,
     braking_force,
     impossible_faults,
     impossible_pole_wheels,
     largest_clamping_force,
+    limit_of_air,
+    limit_of_vehicle,
     line_leak,
     rig_checks,
     stopping_time_at_least,
@@ -39,7 +42,6 @@ from uictest.plans.scenario.parts.named_file import TestFile
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, distinct_values, wheelset_value
 from uictest.plans.scenario.sections import Brake, Rail, Rig, Simulation
-from uictest.plans.scenario.stability import ValveConductances, limit_of_air, limit_of_vehicle
 from uictest.plans.scenario.yaml import (
     DEFAULT_SOURCE,
     Inconsistency,

@@ -7,7 +7,7 @@ from typing import Any, Final, NamedTuple
 
 from uictest.core.document import RESULT, is_of
 from uictest.plans import library
-from uictest.plans.scenario.files import Files, Roots, nearest_file
+from uictest.plans.scenario.files import Files, nearest_file
 from uictest.plans.scenario.model import Scenario
 from uictest.plans.scenario.references import Parts, ResolvedPart, folder_of
 from uictest.plans.scenario.yaml import (
@@ -19,7 +19,6 @@ from uictest.plans.scenario.yaml import (
     Node,
     Part,
     PartReference,
-    Place,
     Quantity,
     Scalar,
     ScenarioErrors,
@@ -65,28 +64,13 @@ def _with_default(tree: Map, key: Key, default: str) -> Map:
     first, rest = str(key[0]), key[1:]
     entry = tree.entries.get(first)
     if not rest:
-        return (
-            tree if entry is not None else tree.with_entry(first, Entry(tree.place, _scalar(default, tree)))
-        )
+        named = Entry(tree.place, Scalar(default, default, tree.place))
+        return tree if entry is not None else tree.with_entry(first, named)
     inner: Node = Map({}, tree.place) if entry is None else entry.node
     if not isinstance(inner, Map):
         return tree
     place = tree.place if entry is None else entry.key
     return tree.with_entry(first, Entry(place, _with_default(inner, rest, default)))
-
-
-def _scalar(text: str, tree: Map) -> Scalar:
-    return Scalar(text, text, tree.place)
-
-
-def part_nodes(tree: Map) -> Iterator[tuple[Key, Node]]:
-    """Yield every reference to a part that stands in a tree, with its key."""
-    for key in PART_KEYS:
-        node: Node | None = tree
-        for element in key:
-            node = node.get(str(element)) if isinstance(node, Map) else None
-        if node is not None:
-            yield key, node
 
 
 class SourcedNumber(NamedTuple):
@@ -95,41 +79,6 @@ class SourcedNumber(NamedTuple):
     key: str
     quantity: Quantity
     source: Source | None
-
-
-def load_part_file(path: Path, trusted: Sequence[Path] = ()) -> Part:
-    """The part that a file describes, of any kind.
-
-    References stay at or below the file's folder, the working folder and the ``trusted`` folders. Raises
-    ScenarioErrors.
-    """
-    files = Files(Roots.of([path], trusted))
-    tree = files.at(path)
-    schema = tree.get("schema")
-    models = {f"uictest/{kind}/1": PART_KEYS[key].model for key, kind in PART_KINDS.items()}
-    if not isinstance(schema, Scalar) or schema.text not in models:
-        schema_text = quoted(schema.text) if isinstance(schema, Scalar) else "none"
-        place = tree.place if schema is None else schema.place
-        raise single_error(
-            place, f"not a part: its schema is {schema_text}", "schema", f"accepted: {', '.join(models)}"
-        )
-    name = Scalar(path.name, path.name, Place(Document(str(path), path.parent, path.name)))
-    part: Part = Parts(files).resolve(name, models[schema.text], ()).part
-    return part
-
-
-def load_part(reference: str) -> Part:
-    """The library part called ``folder/name``, e.g. ``vehicles/intercity-180``.
-
-    Raises ScenarioErrors when there is none, KeyError when there is no such folder.
-    """
-    folder, _, name = reference.partition("/")
-    models = {folder_of(each.model): each.model for each in PART_KEYS.values()}
-    if folder not in models:
-        raise KeyError(folder)
-    place = Place(Document(reference, Path(), reference), 1, len(folder) + 2)
-    part: Part = Parts(Files()).resolve(Scalar(name, name, place), models[folder], (folder,)).part
-    return part
 
 
 def numbers(part: Part) -> Iterator[SourcedNumber]:
@@ -145,13 +94,14 @@ LARGEST: Final = 64 * 1024 * 1024
 _HINT: Final = "name the validation.json that `uictest validate` wrote"
 
 
-def validated_file(node: Node, files: Files) -> str | None:
-    """Return the path of the validation that a scenario names; None where this is no text.
+def _with_validated_file(data: dict[str, Any], tree: Map, files: Files) -> None:
+    """Put the path of the validation, if a scenario names one, in the place of what it wrote.
 
     Raises ScenarioErrors for a file that is missing, lies outside the roots, or holds something else.
     """
+    node = tree.get(VALIDATED)
     if not isinstance(node, Scalar) or not isinstance(node.value, str):
-        return None
+        return
     path = files.path_of(node, VALIDATED)
     if not is_file(path):
         raise single_error(
@@ -161,15 +111,7 @@ def validated_file(node: Node, files: Files) -> str | None:
         raise single_error(
             node.place, f"{quoted(node.text)} is not the result of a validation", VALIDATED, _HINT
         )
-    return str(path)
-
-
-def with_validated_file(data: dict[str, Any], tree: Map, files: Files) -> None:
-    """Put the path of the validation, if a scenario names one, in the place of what it wrote."""
-    node = tree.get(VALIDATED)
-    path = None if node is None else validated_file(node, files)
-    if path is not None:
-        data[VALIDATED] = path
+    data[VALIDATED] = str(path)
 
 
 def _is_validation(path: Path) -> bool:
@@ -189,15 +131,23 @@ def resolve(tree: Map, parts: Parts) -> tuple[Scenario, tuple[Document, ...]]:
     diagnostics: list[Diagnostic] = []
     failed: set[str] = set()
     documents: list[Document] = []
-    for key, node in part_nodes(tree):
+    for key in PART_KEYS:
+        node: Node | None = tree
+        mapping = data
+        for element in map(str, key):
+            node = node.get(element) if isinstance(node, Map) else None
+        if node is None:
+            continue
+        for element in map(str, key[:-1]):
+            mapping = mapping[element]
         try:
-            _put(data, key, _part(parts, key, node, documents))
+            mapping[str(key[-1])] = _part(parts, key, node, documents)
         except ScenarioErrors as errors:
             diagnostics.extend(errors.diagnostics)
             failed.add(dotted(key))
-            _remove(data, key)
+            del mapping[str(key[-1])]
     try:
-        with_validated_file(data, tree, parts.files)
+        _with_validated_file(data, tree, parts.files)
     except ScenarioErrors as errors:
         diagnostics.extend(errors.diagnostics)
     try:
@@ -235,17 +185,3 @@ def _resolved_parts(
     if diagnostics:
         raise ScenarioErrors(diagnostics)
     return resolved
-
-
-def _put(data: dict[str, Any], key: Key, part: Any) -> None:
-    _mapping_of(data, key)[str(key[-1])] = part
-
-
-def _remove(data: dict[str, Any], key: Key) -> None:
-    del _mapping_of(data, key)[str(key[-1])]
-
-
-def _mapping_of(data: dict[str, Any], key: Key) -> dict[str, Any]:
-    for element in key[:-1]:
-        data = data[str(element)]
-    return data

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Discriminator, Field, Tag
 
@@ -41,6 +41,23 @@ class PadLaw(Section):
         return max(factor for _, factor in self.table) * scale * max(numerator / denominator, 1.0)
 
 
+class PadTable(PadLaw):
+    """A table of points: one quantity, named by `quantity`, and a factor each."""
+
+    quantity: ClassVar[str]
+
+    points: tuple[Any, ...]
+
+    @property
+    def table(self) -> tuple[tuple[float, float], ...]:
+        """Values of the quantity, SI, and factors."""
+        return tuple((float(getattr(point, self.quantity)), float(point.factor)) for point in self.points)
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield points out of order."""
+        yield from out_of_order([getattr(point, self.quantity) for point in self.points], self.quantity)
+
+
 class PadSpeedPoint(Model):
     """The factor on pad friction at one speed."""
 
@@ -48,19 +65,12 @@ class PadSpeedPoint(Model):
     factor: Factor = Field(description="Factor on `pad_friction` there.")
 
 
-class PadSpeedTable(PadLaw):
+class PadSpeedTable(PadTable):
     """Pad friction over speed: a table."""
 
+    quantity: ClassVar[str] = "speed"
+
     points: tuple[PadSpeedPoint, ...] = Field(min_length=1, max_length=MOST_PAD_POINTS, description=_POINTS)
-
-    @property
-    def table(self) -> tuple[tuple[float, float], ...]:
-        """Speeds in m/s and factors."""
-        return tuple((float(point.speed), float(point.factor)) for point in self.points)
-
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield points out of order."""
-        yield from out_of_order([point.speed for point in self.points], "speed")
 
 
 class PadForcePoint(Model):
@@ -70,19 +80,12 @@ class PadForcePoint(Model):
     factor: Factor = Field(description="Factor on `pad_friction` there.")
 
 
-class PadForceTable(PadLaw):
+class PadForceTable(PadTable):
     """Pad friction over clamping force: a table."""
 
+    quantity: ClassVar[str] = "force"
+
     points: tuple[PadForcePoint, ...] = Field(min_length=1, max_length=MOST_PAD_POINTS, description=_POINTS)
-
-    @property
-    def table(self) -> tuple[tuple[float, float], ...]:
-        """Forces in N and factors."""
-        return tuple((float(point.force), float(point.factor)) for point in self.points)
-
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield points out of order."""
-        yield from out_of_order([point.force for point in self.points], "force")
 
 
 class PadTemperaturePoint(Model):
@@ -92,54 +95,50 @@ class PadTemperaturePoint(Model):
     factor: Factor = Field(description="Factor on `pad_friction` there.")
 
 
-class PadTemperatureTable(PadLaw):
+class PadTemperatureTable(PadTable):
     """Pad friction over the temperature of the disc: a table."""
+
+    quantity: ClassVar[str] = "temperature"
 
     points: tuple[PadTemperaturePoint, ...] = Field(
         min_length=1, max_length=MOST_PAD_POINTS, description=_POINTS
     )
 
+
+class PadQuotient(PadLaw):
+    """A quotient of straight lines, (x + numerator)/(x + denominator), scaled to 1 at the reference."""
+
+    numerator: Quantity
+    denominator: Quantity
+    reference: Quantity
+
     @property
-    def table(self) -> tuple[tuple[float, float], ...]:
-        """Temperatures in K and factors."""
-        return tuple((float(point.temperature), float(point.factor)) for point in self.points)
-
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield points out of order."""
-        yield from out_of_order([point.temperature for point in self.points], "temperature")
+    def quotient(self) -> tuple[float, float, float]:
+        """Reference, numerator and denominator, SI."""
+        return float(self.reference), float(self.numerator), float(self.denominator)
 
 
-class PadSpeedQuotient(PadLaw):
+class PadSpeedQuotient(PadQuotient):
     """Pad friction over the speed of the disc at the mean radius, as a quotient of straight lines."""
 
     numerator: SpeedOffset = Field(description="Speed added in the numerator.")
     denominator: SpeedOffset = Field(description="Speed added in the denominator.")
     reference: FrictionSpeed = Field(description="Speed at which the factor is 1.")
 
-    @property
-    def quotient(self) -> tuple[float, float, float]:
-        """Reference, numerator and denominator, SI."""
-        return float(self.reference), float(self.numerator), float(self.denominator)
 
-
-class PadForceQuotient(PadLaw):
+class PadForceQuotient(PadQuotient):
     """Pad friction over the clamping force of one pad, as a quotient of straight lines."""
 
     numerator: ForceOffset = Field(description="Force added in the numerator.")
     denominator: ForceOffset = Field(description="Force added in the denominator.")
     reference: PadForce = Field(description="Force under which the factor is 1.")
 
-    @property
-    def quotient(self) -> tuple[float, float, float]:
-        """Reference, numerator and denominator, SI."""
-        return float(self.reference), float(self.numerator), float(self.denominator)
-
 
 def _form(value: object) -> str:
     if isinstance(value, dict):
         lines = value.keys() & {"numerator", "denominator", "reference"}
         return "quotient" if lines and "points" not in value else "table"
-    return "quotient" if isinstance(value, PadSpeedQuotient | PadForceQuotient) else "table"
+    return "quotient" if isinstance(value, PadQuotient) else "table"
 
 
 SpeedLaw = Annotated[

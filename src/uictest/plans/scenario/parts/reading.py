@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import Field, model_validator
 
 from uictest.core.identity_cache import once_per_object
 from uictest.core.measures import MEASURES, SLIDE_CLASS, SLOW_SHARE_CLASS
@@ -11,41 +11,62 @@ from uictest.core.units import in_unit
 from uictest.plans.scenario.parts.bounded_measure import StopMeasureName
 from uictest.plans.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Quantity, of_kind, quoted
 
-
-def _with_its_source(definition: object) -> object:
-    """Give the source that a definition names to each of its numbers."""
-    if not (isinstance(definition, dict) and isinstance(definition.get("source"), str)):
-        return definition
-    marked, source = {**definition}, definition["source"]
-    if "value" in definition:
-        marked["value"] = _with_source(definition["value"], source)
-    if isinstance(definition.get("range"), list | tuple):
-        marked["range"] = tuple(_with_source(end, source) for end in definition["range"])
-    return marked
-
-
-def _with_source(number: object, source: str) -> object:
-    return number if isinstance(number, dict | Quantity) else {"value": number, "source": source}
-
-
-def _range_problems(value: Quantity, ends: tuple[Quantity, Quantity]) -> Iterator[Inconsistency]:
-    """Yield a range that does not rise or does not hold the value."""
-    lower, upper = ends
-    if lower > upper:
-        yield Inconsistency(("range",), f"the range falls from {lower.text} to {upper.text}")
-    elif not lower <= value <= upper:
-        yield Inconsistency(
-            ("value",), f"{value.text} is outside its own range of {lower.text} to {upper.text}"
-        )
-
-
 _Duration = Annotated[Quantity, of_kind("time", above="0 s", at_most="10 s")]
 _Cutoff = Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="200 km/h")]
 _SlidingBelow = Annotated[Quantity, of_kind("share", at_least="85 %", at_most="95 %")]
 _EndSpeed = Annotated[Quantity, of_kind("speed", at_least="10 km/h", at_most="100 km/h")]
 
 
-class FirstPhaseDuration(Model):
+class RangedDefinition(Model):
+    """One definition of a criterion: the value used, and the range of values that the words allow.
+
+    `unit` is what it is printed in, `step` the size (SI) of the classes it comes in, None where it is
+    continuous.
+    """
+
+    unit: ClassVar[str]
+    step: ClassVar[float | None]
+
+    value: Quantity
+    range: tuple[Quantity, Quantity]
+    source: str = Field(
+        default=SCENARIO_SOURCE, description="A key of the part's `sources`, for value and range."
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_its_source(cls, definition: object) -> object:
+        """Give the source that a definition names to each of its numbers."""
+        if not (isinstance(definition, dict) and isinstance(definition.get("source"), str)):
+            return definition
+        marked, source = {**definition}, definition["source"]
+        if "value" in definition:
+            marked["value"] = _with_source(definition["value"], source)
+        if isinstance(definition.get("range"), list | tuple):
+            marked["range"] = tuple(_with_source(end, source) for end in definition["range"])
+        return marked
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield every number between two classes, then a range that falls or does not hold the value."""
+        lower, upper = self.range
+        if self.step is not None:
+            whole = round(in_unit(self.step, self.unit), 6)
+            for key, number in ((("value",), self.value), (("range", 0), lower), (("range", 1), upper)):
+                if round(in_unit(number, self.unit), 6) % whole:
+                    message = f"{number.text} is no multiple of {whole:g} {self.unit}"
+                    yield Inconsistency(key, message, "measures are kept in such classes")
+        if lower > upper:
+            yield Inconsistency(("range",), f"the range falls from {lower.text} to {upper.text}")
+        elif not lower <= self.value <= upper:
+            message = f"{self.value.text} is outside its own range of {lower.text} to {upper.text}"
+            yield Inconsistency(("value",), message)
+
+
+def _with_source(number: object, source: str) -> object:
+    return number if isinstance(number, dict | Quantity) else {"value": number, "source": source}
+
+
+class FirstPhaseDuration(RangedDefinition):
     """How long the first phase of braking lasts, from the first sliding of any wheelset."""
 
     unit: ClassVar[str] = "s"
@@ -55,28 +76,9 @@ class FirstPhaseDuration(Model):
     range: tuple[_Duration, _Duration] = Field(
         description="Shortest and longest duration the words could mean."
     )
-    source: str = Field(
-        default=SCENARIO_SOURCE, description="A key of the part's `sources`, for value and range."
-    )
-
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield a range that does not rise or does not hold the value."""
-        yield from _range_problems(self.value, self.range)
 
 
-def _class_problems(
-    value: Quantity, ends: tuple[Quantity, Quantity], step: float, unit: str
-) -> Iterator[Inconsistency]:
-    """Yield every number that is no multiple of `step` (SI), then what is wrong with the range."""
-    whole = round(in_unit(step, unit), 6)
-    for key, number in ((("value",), value), (("range", 0), ends[0]), (("range", 1), ends[1])):
-        if round(in_unit(number, unit), 6) % whole:
-            message = f"{number.text} is no multiple of {whole:g} {unit}"
-            yield Inconsistency(key, message, "measures are kept in such classes")
-    yield from _range_problems(value, ends)
-
-
-class LowSpeedCutoff(Model):
+class LowSpeedCutoff(RangedDefinition):
     """The train speed down to which slides count: a multiple of 10 km/h, as slides are kept in classes."""
 
     unit: ClassVar[str] = "km/h"
@@ -84,16 +86,9 @@ class LowSpeedCutoff(Model):
 
     value: _Cutoff = Field(description="Cut-off used.")
     range: tuple[_Cutoff, _Cutoff] = Field(description="Lowest and highest cut-off the words could mean.")
-    source: str = Field(
-        default=SCENARIO_SOURCE, description="A key of the part's `sources`, for value and range."
-    )
-
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield every number between two classes, then what is wrong with the range."""
-        yield from _class_problems(self.value, self.range, SLIDE_CLASS, self.unit)
 
 
-class SlidingBelow(Model):
+class SlidingBelow(RangedDefinition):
     """The share of the train's speed below which a wheelset slides: 85, 90 or 95 %."""
 
     unit: ClassVar[str] = "%"
@@ -103,16 +98,9 @@ class SlidingBelow(Model):
     range: tuple[_SlidingBelow, _SlidingBelow] = Field(
         description="Lowest and highest share the words could mean."
     )
-    source: str = Field(
-        default=SCENARIO_SOURCE, description="A key of the part's `sources`, for value and range."
-    )
-
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield every number between two classes, then what is wrong with the range."""
-        yield from _class_problems(self.value, self.range, SLOW_SHARE_CLASS, self.unit)
 
 
-class EndSpeed(Model):
+class EndSpeed(RangedDefinition):
     """The train speed that ends the time in which sliding counts: a multiple of 10 km/h, at most 100 km/h."""
 
     unit: ClassVar[str] = "km/h"
@@ -120,35 +108,21 @@ class EndSpeed(Model):
 
     value: _EndSpeed = Field(description="Speed used.")
     range: tuple[_EndSpeed, _EndSpeed] = Field(description="Lowest and highest speed the words could mean.")
-    source: str = Field(
-        default=SCENARIO_SOURCE, description="A key of the part's `sources`, for value and range."
-    )
-
-    def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield every number between two classes, then what is wrong with the range."""
-        yield from _class_problems(self.value, self.range, SLIDE_CLASS, self.unit)
-
-
-RangedDefinition = FirstPhaseDuration | LowSpeedCutoff | SlidingBelow | EndSpeed
-"""One definition of a criterion: the value used, and the range of values that the words allow.
-
-`unit` is what it is printed in, `step` the size (SI) of the classes it comes in, None where it is continuous.
-"""
 
 
 class Definition(Model):
     """The definitions that a criterion depends on; each measure says which it needs."""
 
-    first_phase_duration: Annotated[FirstPhaseDuration, BeforeValidator(_with_its_source)] | None = Field(
+    first_phase_duration: FirstPhaseDuration | None = Field(
         default=None, description="First phase of braking, counted from the first sliding."
     )
-    low_speed_cutoff: Annotated[LowSpeedCutoff, BeforeValidator(_with_its_source)] | None = Field(
+    low_speed_cutoff: LowSpeedCutoff | None = Field(
         default=None, description="Speed down to which slides count."
     )
-    sliding_below: Annotated[SlidingBelow, BeforeValidator(_with_its_source)] | None = Field(
+    sliding_below: SlidingBelow | None = Field(
         default=None, description="Share of the train's speed below which a wheelset slides."
     )
-    end_speed: Annotated[EndSpeed, BeforeValidator(_with_its_source)] | None = Field(
+    end_speed: EndSpeed | None = Field(
         default=None, description="Speed that ends the time in which sliding counts."
     )
 

@@ -1,4 +1,4 @@
-"""The controller that somebody names on a command line: a program, a part, a scenario or a name."""
+"""Parts that somebody names on a command line: by a file or in the library; a controller by its program."""
 
 import ast
 from collections.abc import Sequence
@@ -9,13 +9,14 @@ from uictest.plans.scenario.files import Files, Roots
 from uictest.plans.scenario.loading import load
 from uictest.plans.scenario.parts.external_controller import ControllerPart
 from uictest.plans.scenario.program_files import KIND_OF_ENDING, SOCKET
-from uictest.plans.scenario.references import Parts, is_path
-from uictest.plans.scenario.resolution import PART_KEYS
+from uictest.plans.scenario.references import Parts, folder_of, is_path
+from uictest.plans.scenario.resolution import PART_KEYS, PART_KINDS
 from uictest.plans.scenario.yaml import (
     SCENARIO_SCHEMA,
     Document,
     Entry,
     Map,
+    Part,
     Place,
     Scalar,
     display_name,
@@ -25,6 +26,45 @@ from uictest.plans.scenario.yaml import (
     unreadable_error,
     whole_file,
 )
+
+
+def load_part(reference: str) -> Part:
+    """The library part called ``folder/name``, e.g. ``vehicles/intercity-180``.
+
+    Raises ScenarioErrors when there is none, KeyError when there is no such folder.
+    """
+    folder, _, name = reference.partition("/")
+    models = {folder_of(each.model): each.model for each in PART_KEYS.values()}
+    if folder not in models:
+        raise KeyError(folder)
+    place = Place(Document(reference, Path(), reference), 1, len(folder) + 2)
+    part: Part = Parts(Files()).resolve(Scalar(name, name, place), models[folder], (folder,)).part
+    return part
+
+
+def load_part_file(path: Path, trusted: Sequence[Path] = ()) -> Part:
+    """The part that a file describes, of any kind.
+
+    References stay at or below the file's folder, the working folder and the ``trusted`` folders. Raises
+    ScenarioErrors.
+    """
+    files = Files(Roots.of([path], trusted))
+    tree = files.at(path)
+    schema = tree.get("schema")
+    models = {f"uictest/{kind}/1": PART_KEYS[key].model for key, kind in PART_KINDS.items()}
+    if not isinstance(schema, Scalar) or schema.text not in models:
+        schema_text = quoted(schema.text) if isinstance(schema, Scalar) else "none"
+        place = tree.place if schema is None else schema.place
+        raise single_error(
+            place, f"not a part: its schema is {schema_text}", "schema", f"accepted: {', '.join(models)}"
+        )
+    part: Part = _part_in(path, files, models[schema.text])
+    return part
+
+
+def _part_in(path: Path, files: Files, model: Any) -> Any:
+    name = Scalar(path.name, path.name, Place(Document(str(path), path.parent, path.name)))
+    return Parts(files).resolve(name, model, ()).part
 
 
 def load_controller(reference: str, class_name: str = "", trusted: Sequence[Path] = ()) -> ControllerPart:
@@ -39,31 +79,21 @@ def load_controller(reference: str, class_name: str = "", trusted: Sequence[Path
     Raises:
         ScenarioErrors: when there is none, or a scenario has cases with several.
     """
-    path = Path(reference)
-    if is_path(reference) and is_file(path):
-        return _of_yaml(path, trusted)
-    parts = Parts(Files(Roots.of([path], trusted)))
-    model = PART_KEYS["controller",].model
-    controller: ControllerPart = parts.resolve(_node(reference, path, class_name), model, ()).part
-    return controller
-
-
-def _of_yaml(path: Path, trusted: Sequence[Path]) -> ControllerPart:
+    path, model = Path(reference), PART_KEYS["controller",].model
     files = Files(Roots.of([path], trusted))
+    controller: ControllerPart
+    if not (is_path(reference) and is_file(path)):
+        controller = Parts(files).resolve(_node(reference, path, class_name), model, ()).part
+        return controller
     schema = files.at(path).get("schema")
-    if isinstance(schema, Scalar) and schema.value == SCENARIO_SCHEMA:
-        return _of_scenario(path, trusted)
-    name = Scalar(path.name, path.name, Place(Document(str(path), path.parent, path.name)))
-    controller: ControllerPart = Parts(files).resolve(name, PART_KEYS["controller",].model, ()).part
-    return controller
-
-
-def _of_scenario(path: Path, trusted: Sequence[Path]) -> ControllerPart:
-    first, *others = [case.scenario.controller for case in load([path], trusted=trusted)]
-    if any(other != first for other in others):
+    if not isinstance(schema, Scalar) or schema.value != SCENARIO_SCHEMA:
+        controller = _part_in(path, files, model)
+        return controller
+    controller, *others = [case.scenario.controller for case in load([path], trusted=trusted)]
+    if any(other != controller for other in others):
         hint = "name the file of one of them"
         raise single_error(whole_file(path), "its cases have different controllers", "controller", hint)
-    return first
+    return controller
 
 
 def _node(reference: str, path: Path, class_name: str) -> Any:
@@ -88,13 +118,14 @@ def _only_controller(path: Path) -> str:
         raise unreadable_error(whole_file(path), error) from None
     except (SyntaxError, ValueError) as error:
         raise single_error(whole_file(path), f"not Python: {error}") from None
-    names = [each.name for each in module.body if isinstance(each, ast.ClassDef) and _steps(each)]
+    names = [
+        each.name
+        for each in module.body
+        if isinstance(each, ast.ClassDef)
+        and any(isinstance(inner, ast.FunctionDef) and inner.name == "step" for inner in each.body)
+    ]
     if len(names) != 1:
         listed = ", ".join(map(quoted, names)) or "none"
         message = f"which class is the controller? Those with a method step: {listed}"
         raise single_error(whole_file(path), message, hint="name it with --class")
     return names[0]
-
-
-def _steps(definition: ast.ClassDef) -> bool:
-    return any(isinstance(each, ast.FunctionDef) and each.name == "step" for each in definition.body)
