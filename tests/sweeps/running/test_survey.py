@@ -11,7 +11,7 @@ import pytest
 from uictest import rig
 from uictest.plans import library
 from uictest.plans.scenario import ScenarioErrors, load as load_scenarios
-from uictest.plans.sweeps.base_case import in_survey_steps
+from uictest.plans.sweeps.plan import in_survey_steps
 from uictest.report import survey_notes
 from uictest.running.chunked import CaseSelection, ChunkRunner, chunk_runner, sweep_manifest
 from uictest.running.chunked.case_blocks import BlockAssembler

@@ -1,7 +1,9 @@
 from .base_case import (
     REGULAR_STEP as REGULAR_STEP,
     SURVEY_STEP as SURVEY_STEP,
-    in_survey_steps as in_survey_steps,
+    inconsistencies as inconsistencies,
+    is_free as is_free,
+    with_values as with_values,
 )
 from .column import Column as Column, ParameterValue as ParameterValue, content_of as content_of
 from .definition import (
@@ -18,12 +20,8 @@ from .plan import (
     ListedGroup as ListedGroup,
     ParameterDraw as ParameterDraw,
     Plan as Plan,
+    in_survey_steps as in_survey_steps,
     random_sample as random_sample,
     saltelli_sample as saltelli_sample,
     scenarios_with_each as scenarios_with_each,
-)
-from .scenario_values import (
-    inconsistencies as inconsistencies,
-    is_free as is_free,
-    with_values as with_values,
 )

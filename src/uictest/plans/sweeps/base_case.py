@@ -1,17 +1,19 @@
-"""The case that a sweep varies, and the survey step that it may be simulated in."""
+"""The case that a sweep varies, how its values are changed, and the survey step it may be simulated in."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Final
+from dataclasses import dataclass
+from typing import Any, Final
 
-from uictest.plans.scenario import PART_KEYS, SURVEY, Case, Parts, Scenario, changed_alone, resolve
+from uictest.plans.scenario import CONDITION, PART_KEYS, SURVEY, Case, Parts, Scenario, changed_alone, resolve
 from uictest.plans.scenario.yaml import (
     Diagnostic,
     Document,
     Entry,
+    Inconsistency,
     Map,
+    Model,
     Node,
     Override,
     Place,
@@ -25,8 +27,72 @@ from uictest.plans.scenario.yaml import (
     single_error,
     with_value,
 )
-from uictest.plans.sweeps.plan import Plan
-from uictest.plans.sweeps.scenario_values import outermost_first, with_values
+
+
+def with_values(scenario: Scenario, settings: Mapping[str, Any]) -> Scenario:
+    """Return the scenario with other values at the dotted keys of `settings`.
+
+    Nothing is validated: the values must be valid, and `inconsistencies` checks their combination.
+    """
+    for key in outermost_first(settings):
+        scenario = _changed(scenario, key.split("."), settings[key])
+    return scenario
+
+
+def outermost_first(keys: Iterable[str]) -> list[str]:
+    """Return keys in an order in which a part comes before its parameters."""
+    return sorted(keys, key=lambda key: key.count("."))
+
+
+def value_at(scenario: Scenario, key: str) -> Any:
+    """Return the value at a dotted key. Raises KeyError for an unknown key."""
+    value: Any = scenario
+    for element in key.split("."):
+        value = _inner(value, element)
+    return value
+
+
+def is_free(scenario: Scenario, key: str) -> bool:
+    """Return whether nothing but a controller from outside knows what the value at a dotted key means."""
+    above, _, _ = key.rpartition(".")
+    try:
+        return bool(above) and isinstance(value_at(scenario, above), dict)
+    except KeyError:
+        return False
+
+
+def inconsistencies(scenario: Scenario, keys: Iterable[str]) -> Iterator[Inconsistency]:
+    """Yield the inconsistencies of the scenario and of its models on the way to `keys`."""
+    every = [tuple(key.split(".")) for key in keys]
+    for path in dict.fromkeys(elements[:depth] for elements in every for depth in range(len(elements))):
+        model = value_at(scenario, ".".join(path)) if path else scenario
+        if isinstance(model, Model):
+            for inconsistency in model.inconsistencies():
+                yield inconsistency._replace(key=(*path, *inconsistency.key))
+
+
+def _changed(model: Any, elements: list[str], value: Any) -> Any:
+    first, rest = elements[0], elements[1:]
+    inner = _changed(_inner(model, first), rest, value) if rest else value
+    if isinstance(model, tuple):
+        if not first.isdecimal():  # the one entry, written without a list
+            return (_changed(model[0], elements, value),)
+        place = int(first)
+        return (*model[:place], inner, *model[place + 1 :])
+    return {**model, first: inner} if isinstance(model, dict) else model.model_copy(update={first: inner})
+
+
+def _inner(value: Any, element: str) -> Any:
+    if isinstance(value, dict):
+        return value[element]
+    if isinstance(value, tuple) and element.isdecimal() and int(element) < len(value):
+        return value[int(element)]
+    if isinstance(value, tuple) and not element.isdecimal() and len(value) == 1:
+        return _inner(value[0], element)  # one entry may be written without a list
+    if isinstance(value, Model) and element in type(value).model_fields:
+        return getattr(value, element)
+    raise KeyError(element)
+
 
 DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
 
@@ -49,15 +115,24 @@ class BaseCase:
         """
         return resolve(self._tree_with(settings), self.parts)
 
-    def changed_alone(self, settings: Mapping[str, Entry]) -> Iterator[Diagnostic]:
-        """Yield a change of the rail condition that leaves the friction. Raises ScenarioErrors."""
-        return changed_alone(self.tree, self._tree_with(settings))
+    def conditions_alone(self, entries: Mapping[str, Entry]) -> Iterator[Diagnostic]:
+        """Yield rail conditions that change without the friction of the scenario. Raises ScenarioErrors."""
+        for key, entry in entries.items():
+            if key.startswith(CONDITION):
+                choice = entry.node.get("choice") if isinstance(entry.node, Map) else None
+                for node in items_of(choice or entry.node):
+                    yield from changed_alone(self.tree, self._tree_with({key: Entry(entry.key, node)}))
 
     def _tree_with(self, settings: Mapping[str, Entry]) -> Map:
         tree = self.tree
         for key in outermost_first(settings):
             tree = with_value(tree, key, settings[key], DOTTED_PART_KEYS)
         return tree
+
+
+def items_of(node: Node) -> Sequence[Node]:
+    """Return the entries of a list, or the one value that stands without a list."""
+    return node.items if isinstance(node, List) else (node,)
 
 
 TIME_STEP: Final = "simulation.time_step"
@@ -99,9 +174,3 @@ def reject_other_steps(keys: Iterable[str], place: Place) -> None:
         if f"{TIME_STEP}.".startswith(f"{key}."):
             message = f"{quoted(key)} cannot vary: the survey step is that of all cases"
             raise single_error(place, message, key, "vary the other keys of `simulation` one by one")
-
-
-def in_survey_steps(plan: Plan) -> Plan:
-    """Return the plan whose cases are simulated in survey steps, whatever their time step is."""
-    scenario: Scenario = with_values(plan.base.scenario, {TIME_STEP: SURVEY_STEP})
-    return replace(plan, base=replace(plan.base, scenario=scenario))

@@ -112,7 +112,8 @@ def drawn_column(numbers: NDArray[np.float64], unit: str, kind: str) -> Column:
 
     rounded = rounded_numbers(numbers)
     written = pc.binary_join_element_wise(rounded.texts, unit, " ") if unit else rounded.texts
-    values = rounded.in_unit(*_to_si(kind, unit))
+    si = KINDS[kind].units[unit] if kind and unit else None
+    values = rounded.in_unit(*((Fraction(1), Fraction(0)) if si is None else (si.factor, si.offset)))
 
     def value_at(place: int) -> ParameterValue:
         text = written[place].as_py()
@@ -130,11 +131,3 @@ def content_of(text: str, kind: str) -> Any:
 
 def _is_number(content: Any) -> bool:
     return isinstance(content, float | int) and not isinstance(content, bool)
-
-
-def _to_si(kind: str, unit: str) -> tuple[Fraction, Fraction]:
-    """Return factor and offset from a unit of a kind to SI units."""
-    if not (kind and unit):
-        return Fraction(1), Fraction(0)
-    units = KINDS[kind].units[unit]
-    return units.factor, units.offset

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import chain
+from math import prod
 from pathlib import Path
 from typing import Final
 
-from uictest.plans.scenario import CONDITION, LONGEST, Files, Parts, Roots, Sample, sets_friction, short_keys
+from uictest.plans.scenario import CONDITION, LONGEST, Files, Parts, Roots, sets_friction, short_keys
 from uictest.plans.scenario.yaml import (
     FIXED,
     Diagnostic,
-    Document,
     Entry,
     Map,
     Override,
@@ -29,7 +27,6 @@ from uictest.plans.sweeps.base_case import (
     REPEAT_KEYS,
     SEEDS_IN_SWEEPS,
     TIME_STEP,
-    BaseCase,
     reject_other_steps,
     require_regular_step,
     survey_in_lists,
@@ -74,15 +71,11 @@ def _problems(plan: Plan, *, of_dry_rail: bool) -> Iterator[tuple[str, str]]:
     elif random_sample(plan) is None:
         yield f"points of method {last.method} are not independent of each other", _RANDOM
     if of_dry_rail:
-        for name in dict.fromkeys(_conditions(plan)):
+        conditions = (scenario.rail.condition.name for scenario in scenarios_with_each(plan, CONDITION))
+        for name in dict.fromkeys(conditions):
             if name != DRY:
                 hint = "write `rail: {condition: dry}` in the scenario, and no other condition in the sweep"
                 yield f"K_dry holds for dry rail; the rail condition is {quoted(name)}", hint
-
-
-def _conditions(plan: Plan) -> Iterator[str]:
-    """Yield the names of the rail conditions that the cases have."""
-    yield from (scenario.rail.condition.name for scenario in scenarios_with_each(plan, CONDITION))
 
 
 MOST_CASES: Final = 100_000_000
@@ -117,11 +110,12 @@ def load_sweep(
         sections = sections if survey is None else _without_entries(sections, "matrix", {TIME_STEP})
     if survey is not None:
         require_regular_step(file.base, survey)
-    reader = _Reader(file, sections)
-    groups = reader.groups([each for each in parsed if len(each.values) > 1])
+    reader = GroupReader(file.base)
+    groups = _groups(file, sections, [each for each in parsed if len(each.values) > 1], reader)
     if survey is not None:
         reject_other_steps((key for group in groups for key in group.keys), survey)
-    document = parts.files.at(path).place.document
+    documents = (parts.files.at(path).place.document, *reader.documents)
+    read = {document.display: document.sha256 for document in documents if document.sha256}
     plan = Plan(
         name=file.name,
         title=file.title,
@@ -129,7 +123,7 @@ def load_sweep(
         base=file.base.case,
         groups=groups,
         short=short_keys([key for group in groups for key in group.keys]),
-        inputs=_inputs(file.base, (document, *reader.group_reader.documents)),
+        inputs=dict(sorted({**file.base.case.inputs, **read}.items())),
         quantiles=file.vary.quantile_requests,
         k_dry=file.vary.k_dry,
         survey=survey is not None,
@@ -140,109 +134,74 @@ def load_sweep(
     return plan
 
 
-@dataclass(frozen=True)
-class _Axis:
-    """Lists that change together, and the section that holds them."""
-
-    section: str
-    entries: Mapping[str, Entry]
+_Axis = tuple[str, Mapping[str, Entry]]
+"""A section, and the lists in it that change together."""
 
 
-class _Reader:
-    """Reads the groups of a file, and collects all errors; `sections` are what the command line leaves."""
+def _groups(
+    file: SweepFile, sections: Map, swept: Sequence[Override], reader: GroupReader
+) -> tuple[Group, ...]:
+    """Return the groups in order: those of the command line, lists, ranges, zip, sample.
 
-    def __init__(self, file: SweepFile, sections: Map) -> None:
-        self.group_reader = GroupReader(file.base)
-        self._file = file
-        self._tree = sections
-
-    def groups(self, swept: Sequence[Override]) -> tuple[Group, ...]:
-        """Return the groups in order: those of the command line, lists, ranges, zip, sample."""
-        axes = [*_of_command_line(swept), *self._of_file()]
-        self._reject_bad_keys(axes)
-        groups: list[Group | None] = [self.group_reader.listed(axis.entries, axis.section) for axis in axes]
-        sample = self._tree.get("sample")
-        if isinstance(sample, Map) and self._file.vary.sample is not None:
-            remaining = self._sample_without_overridden(sample)
-            if remaining.parameters:
-                groups.append(self.group_reader.sampled(remaining, sample))
-        self._raise_diagnostics()
-        complete = tuple(group for group in groups if group is not None)
-        self._reject_size(complete)
-        return complete
-
-    def _of_file(self) -> Iterator[_Axis]:
-        for key, entry in _entries(self._tree, "matrix"):
-            yield _Axis(self._file.key("matrix"), {key: entry})
-        for key, entry in _entries(self._tree, "ranges"):
-            values = (self._file.vary.ranges or {})[key]
-            yield _Axis(self._file.key("ranges"), {key: Entry(entry.key, range_node(values, entry.node))})
-        zipped = dict(_entries(self._tree, "zip"))
-        if zipped:
-            yield _Axis(self._file.key("zip"), zipped)
-
-    def _sample_without_overridden(self, sample: Map) -> Sample:
-        requested = self._file.vary.sample
-        assert requested is not None
-        drawn = dict(_entries(sample, "parameters"))
+    `sections` are what the command line leaves of the file. Raises ScenarioErrors.
+    """
+    axes = [*_axes(file, sections, swept)]
+    sample, requested = sections.get("sample"), file.vary.sample
+    drawn = dict(_entries(sample, "parameters")) if isinstance(sample, Map) else {}
+    diagnostics = [*_bad_keys(file, sections, [*axes, (file.key("sample"), drawn)])]
+    if diagnostics:
+        raise ScenarioErrors(in_reading_order(diagnostics))
+    groups: list[Group | None] = [reader.listed(entries, section) for section, entries in axes]
+    if drawn and isinstance(sample, Map) and requested is not None:
         parameters = {key: each for key, each in requested.parameters.items() if key in drawn}
-        return requested.model_copy(update={"parameters": parameters})
-
-    def _reject_bad_keys(self, axes: Sequence[_Axis]) -> None:
-        sample = self._tree.get("sample")
-        drawn = dict(_entries(sample, "parameters")) if isinstance(sample, Map) else {}
-        all_axes = (*axes, _Axis(self._file.key("sample"), drawn))
-        self.group_reader.diagnostics.extend(_bad_keys(all_axes))
-        keys = [key for axis in all_axes for key in axis.entries]
-        if not any(map(sets_friction, keys)):
-            for axis in all_axes:
-                self.group_reader.reject_conditions_alone(axis.entries)
-        if not keys:
-            sections = ("matrix", "ranges", "zip", "sample")
-            hint = "give values under " + ", ".join(map(self._file.key, sections))
-            self.group_reader.diagnostics.append(diagnose(self._tree.place, "nothing varies", hint=hint))
-        self._raise_diagnostics()
-
-    def _reject_size(self, groups: Sequence[Group]) -> None:
-        plan_size = 1
-        for group in groups:
-            plan_size *= group.size
-        longest_id = sum(_longest_label(group) for group in groups) + len(self._file.name) + 2
-        if plan_size > MOST_CASES:
-            hint = "draw a sample instead of every combination"
-            raise single_error(
-                self._tree.place, f"{plan_size} cases; at most {MOST_CASES} are accepted", hint=hint
-            )
-        if longest_id > LONGEST:
-            raise single_error(
-                self._tree.place, f"case ids of up to {longest_id} characters; {LONGEST} are accepted"
-            )
-
-    def _raise_diagnostics(self) -> None:
-        if self.group_reader.diagnostics:
-            raise ScenarioErrors(in_reading_order(self.group_reader.diagnostics))
+        groups.append(reader.sampled(requested.model_copy(update={"parameters": parameters}), sample))
+    if reader.diagnostics:
+        raise ScenarioErrors(in_reading_order(reader.diagnostics))
+    complete = tuple(group for group in groups if group is not None)
+    size = prod(group.size for group in complete)
+    if size > MOST_CASES:
+        message = f"{size} cases; at most {MOST_CASES} are accepted"
+        raise single_error(sections.place, message, hint="draw a sample instead of every combination")
+    longest_id = sum(map(_longest_label, complete)) + len(file.name) + 2
+    if longest_id > LONGEST:
+        message = f"case ids of up to {longest_id} characters; {LONGEST} are accepted"
+        raise single_error(sections.place, message)
+    return complete
 
 
-def _bad_keys(axes: Sequence[_Axis]) -> Iterator[Diagnostic]:
-    """Yield a diagnostic for each key that stands in two sections or cannot vary."""
+def _axes(file: SweepFile, sections: Map, swept: Sequence[Override]) -> Iterator[_Axis]:
+    for each in swept:
+        yield "--set", {each.key: Entry(each.place, List(each.values, each.place))}
+    for key, entry in _entries(sections, "matrix"):
+        yield file.key("matrix"), {key: entry}
+    for key, entry in _entries(sections, "ranges"):
+        values = (file.vary.ranges or {})[key]
+        yield file.key("ranges"), {key: Entry(entry.key, range_node(values, entry.node))}
+    if zipped := dict(_entries(sections, "zip")):
+        yield file.key("zip"), zipped
+
+
+def _bad_keys(file: SweepFile, sections: Map, axes: Sequence[_Axis]) -> Iterator[Diagnostic]:
+    """Yield keys that stand in two sections or cannot vary, and rail conditions that change alone."""
     section_of: dict[str, str] = {}
-    for axis in axes:
-        for key, entry in axis.entries.items():
+    for section, entries in axes:
+        for key, entry in entries.items():
+            shown = f"{section}.{key}"
             if key in section_of:
-                message = f"{quoted(key)} is under {section_of[key]} as well"
-                yield diagnose(entry.key, message, f"{axis.section}.{key}")
+                yield diagnose(entry.key, f"{quoted(key)} is under {section_of[key]} as well", shown)
             if key.split(".")[0] in FIXED:
                 message = f"{quoted(key)} belongs to the scenario's file and cannot vary"
-                yield diagnose(entry.key, message, f"{axis.section}.{key}")
+                yield diagnose(entry.key, message, shown)
             if key.split(".")[0] in REPEAT_KEYS:
                 message = f"{quoted(key)} cannot vary: a sweep runs one stop per case"
-                yield diagnose(entry.key, message, f"{axis.section}.{key}", SEEDS_IN_SWEEPS)
-            section_of[key] = axis.section
-
-
-def _of_command_line(swept: Sequence[Override]) -> Iterator[_Axis]:
-    for each in swept:
-        yield _Axis("--set", {each.key: Entry(each.place, List(each.values, each.place))})
+                yield diagnose(entry.key, message, shown, SEEDS_IN_SWEEPS)
+            section_of[key] = section
+    if not any(map(sets_friction, section_of)):
+        for _, entries in axes:
+            yield from file.base.conditions_alone(entries)
+    if not section_of:
+        names = ", ".join(map(file.key, ("matrix", "ranges", "zip", "sample")))
+        yield diagnose(sections.place, "nothing varies", hint=f"give values under {names}")
 
 
 def _longest_label(group: Group) -> int:
@@ -250,8 +209,8 @@ def _longest_label(group: Group) -> int:
         return len(SAMPLE_NAME) + 1 + len(str(group.size))
     # A short key is at most the key itself; the comma after each counts too.
     return sum(
-        len(key) + 2 + max(len(row[place].label) for row in group.rows)
-        for place, key in enumerate(group.keys)
+        len(key) + 2 + max(len(value.label) for value in values)
+        for key, values in zip(group.keys, group.choices, strict=True)
     )
 
 
@@ -276,8 +235,3 @@ def _entries(tree: Map, section: str) -> Iterator[tuple[str, Entry]]:
     node = tree.get(section)
     if isinstance(node, Map):
         yield from node.entries.items()
-
-
-def _inputs(base: BaseCase, documents: Sequence[Document]) -> dict[str, str]:
-    read = {document.display: document.sha256 for document in documents if document.sha256}
-    return dict(sorted(chain(base.case.inputs.items(), read.items())))

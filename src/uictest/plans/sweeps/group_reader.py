@@ -8,7 +8,6 @@ from operator import attrgetter
 from typing import Annotated, Any, Final, get_args
 
 from uictest.plans.scenario import (
-    CONDITION,
     Distribution,
     Range,
     Sample,
@@ -41,10 +40,9 @@ from uictest.plans.scenario.yaml import (
     validated,
     visible,
 )
-from uictest.plans.sweeps.base_case import BaseCase
+from uictest.plans.sweeps.base_case import BaseCase, inconsistencies, is_free, items_of, value_at, with_values
 from uictest.plans.sweeps.column import ParameterValue
 from uictest.plans.sweeps.plan import ListedGroup, ParameterDraw, SampledGroup
-from uictest.plans.sweeps.scenario_values import inconsistencies, is_free, value_at, with_values
 
 _OPTIONS: Final = ("--set", "--seed")
 """Names of documents that are options, where files have their paths."""
@@ -66,7 +64,7 @@ class GroupReader:
 
     def listed(self, entries: Mapping[str, Entry], section: str) -> ListedGroup | None:
         """Return the group in which the given lists of a section change together; None if they cannot."""
-        columns = [(key, entry, _items(entry.node)) for key, entry in entries.items()]
+        columns = [(key, entry, items_of(entry.node)) for key, entry in entries.items()]
         if not self._equally_long(columns, section):
             return None
         rows = self._rows(columns)
@@ -86,14 +84,6 @@ class GroupReader:
             return None
         keys = tuple(sample.parameters)
         return SampledGroup(keys, tuple(draws), sample.method, sample.cases, sample.size, sample.seed)
-
-    def reject_conditions_alone(self, entries: Mapping[str, Entry]) -> None:
-        """Reject rail conditions that change without the friction of the scenario."""
-        for key, entry in entries.items():
-            if key.startswith(CONDITION):
-                choice = entry.node.get("choice") if isinstance(entry.node, Map) else None
-                for node in _items(choice or entry.node):
-                    self.diagnostics.extend(self._base.changed_alone({key: Entry(entry.key, node)}))
 
     def _equally_long(self, columns: Sequence[_Column], section: str) -> bool:
         first, _, items = columns[0]
@@ -200,7 +190,7 @@ class GroupReader:
         return ParameterDraw(distribution, unit, kind)
 
     def _choices(self, key: str, entry: Entry) -> tuple[ParameterValue, ...]:
-        column = key, entry, _items(entry.node)
+        column = key, entry, items_of(entry.node)
         rows = self._rows([column])
         self._reject_repeated(rows, column, _TEXT, "each value of a choice is as likely as the others")
         if len(rows) < len(column[2]):
@@ -275,10 +265,6 @@ def _repeated(rows: Iterable[_Row], name_of: Callable[[ParameterValue], str]) ->
         if names in seen:
             yield row
         seen.add(names)
-
-
-def _items(node: Node) -> Sequence[Node]:
-    return node.items if isinstance(node, List) else (node,)
 
 
 def _bounds(distribution: Distribution, node: Node) -> Iterator[tuple[str, Node]]:

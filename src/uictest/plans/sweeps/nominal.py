@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Final
 
 from uictest.plans.scenario import Scenario, wheelset_value
 from uictest.plans.scenario.yaml import Quantity, parse_quantity
+from uictest.plans.sweeps.base_case import value_at
 from uictest.plans.sweeps.column import ParameterValue
 from uictest.plans.sweeps.plan import (
-    Group,
     ListedGroup,
-    ParameterDraw,
     Plan,
     SampledGroup,
     random_sample,
     saltelli_sample,
+    values_of,
 )
-from uictest.plans.sweeps.scenario_values import value_at
 
 if TYPE_CHECKING:
     from uictest.controllers import ControllerProgram
@@ -55,16 +54,13 @@ def drawn_ranges(plan: Plan) -> Iterator[DrawnRange]:
 
     These are samples for sensitivities, and for K_dry unless the nominal deceleration is stated.
     """
-    sample = saltelli_sample(plan) or (random_sample(plan) if has_nominal_case(plan) else None)
+    k_dry_of_nominal = plan.k_dry is not None and plan.k_dry.nominal is None
+    sample = saltelli_sample(plan) or (random_sample(plan) if k_dry_of_nominal else None)
     for key, draw in zip(sample.keys, sample.draws, strict=True) if sample else ():
         nominal = _nominal_value(plan.base.scenario, key)
         if not draw.choices and isinstance(nominal, Quantity):
-            yield DrawnRange(key, *_bounds(draw), nominal)
-
-
-def has_nominal_case(plan: Plan) -> bool:
-    """Return whether the nominal case is needed: for K_dry without a stated nominal deceleration."""
-    return plan.k_dry is not None and plan.k_dry.nominal is None
+            low, high = (parse_quantity(str(bound), draw.kind) for bound in draw.distribution.bounds)
+            yield DrawnRange(key, low, high, nominal)
 
 
 def nominal_plan(plan: Plan) -> Plan:
@@ -75,7 +71,8 @@ def nominal_plan(plan: Plan) -> Plan:
     *others, sample = plan.groups
     assert isinstance(sample, SampledGroup)
     values = [value_at(plan.base.scenario, key) for key in sample.keys]
-    row = tuple(ParameterValue(_text(value), value, "nominal") for value in values)
+    texts = (each.text if isinstance(each, Quantity) else str(getattr(each, "name", each)) for each in values)
+    row = tuple(ParameterValue(text, value, "nominal") for text, value in zip(texts, values, strict=True))
     return replace(plan, groups=(*others, ListedGroup(sample.keys, (row,))))
 
 
@@ -88,18 +85,9 @@ def _nominal_value(scenario: Scenario, key: str) -> Any:
     return value
 
 
-def _text(value: Any) -> str:
-    return value.text if isinstance(value, Quantity) else str(getattr(value, "name", value))
-
-
 def _shown(quantity: Quantity) -> str:
     number, _, unit = quantity.text.partition(" ")
     return f"{float(number):g} {unit}".rstrip()
-
-
-def _bounds(draw: ParameterDraw) -> tuple[Quantity, Quantity]:
-    low, high = (parse_quantity(str(bound), draw.kind) for bound in draw.distribution.bounds)
-    return low, high
 
 
 CONTROLLER: Final = "controller"
@@ -108,17 +96,7 @@ CONTROLLER: Final = "controller"
 
 def programs_of(plan: Plan) -> Iterator[ControllerProgram]:
     """Yield the program of each controller from outside, with the parameters that are written beside it."""
-    values = [value.content for group in plan.groups for value in _values(group, CONTROLLER)]
+    values = [value.content for value in values_of(plan, CONTROLLER)]
     for controller in values or [plan.base.scenario.controller]:
         if controller.program is not None:
             yield controller.program
-
-
-def _values(group: Group, key: str) -> Sequence[ParameterValue]:
-    """Return the values that a group lists for a key."""
-    if key not in group.keys:
-        return ()
-    place = group.keys.index(key)
-    return (
-        [row[place] for row in group.rows] if isinstance(group, ListedGroup) else group.draws[place].choices
-    )

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from uictest.plans.scenario import Case, Distribution, KDryRequest, Method, QuantileRequest, Scenario
+from uictest.plans.sweeps.base_case import SURVEY_STEP, TIME_STEP, with_values
 from uictest.plans.sweeps.column import Column, ParameterValue, drawn_column, listed_column
-from uictest.plans.sweeps.scenario_values import with_values
 
 if TYPE_CHECKING:
     import numpy as np
@@ -46,10 +46,12 @@ class ListedGroup:
 
     def labels(self, numbers: Numbers, short: dict[str, str]) -> list[str]:
         """Return the part of a case id for the rows of the given numbers."""
-        distinct, places = _distinct(numbers)
+        import numpy as np
+
+        distinct, places = np.unique(numbers, return_inverse=True)
         labels = [
             ",".join(f"{short[key]}={value.label}" for key, value in zip(self.keys, row, strict=True))
-            for row in (self.rows[k] for k in distinct)
+            for row in (self.rows[k] for k in distinct.tolist())
         ]
         return [labels[place] for place in places.tolist()]
 
@@ -143,9 +145,13 @@ class Plan:
 
     @cached_property
     def numeric_keys(self) -> tuple[str, ...]:
-        """The keys whose values are all numbers."""
+        """The keys whose values are all numbers, as drawn ones are, which are not listed."""
         choices = (values for group in self.groups for values in group.choices)
-        return tuple(key for key, values in zip(self.keys, choices, strict=True) if _is_numeric(values))
+        return tuple(
+            key
+            for key, values in zip(self.keys, choices, strict=True)
+            if all(isinstance(value.content, float | int) for value in values)
+        )
 
     def rows(self, indices: Numbers) -> list[Numbers]:
         """Return for each group which of its rows the cases with the given indices have."""
@@ -191,33 +197,23 @@ def random_sample(plan: Plan) -> SampledGroup | None:
     return last if isinstance(last, SampledGroup) and last.method == "random" else None
 
 
+def values_of(plan: Plan, key: str) -> tuple[ParameterValue, ...]:
+    """Return the values that a plan lists for a key; none where they are drawn, or do not vary."""
+    listed = (dict(zip(group.keys, group.choices, strict=True)) for group in plan.groups)
+    return next((values[key] for values in listed if key in values), ())
+
+
 def scenarios_with_each(plan: Plan, key: str) -> Iterator[Scenario]:
     """Yield the base's scenario with each value that sets what stands at `key`; itself where none does."""
     setting = [each for each in plan.keys if f"{key}.".startswith(f"{each}.")]
     for each in setting:
-        for value in _values(plan, each):
+        for value in values_of(plan, each):
             yield with_values(plan.base.scenario, {each: value.content})
     if not setting:
         yield plan.base.scenario
 
 
-def _values(plan: Plan, key: str) -> Iterator[ParameterValue]:
-    group = next(group for group in plan.groups if key in group.keys)
-    place = group.keys.index(key)
-    if isinstance(group, ListedGroup):
-        yield from (row[place] for row in group.rows)
-    else:
-        yield from group.draws[place].choices
-
-
-def _is_numeric(values: Sequence[ParameterValue]) -> bool:
-    """Return whether all values are numbers, as drawn ones are, which are not listed."""
-    return all(isinstance(value.content, float | int) for value in values)
-
-
-def _distinct(numbers: Numbers) -> tuple[list[int], Numbers]:
-    """Return the distinct numbers, and the place among them of each number."""
-    import numpy as np
-
-    distinct, places = np.unique(numbers, return_inverse=True)
-    return distinct.tolist(), places
+def in_survey_steps(plan: Plan) -> Plan:
+    """Return the plan whose cases are simulated in survey steps, whatever their time step is."""
+    scenario: Scenario = with_values(plan.base.scenario, {TIME_STEP: SURVEY_STEP})
+    return replace(plan, base=replace(plan.base, scenario=scenario))
