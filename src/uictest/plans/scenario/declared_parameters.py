@@ -19,7 +19,7 @@ from typing import Any, Final
 from uictest.controllers import Problem, installed_module, nothing_declared, parameter_problems
 from uictest.plans.scenario.files import Files
 from uictest.plans.scenario.parts.external_controller import DeclaredParameter, ExternalController
-from uictest.plans.scenario.program_files import UNPARSABLE, read_program, texts_beginning_with
+from uictest.plans.scenario.program_files import UNPARSABLE, assigned, read_program, texts_beginning_with
 from uictest.plans.scenario.yaml import (
     COMMAND_LINE,
     Diagnostic,
@@ -144,22 +144,14 @@ def _of_python(path: Path, content: bytes) -> Declared | None:
         statements = [statement for each in texts for statement in each.statements()]
     except UNPARSABLE:
         return None  # who imports it says why
-    value = next((each for each in map(_assigned, statements) if each is not None), None)
+    values = (assigned(NAME, each) for each in statements)
+    value = next((each for each in values if each is not None), None)
     if value is None:
         return {}
     document = Document(display_name(path), path.parent, content.decode("utf-8", "replace"))
     tree = _tree(value, document)
     declared: Declared = validated(dict[str, DeclaredParameter], plain(tree), tree, (NAME,))
     return declared
-
-
-def _assigned(statement: ast.stmt) -> ast.expr | None:
-    """Return the expression that a statement gives to PARAMETERS, if any."""
-    if not isinstance(statement, ast.Assign | ast.AnnAssign):
-        return None
-    targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
-    named = any(isinstance(target, ast.Name) and target.id == NAME for target in targets)
-    return statement.value if named else None
 
 
 def _tree(value: ast.expr, document: Document) -> Node:

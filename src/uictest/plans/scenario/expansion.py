@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import chain, product
+from itertools import product
 from math import prod
 from typing import Final
 
@@ -58,7 +58,13 @@ def expand_valid(tree: Map, diagnostics: list[Diagnostic]) -> list[Variant]:
     """
     matrix, zipped = _axes(tree, "matrix", diagnostics), _axes(tree, "zip", diagnostics)
     include, exclude = _listed(tree, "include", diagnostics), _listed(tree, "exclude", diagnostics)
-    diagnostics.extend(chain(_unequal(zipped), _in_both(matrix, zipped)))
+    diagnostics.extend(_unequal(zipped))
+    in_matrix = {axis[0].key for axis in matrix}
+    diagnostics.extend(
+        diagnose(axis[0].value.key, "the key is under matrix as well", f"zip.{axis[0].key}")
+        for axis in zipped
+        if axis[0].key in in_matrix
+    )
     too_many = list(_too_many(tree, matrix, zipped))
     if too_many:
         diagnostics.extend(too_many)
@@ -68,7 +74,8 @@ def expand_valid(tree: Map, diagnostics: list[Diagnostic]) -> list[Variant]:
     variants = _without_excluded(variants, exclude, swept, diagnostics)
     variants.extend(_included(include))
     if not variants and not diagnostics:
-        diagnostics.append(_no_case(tree))
+        entry = next(tree.entries[section] for section in reversed(EXPANSION_KEYS) if section in tree.entries)
+        diagnostics.append(diagnose(entry.key, "no case remains"))
     return variants
 
 
@@ -162,13 +169,6 @@ def _unequal(zipped: list[Axis]) -> Iterator[Diagnostic]:
             yield diagnose(axis[0].value.key, message, f"zip.{axis[0].key}", hint)
 
 
-def _in_both(matrix: list[Axis], zipped: list[Axis]) -> Iterator[Diagnostic]:
-    keys = {axis[0].key for axis in matrix}
-    for axis in zipped:
-        if axis[0].key in keys:
-            yield diagnose(axis[0].value.key, "the key is under matrix as well", f"zip.{axis[0].key}")
-
-
 def _too_many(tree: Map, matrix: list[Axis], zipped: list[Axis]) -> Iterator[Diagnostic]:
     count = prod(map(len, matrix)) * (len(zipped[0]) if zipped else 1)
     if count > MOST_CASES:
@@ -217,7 +217,8 @@ def _without_excluded(
         if keys not in by_keys:
             by_keys[keys] = _by_values(variants, keys)
         # Popped, so that a repeated exclusion matches no case.
-        matches = set(by_keys[keys].pop(_values_of_item(item), ())) - excluded
+        values = frozenset((key, _comparable(entry.node)) for key, entry in item.entries.items())
+        matches = set(by_keys[keys].pop(values, ())) - excluded
         if not matches and sound:
             diagnostics.append(diagnose(item.place, "no case has these values", "exclude"))
         excluded |= matches
@@ -237,16 +238,7 @@ def _by_values(variants: list[Variant], keys: frozenset[str]) -> _ByValues:
     return places
 
 
-def _values_of_item(item: Map) -> frozenset[tuple[str, object]]:
-    return frozenset((key, _comparable(entry.node)) for key, entry in item.entries.items())
-
-
 def _comparable(node: Node) -> object:
     if isinstance(node, Scalar) and not isinstance(node.value, str):
         return node.value
     return "".join(as_written(node).split())
-
-
-def _no_case(tree: Map) -> Diagnostic:
-    entry = next(tree.entries[section] for section in reversed(EXPANSION_KEYS) if section in tree.entries)
-    return diagnose(entry.key, "no case remains")

@@ -27,13 +27,25 @@ class SchemaGenerator(GenerateJsonSchema):
 
 
 def json_schema() -> dict[str, Any]:
-    """The schema of ``uictest/scenario/1``, every field described."""
+    """The schema of ``uictest/scenario/1``, every field described.
+
+    It allows what the loader fills in: parts by default, and everything that a parent may give.
+    """
     schema = _schema_2020_of(TypeAdapter(Scenario), "uictest scenario")
     vary = _schema_2020_of(TypeAdapter(Vary), "Vary")
     schema["definitions"] |= {**vary.pop("definitions"), "Vary": vary}
     described = schema["properties"]["vary"]["description"]
     schema["properties"]["vary"] = {"$ref": f"{_DEFINITIONS}Vary", "description": described}
-    _loosen(schema)
+    schema["required"] = ["schema", "name"]
+    schema["anyOf"] = [{"required": ["extends"]}, {"required": ["initial_speed"]}]
+    for section in ("Brake", "Rail", "Rig"):
+        schema["definitions"][section].pop("required", None)
+    for section in ("matrix", "zip"):
+        schema["properties"][section]["anyOf"][0] = {
+            "type": "object",
+            "minProperties": 1,
+            "additionalProperties": {"type": "array", "minItems": 1},
+        }
     draft: dict[str, Any] = as_draft_07(schema)
     return draft
 
@@ -53,20 +65,6 @@ def _schema_2020_of(adapter: TypeAdapter[Any], title: str) -> dict[str, Any]:
     schema = adapter.json_schema(ref_template=_DEFINITIONS + "{model}", schema_generator=SchemaGenerator)
     definitions = {**schema.pop("$defs", {}), **quantity_definitions(KINDS)}
     return {"$schema": SCHEMA_DRAFT, **schema, "title": title, "definitions": definitions}
-
-
-def _loosen(schema: dict[str, Any]) -> None:
-    """Allow what the loader fills in: parts by default, and everything that a parent may give."""
-    schema["required"] = ["schema", "name"]
-    schema["anyOf"] = [{"required": ["extends"]}, {"required": ["initial_speed"]}]
-    for section in ("Brake", "Rail", "Rig"):
-        schema["definitions"][section].pop("required", None)
-    for section in ("matrix", "zip"):
-        schema["properties"][section]["anyOf"][0] = {
-            "type": "object",
-            "minProperties": 1,
-            "additionalProperties": {"type": "array", "minItems": 1},
-        }
 
 
 def quantity_definitions(kinds: Iterable[str]) -> dict[str, Any]:
@@ -121,18 +119,15 @@ def part_schema(kind: str) -> dict[str, Any]:
     """
     schema: dict[str, Any] = schema_of_type(TypeAdapter(PART_MODELS[kind]), f"uictest {kind}")
     for described in _alternatives(schema):
-        described["properties"] = {**_keys_of_files(kind), **described["properties"]}
+        own = {"schema": {"const": f"uictest/{kind}/1"}, "extends": {"type": "string"}}
+        of_files = {key: {"description": _OF_FILES[key], **form} for key, form in own.items()}
+        described["properties"] = {**of_files, **described["properties"]}
         # A controller from outside may be named after its file.
         described["required"] = ["schema", *({"name"} & set(described.get("required", ())))]
     for definition in _merged(schema):
         definition.pop("required", None)
     schema["definitions"] = _used(schema)
     return schema
-
-
-def _keys_of_files(kind: str) -> dict[str, Any]:
-    own = {"schema": {"const": f"uictest/{kind}/1"}, "extends": {"type": "string"}}
-    return {key: {"description": _OF_FILES[key], **form} for key, form in own.items()}
 
 
 def _alternatives(schema: dict[str, Any]) -> Iterator[dict[str, Any]]:

@@ -1,6 +1,6 @@
 """From files to cases."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
@@ -25,7 +25,6 @@ from uictest.plans.scenario.yaml import (
     Document,
     Entry,
     Map,
-    Node,
     Override,
     Scalar,
     ScenarioErrors,
@@ -75,9 +74,9 @@ def load(
     parsed = parse_overrides(overrides, seed)
     loader = _Loader(Files(Roots.of(paths, trusted)), parsed)
     cases = [
-        case
+        loaded.case
         for path, tree in scenario_trees(paths, loader.files, loader.diagnostics)
-        for case in loader.cases(path, tree)
+        for loaded in loader.loaded(path, tree)
     ]
     if loader.diagnostics:
         raise ScenarioErrors(in_reading_order(loader.diagnostics))
@@ -135,13 +134,8 @@ class _Loader:
         self.diagnostics: list[Diagnostic] = []
         self.file_of_id: dict[str, _ScenarioFile] = {}
 
-    def cases(self, path: Path, tree: Map) -> Iterator[Case]:
-        """Yield the cases of one file, as far as they are without errors."""
-        for each in self.loaded(path, tree):
-            yield each.case
-
     def loaded(self, path: Path, tree: Map) -> Iterator[LoadedCase]:
-        """Yield the cases of one file with their trees."""
+        """Yield the cases of one file with their trees, as far as they are without errors."""
         file, variants = None, list[Variant]()
         with collecting(self.diagnostics, whole_file(path)):
             file, variants = self._read(path, tree)
@@ -207,7 +201,7 @@ class _Loader:
             scenario=scenario,
             path=Path(display_name(file.path)),
             parameters={setting.key: as_written(setting.value.node) for setting in variant},
-            inputs=_inputs((*file.documents, *documents)),
+            inputs={each.display: each.sha256 for each in (*file.documents, *documents) if each.sha256},
         )
         return LoadedCase(case, tree, file.vary)
 
@@ -249,20 +243,13 @@ def _duplicate_id(identifier: str, variant: Variant, first: Variant) -> Scenario
     setting, twin = others[0]
     message, key = f"a second case {quoted(identifier)}", ""
     if len(others) == 1 and setting.value.key == twin.value.key:  # both stand in the list of one key
-        message, key = _twice(setting.value.node, twin.value.node), setting.key
+        one, other = quoted(as_written(setting.value.node)), quoted(as_written(twin.value.node))
+        message = f"{one} appears twice" if one == other else f"{one} and {other} make the same case id"
+        key = setting.key
     hint = f"remove one; the first is in line {twin.value.node.place.line}"
     if key == CONTROLLER:
         hint += "; or give each a `name` or a `version` of its own"
     return single_error(setting.value.node.place, message, key, hint)
-
-
-def _twice(node: Node, twin: Node) -> str:
-    one, other = quoted(as_written(node)), quoted(as_written(twin))
-    return f"{one} appears twice" if one == other else f"{one} and {other} make the same case id"
-
-
-def _inputs(documents: Iterable[Document]) -> dict[str, str]:
-    return {each.display: each.sha256 for each in documents if each.sha256}
 
 
 def chosen_case(cases: Sequence[Case], case_id: str | None) -> Case:

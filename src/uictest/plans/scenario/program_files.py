@@ -93,6 +93,15 @@ def texts_beginning_with(name: str, content: bytes) -> Iterator[PythonText]:
             yield PythonText(text, content.count(b"\n", 0, found.start()))
 
 
+def assigned(name: str, statement: ast.stmt) -> ast.expr | None:
+    """Return the expression that a statement gives to a name, if any."""
+    if not isinstance(statement, ast.Assign | ast.AnnAssign):
+        return None
+    targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
+    named = any(isinstance(target, ast.Name) and target.id == name for target in targets)
+    return statement.value if named else None
+
+
 _FMU_DESCRIPTION: Final = "modelDescription.xml"
 _BEGINNING: Final = 65536
 """Bytes of an FMU's description that are read: its first element states the version."""
@@ -108,40 +117,26 @@ def stated_version(kind: str, content: bytes) -> str:
 
 
 def _of_python(content: bytes) -> str:
-    versions = map(_assigned_version, _version_statements(content))
-    return next((text for text in versions if text is not None), "")
-
-
-def _version_statements(content: bytes) -> Iterator[ast.stmt]:
-    for each in texts_beginning_with("__version__", content):
+    for text in texts_beginning_with("__version__", content):
         with suppress(*UNPARSABLE):
-            yield from each.statements()
-
-
-def _assigned_version(statement: ast.stmt) -> str | None:
-    if not isinstance(statement, ast.Assign | ast.AnnAssign) or not isinstance(statement.value, ast.Constant):
-        return None
-    targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
-    names = [target.id for target in targets if isinstance(target, ast.Name)]
-    text = statement.value.value
-    return text if "__version__" in names and isinstance(text, str) else None
+            for statement in text.statements():
+                value = assigned("__version__", statement)
+                if isinstance(value, ast.Constant) and isinstance(value.value, str):
+                    return value.value
+    return ""
 
 
 def _of_fmu(content: bytes) -> str:
+    from xml.etree.ElementTree import XMLPullParser
+
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive, archive.open(_FMU_DESCRIPTION) as file:
-            return _attribute_of_first_element(file.read(_BEGINNING), "version")
+            parser: Any = XMLPullParser(["start"])
+            parser.feed(file.read(_BEGINNING))
+            first = next(iter(parser.read_events()), None)
+            return "" if first is None else str(first[1].get("version", ""))
     except Exception:  # a library that meets a damaged file may raise anything; who loads the FMU says so
         return ""
-
-
-def _attribute_of_first_element(xml: bytes, name: str) -> str:
-    from xml.etree import ElementTree
-
-    parser: Any = ElementTree.XMLPullParser(["start"])
-    parser.feed(xml)
-    first = next(iter(parser.read_events()), None)
-    return "" if first is None else str(first[1].get(name, ""))
 
 
 _READERS: Final[Mapping[str, Callable[[bytes], str]]] = MappingProxyType(
@@ -168,21 +163,19 @@ def program_files(controller: Map, files: Files, key: str) -> dict[str, ProgramF
 
     Raises ScenarioErrors for one that is missing, cannot be read, or lies outside the roots.
     """
-    return dict(_found(controller, files, f"{key}." if key else ""))
-
-
-def _found(controller: Map, files: Files, above: str) -> Iterator[tuple[str, ProgramFile]]:
-    for key in PROGRAM_FILES:
-        node = controller.get(key)
+    programs: dict[str, ProgramFile] = {}
+    for kind in PROGRAM_FILES:
+        node = controller.get(kind)
         if isinstance(node, Scalar) and isinstance(node.value, str):
-            yield key, _program_file(node, files, above, key)
+            programs[kind] = _program_file(node, files, f"{key}.{kind}" if key else kind, kind)
+    return programs
 
 
-def _program_file(node: Scalar, files: Files, above: str, kind: str) -> ProgramFile:
-    path = files.path_of(node, f"{above}{kind}")
+def _program_file(node: Scalar, files: Files, key: str, kind: str) -> ProgramFile:
+    path = files.path_of(node, key)
     if not is_file(path):
         hint = nearest_file(path, "build it first, or mend the path: it starts at the folder of this file")
-        raise single_error(node.place, f"no such file: {quoted(node.text)}", f"{above}{kind}", hint)
+        raise single_error(node.place, f"no such file: {quoted(node.text)}", key, hint)
     try:
         document, version, _ = read_program(files, kind, path)
     except OSError as error:

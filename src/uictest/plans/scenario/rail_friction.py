@@ -1,6 +1,7 @@
 """Detects a changed rail condition beside an unchanged rail.friction, which would silently override it."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from typing import Final
 
 from uictest.plans.scenario.expansion import EXPANSION_KEYS
@@ -38,7 +39,8 @@ def changed_alone(before: Map, after: Map) -> Iterator[Diagnostic]:
     A friction of the command line is meant for every case.
     """
     friction = _at(after, "rail", "friction")
-    if friction is _at(before, "rail", "friction") and not _of_command_line(friction):
+    of_command_line = friction is not None and friction.place.document.display == COMMAND_LINE
+    if friction is _at(before, "rail", "friction") and not of_command_line:
         yield from _conflict(before, after, friction)
 
 
@@ -48,18 +50,14 @@ def overridden_alone(
     """Yield the overrides of the condition that leave a friction of the file in force, swept or not."""
     if any(sets_friction(override.key) for override in overrides):
         return
-    friction = next(_swept_friction(tree), _at(tree, "rail", "friction"))
+    swept = (each for section in EXPANSION_KEYS[:-1] for each in _frictions(tree.get(section)))
+    friction = next(swept, _at(tree, "rail", "friction"))
     for override in overrides:
         if override.key.startswith(CONDITION):
             for value in override.values:
-                yield from _conflict(tree, _assigned(tree, override, value, part_keys), friction)
-
-
-def _assigned(tree: Map, override: Override, value: Node, part_keys: frozenset[str]) -> Map:
-    try:
-        return with_value(tree, override.key, Entry(override.place, value), part_keys)
-    except ScenarioErrors:
-        return tree  # reported where it is applied
+                with suppress(ScenarioErrors):  # reported where it is applied
+                    changed = with_value(tree, override.key, Entry(override.place, value), part_keys)
+                    yield from _conflict(tree, changed, friction)
 
 
 def _conflict(before: Map, after: Map, friction: Node | None) -> Iterator[Diagnostic]:
@@ -90,11 +88,6 @@ def _text(node: Node | None) -> str:
     return "" if node is None else as_written(node)
 
 
-def _swept_friction(tree: Map) -> Iterator[Node]:
-    for section in EXPANSION_KEYS[:-1]:
-        yield from _frictions(tree.get(section))
-
-
 def _frictions(section: Node | None) -> Iterable[Node]:
     if isinstance(section, List):
         return (friction for item in section.items for friction in _frictions(item))
@@ -107,7 +100,3 @@ def _at(node: Node | None, *key: str) -> Node | None:
     for element in key:
         node = node.get(element) if isinstance(node, Map) else None
     return node
-
-
-def _of_command_line(node: Node | None) -> bool:
-    return node is not None and node.place.document.display == COMMAND_LINE

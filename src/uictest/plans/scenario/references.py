@@ -62,7 +62,9 @@ class Parts:
         """The part of type ``model`` that ``node`` at ``key`` stands for. Raises ScenarioErrors."""
         full_key = dotted(key)
         if isinstance(node, Map):
-            return self._resolve_inline(node, model, key)
+            if id(node) not in self._inline:
+                self._inline[id(node)] = (node, self._built(node, model, key, full_key))
+            return self._inline[id(node)][1]
         if not isinstance(node, Scalar) or not isinstance(node.value, str):
             message = f"expected a library name, a relative path or a mapping, found {describe(node)}"
             raise single_error(node.place, message, full_key)
@@ -73,11 +75,6 @@ class Parts:
         if name not in known:
             known[name] = self._built(self._fetch(node, model, full_key), model, (), full_key)
         return known[name]
-
-    def _resolve_inline(self, node: Map, model: Any, key: Key) -> ResolvedPart:
-        if id(node) not in self._inline:
-            self._inline[id(node)] = (node, self._built(node, model, key, dotted(key)))
-        return self._inline[id(node)][1]
 
     def _built(self, tree: Map, model: Any, key: Key, full_key: str) -> ResolvedPart:
         generations = [tree]
@@ -130,11 +127,12 @@ class Parts:
         folder = folder_of(model)
         if is_path(reference.text):
             tree = self.files.beside(reference, full_key)
-        elif _is_registered(reference.text, folder):
+        elif reference.text in library.names(folder):
+            tree = self.files.in_library(folder, reference.text)
+        elif folder == _CONTROLLERS and reference.text in installed_names():
             return _registered(reference)
         else:
-            _require_known_name(reference, folder, full_key)
-            tree = self.files.in_library(folder, reference.text)
+            raise _unknown_name(reference, folder, full_key)
         require_schema(tree, f"uictest/{library.FOLDERS[folder]}/1")
         return tree
 
@@ -150,11 +148,6 @@ def is_path(reference: str) -> bool:
     return reference.endswith((".yaml", ".yml"))
 
 
-def _is_registered(name: str, folder: str) -> bool:
-    """Return whether a name that is not in the library is that of an installed package's controller."""
-    return folder == _CONTROLLERS and name not in library.names(folder) and name in installed_names()
-
-
 def _registered(reference: Scalar) -> Map:
     """Return the controller of an installed package as a part; the package is not imported."""
     name = reference.text
@@ -163,21 +156,15 @@ def _registered(reference: Scalar) -> Map:
     return Map({key: Entry(place, Scalar(text, text, place)) for key, text in texts.items()}, place)
 
 
-def _require_known_name(reference: Scalar, folder: str, full_key: str) -> None:
-    if reference.text in library.names(folder):
-        return
+def _unknown_name(reference: Scalar, folder: str, full_key: str) -> ScenarioErrors:
     installed = installed_names() if folder == _CONTROLLERS else ()
     hint = suggestion(reference.text, (*library.names(folder), *installed))
     if folder == _CONTROLLERS and (mapping := mapping_for(reference.text)):
         hint = f"write `{mapping}`"
     elif "/" in reference.text or "\\" in reference.text:
         hint = "a path ends in .yaml; " + hint
-    raise single_error(
-        reference.place,
-        f"no {library.FOLDERS[folder]} {quoted(reference.text)} in the library",
-        full_key,
-        hint,
-    )
+    message = f"no {library.FOLDERS[folder]} {quoted(reference.text)} in the library"
+    return single_error(reference.place, message, full_key, hint)
 
 
 def _reject_changed_sources(parent: Map, merged: Map) -> None:

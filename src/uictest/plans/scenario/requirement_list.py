@@ -11,7 +11,6 @@ from uictest.plans.scenario.parts.measures import REQUIREMENT_PATTERN
 from uictest.plans.scenario.yaml import (
     Document,
     Map,
-    Node,
     Place,
     Scalar,
     ScenarioErrors,
@@ -90,15 +89,11 @@ def _yaml_ids(document: Document) -> _Ids:
     if not isinstance(root, Sequence):
         raise single_error(root.place, f"expected a list of ids, found {describe(root)}")
     for item in root.items:
-        yield _yaml_id(item)
-
-
-def _yaml_id(item: Node) -> tuple[str, Place]:
-    node = item.get(_COLUMN) if isinstance(item, Map) else item
-    if not isinstance(node, Scalar):
-        expected = f"expected an id, or a mapping with the key {quoted(_COLUMN)}"
-        raise single_error(item.place, f"{expected}, found {describe(item)}")
-    return node.text, node.place
+        node = item.get(_COLUMN) if isinstance(item, Map) else item
+        if not isinstance(node, Scalar):
+            expected = f"expected an id, or a mapping with the key {quoted(_COLUMN)}"
+            raise single_error(item.place, f"{expected}, found {describe(item)}")
+        yield node.text, node.place
 
 
 _NUMBERS = re.compile(r"([0-9]+)")
