@@ -70,15 +70,13 @@ from .parts.compensation import (
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion
 from .parts.external_controller import ExternalController as ExternalController
 from .parts.fault import Fault as Fault
-from .parts.measures import (
-    MeasureDefinitions as MeasureDefinitions,
-    RequirementId as RequirementId,
-    RequirementIds as RequirementIds,
-    ShareOfStops as ShareOfStops,
-)
+from .parts.measures import MeasureDefinitions as MeasureDefinitions
 from .parts.named_file import (
     DescribedFile as DescribedFile,
     NamedFile as NamedFile,
+    RequirementId as RequirementId,
+    RequirementIds as RequirementIds,
+    ShareOfStops as ShareOfStops,
     Slug as Slug,
     TestFile as TestFile,
 )

@@ -32,13 +32,8 @@ from uictest.plans.scenario.parts.compensation import COMPENSATION_SETTINGS
 from uictest.plans.scenario.parts.controller import Controller
 from uictest.plans.scenario.parts.criteria import Criteria
 from uictest.plans.scenario.parts.fault import Fault
-from uictest.plans.scenario.parts.measures import (
-    MeasureDefinitions,
-    OutcomeOfRepeats,
-    Repeat,
-    seeds_too_large,
-)
-from uictest.plans.scenario.parts.named_file import TestFile
+from uictest.plans.scenario.parts.measures import MeasureDefinitions
+from uictest.plans.scenario.parts.named_file import OutcomeOfRepeats, Repeat, TestFile, seeds_too_large
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, distinct_values, wheelset_value
 from uictest.plans.scenario.sections import Brake, Rail, Rig, Simulation
@@ -189,10 +184,12 @@ class Scenario(TestFile):
         if position is None:
             return  # reported by the brake itself
         pressure = self.brake.command * position.maximum_pressure
+        wheelsets = [
+            BrakedWheelset(*(wheelset_value(self, number, name) for name in BrakedWheelset._fields))
+            for number in WHEELSET_NUMBERS
+        ]
         force = largest_clamping_force(self.rig.caliper, self.rig.compensation_model, pressure)
-        braking = self.brake.pad.largest_factor * braking_force(
-            self.brake.system.disc, self._wheelsets(), force
-        )
+        braking = self.brake.pad.largest_factor * braking_force(self.brake.system.disc, wheelsets, force)
         deceleration = braking / self.vehicle.total_mass
         if deceleration > STANDARD_GRAVITY:
             yield Inconsistency(
@@ -202,10 +199,6 @@ class Scenario(TestFile):
                 "compare disc, pad, caliper, compensation_model and maximum_pressure with the mass of the"
                 " vehicle",
             )
-
-    def _wheelsets(self) -> Iterator[BrakedWheelset]:
-        for number in WHEELSET_NUMBERS:
-            yield BrakedWheelset(*(wheelset_value(self, number, name) for name in BrakedWheelset._fields))
 
     def _criteria_of_the_same_name(self) -> Iterator[Inconsistency]:
         """Yield criteria whose id another profile uses as well: their verdicts could not be distinguished."""

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from uictest.plans.scenario.model import Scenario
-from uictest.plans.scenario.parts.measures import REQUIREMENT_PATTERN
+from uictest.plans.scenario.parts.named_file import REQUIREMENT_PATTERN
 from uictest.plans.scenario.yaml import (
     Document,
     Map,

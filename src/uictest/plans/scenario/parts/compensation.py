@@ -84,18 +84,14 @@ class FourPhaseHysteresis(Section):
             ("wsp_squeezing", self.wsp_squeezing, "wsp_releasing", self.wsp_releasing),
         )
         for squeezing_key, squeezing, releasing_key, releasing in pairs:
-            if _crosses(squeezing, releasing):
+            # Both are straight where positive: the order at the lower one's first force and at the end decides.
+            start = max(0.0, -squeezing.intercept / squeezing.slope)
+            if any(squeezing.force(at) > releasing.force(at) for at in (start, HIGHEST_PRESSURE)):
                 yield Inconsistency(
                     (squeezing_key,),
                     "the squeezing line must lie below the releasing line wherever there is force",
                     f"compare its slope and intercept with {releasing_key}",
                 )
-
-
-def _crosses(squeezing: ForceLine, releasing: ForceLine) -> bool:
-    # Both are straight where positive: the order at the first force of the lower line and at the end decides.
-    start = max(0.0, -squeezing.intercept / squeezing.slope)
-    return any(squeezing.force(at) > releasing.force(at) for at in (start, HIGHEST_PRESSURE))
 
 
 class CylinderDynamics(Section):

@@ -7,7 +7,7 @@ from pydantic import Field
 
 from uictest.core.measures import MEASURES, Course, Measure
 from uictest.core.series_measures import SERIES_MEASURES, SeriesMeasure
-from uictest.plans.scenario.parts.bounded_measure import (
+from uictest.plans.scenario.parts.measures import (
     MEASURES_OF,
     WITH_DRY_VALUE,
     Bound,
@@ -15,7 +15,7 @@ from uictest.plans.scenario.parts.bounded_measure import (
     MeasureName,
     Scope,
 )
-from uictest.plans.scenario.parts.measures import RequirementIds, repeated_requirements
+from uictest.plans.scenario.parts.named_file import RequirementIds, repeated_requirements
 from uictest.plans.scenario.parts.reading import (
     ID,
     Applicability,
@@ -198,23 +198,16 @@ class Criterion(Model):
             which = f"a criterion of {self.layer} cannot refer to the dry stop"
             message = f"{which}: which stops count decides that one"
             yield Inconsistency(("layer",), message, "write `layer: requirement`")
-        if not self._of_single_stops():
-            yield Inconsistency(
-                (shares[0],),
-                f"{quoted(self.measure)} has no value of the dry stop to refer to",
-                self._measures_with_dry_value(),
-            )
-
-    def _of_single_stops(self) -> bool:
-        """Return whether the measure is one number of each stop, which results report."""
+        # A dry value is one number of each stop, which results report.
         if self.scope == "series":
-            return SERIES_MEASURES[self.measure].figure is not None
-        return self.measure in WITH_DRY_VALUE
-
-    def _measures_with_dry_value(self) -> str:
-        if self.scope == "stop":
-            return f"measures that have one: {', '.join(WITH_DRY_VALUE)}"
-        return "medians and worst values of single stops have one, such as `median_braking_distance`"
+            has_dry_value = SERIES_MEASURES[self.measure].figure is not None
+            hint = "medians and worst values of single stops have one, such as `median_braking_distance`"
+        else:
+            has_dry_value = self.measure in WITH_DRY_VALUE
+            hint = f"measures that have one: {', '.join(WITH_DRY_VALUE)}"
+        if not has_dry_value:
+            message = f"{quoted(self.measure)} has no value of the dry stop to refer to"
+            yield Inconsistency((shares[0],), message, hint)
 
     def _series_problems(self) -> Iterator[Inconsistency]:
         """Yield what says something of a stop in a criterion of a series."""

@@ -170,11 +170,6 @@ class ExternalController(ControllerPart):
         """What only this kind has."""
         return {}
 
-    @property
-    def _knowledge(self) -> str:
-        """What is known of its parameters: any are accepted, they are declared, or it is asked in a run."""
-        return "free" if self.free_parameters else "declared" if self.declared_parameters else "asked"
-
     @classmethod
     def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         """Require what names the program, but for a mapping that extends another one."""
@@ -187,12 +182,14 @@ class ExternalController(ControllerPart):
     def program(self) -> ControllerProgram:
         """What is loaded."""
         value = getattr(self, self.kind)
+        # What is known of its parameters: any are accepted, they are declared, or it is asked in a run.
+        knowledge = "free" if self.free_parameters else "declared" if self.declared_parameters else "asked"
         return ControllerProgram(
             kind=self.kind,
             location=getattr(value, "location", "") or str(value),
             sha256=getattr(value, "sha256", ""),
             parameters=json.dumps(self.parameters),
-            options={**self.options, "parameters": self._knowledge},
+            options={**self.options, "parameters": knowledge},
             time_limit=float(self.time_limit),
         )
 

@@ -14,14 +14,13 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from uictest.core.units import KINDS
-from uictest.plans.faults import FAULT_KINDS, PARTS, Effects, FaultKind, FaultValue
+from uictest.plans.faults import FAULT_KINDS, PARTS, Effects, FaultKind
 from uictest.plans.scenario.yaml import (
     QUANTITY_KEYWORD,
     Inconsistency,
     Model,
     Quantity,
     QuantityError,
-    QuantityField,
     of_kind,
     parse_quantity,
     quoted,
@@ -106,11 +105,8 @@ def _of_the_kind(value: object, info: ValidationInfo) -> object:
             "hint": "leave `value` out",
         }
         raise PydanticCustomError("fault_value", "{message}", context)
-    return _field(declared.value).validate(value)
-
-
-def _field(value: FaultValue) -> QuantityField:
-    return of_kind(value.kind, at_least=value.at_least, at_most=value.at_most)
+    takes = declared.value
+    return of_kind(takes.kind, at_least=takes.at_least, at_most=takes.at_most).validate(value)
 
 
 Value = Annotated[

@@ -1,12 +1,28 @@
-"""Definitions of the measures, repeats of a stop, ids of requirements."""
+"""Definitions of the measures, the measure of a criterion and its bounds, also as shares of the dry stop."""
 
-from collections.abc import Iterator, Sequence
-from typing import Annotated, ClassVar, Final, Literal
+import re
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Final, Literal
 
-from pydantic import BeforeValidator, Discriminator, Field, Tag
+from pydantic import AfterValidator, Field, PlainSerializer, PlainValidator, ValidationInfo, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
-from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, default, of_kind, quoted
+from uictest.core.measures import MEASURES, Measure
+from uictest.core.series_measures import SERIES_MEASURES, SeriesMeasure
+from uictest.core.units import KINDS
+from uictest.plans.scenario.yaml import (
+    Inconsistency,
+    Part,
+    Quantity,
+    QuantityError,
+    QuantityField,
+    default,
+    of_kind,
+    parse_quantity,
+    quoted,
+    suggestion,
+    written,
+)
 
 Speed = Annotated[Quantity, of_kind("speed", at_least="0.001 km/h", at_most="100 km/h")]
 
@@ -58,75 +74,108 @@ class MeasureDefinitions(Part):
             )
 
 
-MOST_REPEATS: Final = 1000
-LARGEST_SEED: Final = 2**32 - 1
-_WORDS: Final = ("all", "median")
+_MENTION: Final = re.compile(r"(?i)\bdry\b")
+_WRITTEN: Final = re.compile(r"(?P<share>.*\S)\s+of\s+the\s+dry\s+stop\s*", re.DOTALL)
+_EXAMPLE: Final = "write such as `125 % of the dry stop`"
 
 
-Repeat = Annotated[
-    int,
-    Field(
-        ge=1,
-        le=MOST_REPEATS,
-        strict=True,
-        description="How many times the stop is run: under this seed and those that follow it.",
-    ),
+class DryBound(Quantity):
+    """A share (1 = 100 %) of the same figure of the dry stop, the mean over the dry stops of that speed."""
+
+    __slots__ = ()
+
+
+def is_dry_bound(value: object) -> bool:
+    """Return whether what a file gives as a bound is meant as a share of the dry stop."""
+    if isinstance(value, dict):
+        value = value.get("value")
+    return isinstance(value, DryBound) or (isinstance(value, str) and bool(_MENTION.search(value)))
+
+
+def dry_bound(value: Any) -> DryBound:
+    """Return the bound. Raises PydanticCustomError with a hint where it is written in another way."""
+    if isinstance(value, DryBound):
+        return value
+    if isinstance(value, dict):
+        return _marked(value)
+    match = _WRITTEN.fullmatch(str(value))
+    if match is None:
+        raise _error(f"{quoted(str(value))} is no share of the dry stop", _EXAMPLE)
+    try:
+        share = parse_quantity(match["share"], "share")
+    except QuantityError as error:
+        raise _error(error.message, f"{error.hint}; {_EXAMPLE}" if error.hint else _EXAMPLE) from None
+    if share <= 0.0:
+        raise _error(f"a bound of {quoted(str(value))} is not above zero", _EXAMPLE)
+    return DryBound(float(share), " ".join(str(value).split()), share.unit)
+
+
+def _marked(value: dict[str, Any]) -> DryBound:
+    source = value.get("source")
+    if set(value) != {"value", "source"} or not isinstance(source, str):
+        raise _error("expected a share of the dry stop, found a mapping", "give it a 'value' and a 'source'")
+    bare = dry_bound(value["value"])
+    return DryBound(float(bare), bare.text, bare.unit, source)
+
+
+def _error(message: str, hint: str) -> PydanticCustomError:
+    return PydanticCustomError("quantity", "{message}", {"message": message, "hint": hint})
+
+
+WITH_DRY_VALUE: Final = tuple(
+    name for name, measure in MEASURES.items() if measure.column and not measure.of_wheelsets
+)
+"""Measures of stops that are one number in results, so that a wet stop has a dry one to refer to."""
+
+
+Scope = Literal["stop", "series"]
+MEASURES_OF: Final[Mapping[Scope, Mapping[str, Measure | SeriesMeasure]]] = {
+    "stop": MEASURES,
+    "series": SERIES_MEASURES,
+}
+
+
+def _known_measure(name: str, info: ValidationInfo) -> str:
+    scope: Scope = info.data.get("scope", "stop")
+    if name not in MEASURES_OF[scope]:
+        raise PydanticCustomError("measure", "{message}", _unknown_measure(name, scope))
+    return name
+
+
+def _unknown_measure(name: str, scope: Scope) -> dict[str, Any]:
+    other: Scope = "series" if scope == "stop" else "stop"
+    if name in MEASURES_OF[other]:
+        message = f"{quoted(name)} is a measure of a {other}, not of a {scope}"
+        return {"message": message, "hint": f"write `scope: {other}`"}
+    hint = suggestion(name, MEASURES_OF[scope])
+    return {"message": f"unknown measure {quoted(name)}", "hint": hint}
+
+
+def _of_the_measure(bound: object, info: ValidationInfo) -> object:
+    if is_dry_bound(bound):
+        return dry_bound(bound)
+    # Without a valid measure its kind is not known; the model is rejected for that already.
+    measure = MEASURES_OF[info.data.get("scope", "stop")].get(info.data.get("measure", ""))
+    return bound if measure is None else QuantityField(KINDS[measure.kind]).validate(bound)
+
+
+MeasureName = Annotated[
+    str,
+    AfterValidator(_known_measure),
+    WithJsonSchema({"type": "string", "enum": sorted({*MEASURES, *SERIES_MEASURES})}),
 ]
-"""The number of stops of a case."""
 
-
-class ShareOfStops(Model):
-    """A share of the stops that must come out as expected."""
-
-    at_least: Annotated[Quantity, of_kind("share", above="0 %", at_most="100 %")] = Field(
-        description="Least share of the stops that must come out as expected."
-    )
-
-
-def _form(value: object) -> str:
-    return "share" if isinstance(value, dict | ShareOfStops) else "word"
-
-
-def _known(word: object) -> object:
-    if isinstance(word, str) and word not in _WORDS:
-        message = f"unknown value {quoted(word)}, expected one of {', '.join(_WORDS)}"
-        context = {"message": message, "hint": "write {at_least: 90 %} for a share of the stops"}
-        raise PydanticCustomError("outcome_of_repeats", "{message}", context)
-    return word
-
-
-OutcomeOfRepeats = Annotated[
-    Annotated[Literal["all", "median"], BeforeValidator(_known), Tag("word")]
-    | Annotated[ShareOfStops, Tag("share")],
-    Discriminator(_form),
-    Field(
-        description="What must come out as expected: all stops, the median of each criterion's value, or a"
-        " share of the stops, as in `{at_least: 90 %}`."
-    ),
+StopMeasureName = Annotated[
+    str,
+    AfterValidator(_known_measure),
+    WithJsonSchema({"type": "string", "enum": sorted(MEASURES)}),
 ]
-"""`all` stops, the `median` of each criterion's value, or a share of the stops."""
+"""A measure of stops: of a model without a scope."""
 
-
-def seeds_too_large(seed: int, repeat: int) -> Iterator[Inconsistency]:
-    """Yield repeats whose last seed is beyond the largest one."""
-    last = seed + repeat - 1
-    if last > LARGEST_SEED:
-        yield Inconsistency(
-            ("repeat",),
-            f"{repeat} stops from seed {seed} end with seed {last}; the largest is {LARGEST_SEED}",
-            f"take a seed of at most {LARGEST_SEED - repeat + 1}",
-        )
-
-
-REQUIREMENT_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._:/-]{0,99}$"
-"""No blank, comma or semicolon: those separate ids in lists."""
-
-RequirementId = Annotated[str, Field(pattern=REQUIREMENT_PATTERN)]
-RequirementIds = Annotated[tuple[RequirementId, ...], Field(max_length=100)]
-
-
-def repeated_requirements(requirements: Sequence[str]) -> Iterator[Inconsistency]:
-    """Yield every id that a list under the key `requirements` names a second time."""
-    for index, requirement in enumerate(requirements):
-        if requirement in requirements[:index]:
-            yield Inconsistency(("requirements", index), f"{quoted(requirement)} appears twice", "remove one")
+Bound = Annotated[
+    Quantity,
+    PlainValidator(_of_the_measure),
+    PlainSerializer(written),
+    WithJsonSchema({"type": ["string", "number", "object"]}),
+]
+"""A quantity of whatever kind the measure of the criterion is, or a share of the dry stop."""

@@ -1,12 +1,26 @@
-"""What files of scenarios, series, sweeps and validations have alike: their name, and what they are for."""
+"""What files of scenarios, series, sweeps and validations have alike: name, requirements, repeats."""
 
-from collections.abc import Iterator
-from typing import Annotated
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Final, Literal
 
-from pydantic import Field
+from pydantic import BeforeValidator, Discriminator, Field, Tag
+from pydantic_core import PydanticCustomError
 
-from uictest.plans.scenario.parts.measures import RequirementId, RequirementIds, repeated_requirements
-from uictest.plans.scenario.yaml import Inconsistency, Model
+from uictest.plans.scenario.yaml import Inconsistency, Model, Quantity, of_kind, quoted
+
+REQUIREMENT_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._:/-]{0,99}$"
+"""No blank, comma or semicolon: those separate ids in lists."""
+
+RequirementId = Annotated[str, Field(pattern=REQUIREMENT_PATTERN)]
+RequirementIds = Annotated[tuple[RequirementId, ...], Field(max_length=100)]
+
+
+def repeated_requirements(requirements: Sequence[str]) -> Iterator[Inconsistency]:
+    """Yield every id that a list under the key `requirements` names a second time."""
+    for index, requirement in enumerate(requirements):
+        if requirement in requirements[:index]:
+            yield Inconsistency(("requirements", index), f"{quoted(requirement)} appears twice", "remove one")
+
 
 Slug = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$")]
 
@@ -47,3 +61,63 @@ class TestFile(DescribedFile):
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield requirements named twice."""
         yield from repeated_requirements(self.requirements)
+
+
+MOST_REPEATS: Final = 1000
+LARGEST_SEED: Final = 2**32 - 1
+_WORDS: Final = ("all", "median")
+
+
+Repeat = Annotated[
+    int,
+    Field(
+        ge=1,
+        le=MOST_REPEATS,
+        strict=True,
+        description="How many times the stop is run: under this seed and those that follow it.",
+    ),
+]
+"""The number of stops of a case."""
+
+
+class ShareOfStops(Model):
+    """A share of the stops that must come out as expected."""
+
+    at_least: Annotated[Quantity, of_kind("share", above="0 %", at_most="100 %")] = Field(
+        description="Least share of the stops that must come out as expected."
+    )
+
+
+def _form(value: object) -> str:
+    return "share" if isinstance(value, dict | ShareOfStops) else "word"
+
+
+def _known(word: object) -> object:
+    if isinstance(word, str) and word not in _WORDS:
+        message = f"unknown value {quoted(word)}, expected one of {', '.join(_WORDS)}"
+        context = {"message": message, "hint": "write {at_least: 90 %} for a share of the stops"}
+        raise PydanticCustomError("outcome_of_repeats", "{message}", context)
+    return word
+
+
+OutcomeOfRepeats = Annotated[
+    Annotated[Literal["all", "median"], BeforeValidator(_known), Tag("word")]
+    | Annotated[ShareOfStops, Tag("share")],
+    Discriminator(_form),
+    Field(
+        description="What must come out as expected: all stops, the median of each criterion's value, or a"
+        " share of the stops, as in `{at_least: 90 %}`."
+    ),
+]
+"""`all` stops, the `median` of each criterion's value, or a share of the stops."""
+
+
+def seeds_too_large(seed: int, repeat: int) -> Iterator[Inconsistency]:
+    """Yield repeats whose last seed is beyond the largest one."""
+    last = seed + repeat - 1
+    if last > LARGEST_SEED:
+        yield Inconsistency(
+            ("repeat",),
+            f"{repeat} stops from seed {seed} end with seed {last}; the largest is {LARGEST_SEED}",
+            f"take a seed of at most {LARGEST_SEED - repeat + 1}",
+        )

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from uictest.core.identity_cache import once_per_object
 from uictest.core.measures import MEASURES, SLIDE_CLASS, SLOW_SHARE_CLASS
 from uictest.core.units import in_unit
-from uictest.plans.scenario.parts.bounded_measure import StopMeasureName
+from uictest.plans.scenario.parts.measures import StopMeasureName
 from uictest.plans.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Quantity, of_kind, quoted
 
 _Duration = Annotated[Quantity, of_kind("time", above="0 s", at_most="10 s")]

@@ -241,12 +241,12 @@ def _members(models: list[Any], tag: str | int) -> list[Any]:
     return [
         each
         for each in models
-        if each.tag == tag or any(_is_literal(field.annotation, tag) for field in each.model_fields.values())
+        if each.tag == tag
+        or any(
+            get_origin(field.annotation) is Literal and get_args(field.annotation) == (tag,)
+            for field in each.model_fields.values()
+        )
     ]
-
-
-def _is_literal(annotation: Any, value: object) -> bool:
-    return get_origin(annotation) is Literal and get_args(annotation) == (value,)
 
 
 def models_in(annotation: Any) -> list[Any]:

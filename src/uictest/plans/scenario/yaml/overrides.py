@@ -54,7 +54,7 @@ def _assigned(tree: Map, elements: list[str], value: Entry, above: str, part_key
     if not rest:
         return tree.with_entry(first, value)
     key, node = f"{above}{first}", tree.get(first)
-    place = _key_place(tree, first, value)
+    place = tree.entries[first].key if first in tree.entries else value.key
     if isinstance(node, List):
         return tree.with_entry(first, Entry(place, _assigned_in(node, rest, value, key, part_keys)))
     inner = _mapping(node, key, value.key, part_keys)
@@ -79,11 +79,6 @@ def _assigned_in(
     else:
         node = value.node
     return List((*listed.items[:number], node, *listed.items[number + 1 :]), listed.place)
-
-
-def _key_place(tree: Map, name: str, value: Entry) -> Place:
-    entry = tree.entries.get(name)
-    return value.key if entry is None else entry.key
 
 
 def _mapping(node: Node | None, key: str, place: Place, part_keys: frozenset[str]) -> Map:

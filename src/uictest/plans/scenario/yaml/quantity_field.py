@@ -41,7 +41,8 @@ class QuantityField:
         try:
             return self._within(self._read(value))
         except QuantityError as error:
-            raise PydanticCustomError("quantity", "{message}", _context(error)) from None
+            context = {"message": error.message, "hint": error.hint}
+            raise PydanticCustomError("quantity", "{message}", context) from None
 
     def _read(self, value: object) -> Quantity:
         if isinstance(value, Quantity):
@@ -75,8 +76,9 @@ class QuantityField:
             raise QuantityError(f"{quoted(value.text)} is not a whole number")
         for words, bound, keeps in self._bounds():
             if not keeps(value, bound):
+                accepted = " and ".join(f"{words} {bound.text}" for words, bound, _ in self._bounds())
                 raise QuantityError(
-                    f"{value.text} is out of range: it must be {words} {bound.text}", self._range()
+                    f"{value.text} is out of range: it must be {words} {bound.text}", f"accepted: {accepted}"
                 )
         return value
 
@@ -91,9 +93,6 @@ class QuantityField:
             ("below", self.below, lt),
         )
         return [(words, bound, keeps) for words, bound, keeps in named if bound is not None]
-
-    def _range(self) -> str:
-        return "accepted: " + " and ".join(f"{words} {bound.text}" for words, bound, _ in self._bounds())
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(
@@ -163,7 +162,3 @@ def of_kind(
 def default(text: str, name: str) -> Quantity:
     """The default of a field, written as a user would write it."""
     return parse_quantity(text, name, DEFAULT_SOURCE)
-
-
-def _context(error: QuantityError) -> dict[str, Any]:
-    return {"message": error.message, "hint": error.hint}

@@ -11,7 +11,6 @@ from uictest.plans.scenario.yaml.diagnostics import ScenarioErrors, single_error
 from uictest.plans.scenario.yaml.parsing import parse
 from uictest.plans.scenario.yaml.tree import (
     Document,
-    Entry,
     Map,
     Place,
     Scalar,
@@ -64,7 +63,8 @@ LIBRARY: Final = "library:"
 def read_file(path: Path, schema: str = SCENARIO_SCHEMA) -> Map:
     """The tree of a YAML file; ``schema`` is what an empty one should begin with. Raises ScenarioErrors."""
     display = display_name(path)
-    if not _is_unicode(display):
+    # Bytes of a name that are no UTF-8 come from the system as lone surrogates.
+    if any("\ud800" <= char <= "\udfff" for char in display):
         raise single_error(
             whole_file(path), "the file name is not UTF-8", hint="reports could not name it; rename the file"
         )
@@ -93,11 +93,6 @@ def display_name(path: Path) -> str:
         absolute.relative_to(working) if absolute.is_relative_to(working) else Path(os.path.normpath(path))
     )
     return shown.as_posix()
-
-
-def _is_unicode(name: str) -> bool:
-    # Bytes of a name that are no UTF-8 come from the system as lone surrogates.
-    return not any("\ud800" <= char <= "\udfff" for char in name)
 
 
 def whole_file(path: Path) -> Place:
@@ -152,12 +147,10 @@ def _decoded(display: str, folder: Path, content: bytes) -> str:
 LONGEST_CHAIN: Final = 16
 
 
-def _accept(parent: Map, merged: Map) -> None:
-    """Accept whatever a child makes of its parent."""
-
-
 def inherit(
-    tree: Map, fetch: Callable[[Scalar], Map], check: Callable[[Map, Map], None] = _accept
+    tree: Map,
+    fetch: Callable[[Scalar], Map],
+    check: Callable[[Map, Map], object] = lambda parent, merged: None,
 ) -> tuple[Map, tuple[Document, ...]]:
     """Lay ``tree`` over its parent, its parent's parent and so on.
 
@@ -167,28 +160,21 @@ def inherit(
     """
     generations = [tree]
     while (entry := generations[-1].entries.get("extends")) is not None:
-        reference = _reference(entry)
+        reference = entry.node
+        if not isinstance(reference, Scalar) or not isinstance(reference.value, str):
+            message = f"expected one parent, found {describe(reference)}"
+            raise single_error(reference.place, message, "extends")
         parent = fetch(reference)
         _reject_circle(parent, generations, reference)
         generations.append(parent)
     documents = tuple(each.place.document for each in generations)
     merged = generations.pop().without("extends")
     while generations:
-        parent, merged = merged, _laid_over(merged, generations.pop())
-        check(parent, merged)
+        child = merge(merged, generations.pop().without("extends"))
+        assert isinstance(child, Map)
+        check(merged, child)
+        merged = child
     return merged, documents
-
-
-def _reference(entry: Entry) -> Scalar:
-    if not isinstance(entry.node, Scalar) or not isinstance(entry.node.value, str):
-        raise single_error(entry.node.place, f"expected one parent, found {describe(entry.node)}", "extends")
-    return entry.node
-
-
-def _laid_over(parent: Map, child: Map) -> Map:
-    merged = merge(parent, child.without("extends"))
-    assert isinstance(merged, Map)
-    return merged
 
 
 def _reject_circle(parent: Map, generations: list[Map], reference: Scalar) -> None:

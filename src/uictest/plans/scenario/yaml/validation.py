@@ -59,9 +59,9 @@ def _translated(error: Any, model: Any, tree: Node, prefix: Key) -> Iterator[Dia
     elif error["type"].startswith("union_tag"):
         yield _unknown_member(key, context, model, tree, prefix)
     elif error["type"] == "missing":
-        yield _at(
-            key[:-1], f"missing key {quoted(str(key[-1]))}", _missing_hint(key, model), tree, prefix, key[-1:]
-        )
+        message = f"missing key {quoted(str(key[-1]))}"
+        described = (field.description for field in fields_named(model, key[:-1], str(key[-1])))
+        yield _at(key[:-1], message, next(filter(None, described), ""), tree, prefix, key[-1:])
     else:
         node = entry_at(tree, key)[0].node
         message, hint = _worded(error, context, node)
@@ -100,7 +100,7 @@ def _unknown_key(key: Key, model: Any, tree: Node, prefix: Key) -> Diagnostic:
 
 def _unknown_member(key: Key, context: dict[str, Any], model: Any, tree: Node, prefix: Key) -> Diagnostic:
     """The discriminator of a union is missing or unknown."""
-    name = _unquoted(context["discriminator"])
+    name = context["discriminator"].strip("'")
     choices = sorted(get_args(field.annotation)[0] for field in fields_named(model, key, name))
     if "tag" not in context:
         return _at(
@@ -108,13 +108,6 @@ def _unknown_member(key: Key, context: dict[str, Any], model: Any, tree: Node, p
         )
     tag = str(context["tag"])
     return _at((*key, name), f"unknown {name} {quoted(tag)}", suggestion(tag, choices), tree, prefix)
-
-
-def _missing_hint(key: Key, model: Any) -> str:
-    for annotation in fields_named(model, key[:-1], str(key[-1])):
-        if annotation.description:
-            return str(annotation.description)
-    return ""
 
 
 def dotted(key: Key) -> str:
@@ -137,65 +130,41 @@ def _worded(error: Any, context: dict[str, Any], node: Node) -> tuple[str, str]:
     if "message" in context:
         return context["message"], context.get("hint", "")
     if kind == "literal_error":
-        return _not_one_of(node, _choices(context["expected"]))
+        choices = context["expected"].replace(" or ", ", ").split(", ")
+        return _not_one_of(node, [choice.strip("'") for choice in choices])
     if kind == "string_pattern_mismatch":
         return f"{quoted(str(error['input']))} is not allowed", _pattern_hint(context["pattern"])
     if kind in _BOUNDED:
-        return f"{error['input']} is out of range: it must be {_BOUNDED[kind]} {_bound(context)}", ""
+        bound = context.get("ge", context.get("le"))
+        return f"{error['input']} is out of range: it must be {_BOUNDED[kind]} {bound}", ""
     if kind in _COUNTED:
         words, name = _COUNTED[kind]
         return f"{words} {context[name]} {'characters' if 'string' in kind else 'entries'}", ""
     if kind in _EXPECTED:
-        hint = _quoting_hint(node) if kind == "string_type" else ""
+        text, hint = node.text if isinstance(node, Scalar) else "", ""
+        if kind == "string_type" and text:
+            # YAML takes 4.2, true and null for what they look like, unless they stand in quotes.
+            hint = f'write it in quotes: "{visible(text)}"'
         if kind in ("bool_type", "bool_parsing") and isinstance(node, Scalar):
-            hint = _meant(node.text, ["true", "false"])
-        if kind == "int_type" and isinstance(node, Scalar) and node.text.isdecimal():
-            hint = f"write {node.text} without quotes"
-        return f"expected {_EXPECTED[kind]}, found {describe(node)}{_value(node)}", hint
-    return _first_lower(error["msg"]), ""
+            hint = _meant(text, ["true", "false"])
+        if kind == "int_type" and text.isdecimal():
+            hint = f"write {text} without quotes"
+        shown = f" ({quoted(text)})" if text else ""
+        return f"expected {_EXPECTED[kind]}, found {describe(node)}{shown}", hint
+    return error["msg"][:1].lower() + error["msg"][1:], ""
 
 
 def _not_one_of(node: Node, choices: list[str]) -> tuple[str, str]:
     if not isinstance(node, Scalar):
         return f"expected one of {', '.join(choices)}, found {describe(node)}", ""
-    return f"unknown value {quoted(node.text)}, expected one of {', '.join(choices)}", _did_you_mean(
-        node.text, choices
-    )
-
-
-def _did_you_mean(text: str, choices: list[str]) -> str:
-    hint = _meant(text, choices) or suggestion(text, choices)
-    return hint if hint.startswith("did") else ""
+    hint = _meant(node.text, choices) or suggestion(node.text, choices)
+    message = f"unknown value {quoted(node.text)}, expected one of {', '.join(choices)}"
+    return message, hint if hint.startswith("did") else ""
 
 
 def _meant(text: str, choices: list[str]) -> str:
     choice = meant_choice(text, choices)
     return f"did you mean {quoted(choice)}?" if choice else ""
-
-
-def _choices(expected: str) -> list[str]:
-    return [_unquoted(part) for part in expected.replace(" or ", ", ").split(", ")]
-
-
-def _unquoted(text: str) -> str:
-    return text.strip("'")
-
-
-def _value(node: Node) -> str:
-    return f" ({quoted(node.text)})" if isinstance(node, Scalar) and node.text else ""
-
-
-def _quoting_hint(node: Node) -> str:
-    # YAML takes 4.2, true and null for what they look like, unless they stand in quotes.
-    return f'write it in quotes: "{visible(node.text)}"' if isinstance(node, Scalar) and node.text else ""
-
-
-def _bound(context: dict[str, Any]) -> object:
-    return context.get("ge", context.get("le"))
-
-
-def _first_lower(text: str) -> str:
-    return text[:1].lower() + text[1:]
 
 
 def _pattern_hint(pattern: str) -> str:
