@@ -497,7 +497,8 @@ FILES = {
     "uses-fmu.yaml": HEAD + "controller: fmu.yaml\n",
     "uses-validation.yaml": HEAD + "validated: validation.json\n",
     "two.sweep.yaml": (
-        "schema: uictest/sweep/1\nname: two\nscenario: stop.yaml\ngrid: {brake.command: [80 %, 90 %]}\n"
+        "schema: uictest/scenario/1\nname: two\nextends: stop.yaml\n"
+        "vary: {matrix: {brake.command: [80 %, 90 %]}}\n"
     ),
     "map.yaml": (
         "schema: uictest/channel-map/1\nname: own\nextends: common-names\n"

@@ -8,11 +8,12 @@ import pytest
 import uictest
 from uictest.running.chunked import ChunkStore
 
-TEXT = """schema: uictest/sweep/1
+TEXT = """schema: uictest/scenario/1
 name: study
-scenario: scenarios/stop.yaml
-grid:
-  rail.friction: [0.06, 0.1]
+extends: scenarios/stop.yaml
+vary:
+  matrix:
+    rail.friction: [0.06, 0.1]
 """
 
 
@@ -20,7 +21,7 @@ grid:
 def study(write):
     write()
     path = Path("study.sweep.yaml")
-    path.write_text(f"{TEXT}  brake.command: [80 %, 100 %]\n")
+    path.write_text(f"{TEXT}    brake.command: [80 %, 100 %]\n")
     return path
 
 
@@ -88,6 +89,6 @@ def test_an_argument_that_cannot_be_used_is_named(study, arguments, message):
 
 
 def test_errors_of_the_file_have_their_places(study):
-    study.write_text(f"{TEXT}  brake.comand: [80 %]\n")
-    with pytest.raises(uictest.ScenarioErrors, match=r"study\.sweep\.yaml:6:3: .*brake\.comand"):
+    study.write_text(f"{TEXT}    brake.comand: [80 %]\n")
+    with pytest.raises(uictest.ScenarioErrors, match=r"study\.sweep\.yaml:7:5: .*brake\.comand"):
         uictest.sweep(study)

@@ -10,10 +10,10 @@ import uictest
 ENTRY = "{scenario: scenarios/stop.yaml, map: map.yaml, recordings: [run-1.csv, run-2.csv]}"
 
 
-STUDY = """schema: uictest/sweep/1
+STUDY = """schema: uictest/scenario/1
 name: study
-scenario: scenarios/stop.yaml
-grid: {{{}}}
+extends: scenarios/stop.yaml
+vary: {{matrix: {{{}}}}}
 """
 
 

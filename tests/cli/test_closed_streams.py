@@ -33,9 +33,9 @@ def run(program, command, redirection):
 @pytest.fixture(autouse=True)
 def scenarios(scenario):
     scenario("stop")
-    grid = "grid: {initial_speed: [30 km/h], expect: [pass, invalid]}\n"
+    matrix = "matrix: {initial_speed: [30 km/h], expect: [pass, invalid]}"
     Path("scenarios/speeds.sweep.yaml").write_text(
-        f"schema: uictest/sweep/1\nname: speeds\nscenario: stop.yaml\n{grid}"
+        f"schema: uictest/scenario/1\nname: speeds\nextends: stop.yaml\nvary: {{{matrix}}}\n"
     )
 
 

@@ -8,7 +8,7 @@ import zipfile
 import pytest
 
 HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\n"
-SWEEP = "schema: uictest/sweep/1\nname: s\nscenario: stop.yaml\ngrid: {seed: [1, 2]}\n"
+SWEEP = "schema: uictest/scenario/1\nname: s\nextends: stop.yaml\nvary: {matrix: {seed: [1, 2]}}\n"
 DESCRIPTION = '<?xml version="1.0"?><fmiModelDescription fmiVersion="2.0" modelName="wsp" version="1"/>'
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 HEAD = "schema: uictest/scenario/1\nname: stop\n"
-SWEEP = "schema: uictest/sweep/1\nname: s\nscenario: stop.yaml\ngrid: {seed: [1, 2]}\n"
+SWEEP = "schema: uictest/scenario/1\nname: s\nextends: stop.yaml\nvary: {matrix: {seed: [1, 2]}}\n"
 
 
 @pytest.fixture

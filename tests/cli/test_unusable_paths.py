@@ -56,7 +56,8 @@ def test_a_path_that_cannot_be_is_a_usage_error_before_anything_is_simulated(
     scenario("stop")
     Path("file").touch()
     Path("circle").symlink_to("circle")
-    text = "schema: uictest/sweep/1\nname: two\nscenario: scenarios/stop.yaml\ngrid: {seed: [1, 2]}\n"
+    text = "schema: uictest/scenario/1\nname: two\nextends: scenarios/stop.yaml\n"
+    text += "vary: {matrix: {seed: [1, 2]}}\n"
     Path("two.sweep.yaml").write_text(text)
     answer = call(*(argument.replace("PATH", path) for argument in arguments))
     if answer.code == 0:  # no earlier run, or a file in place of a link

@@ -72,8 +72,10 @@ def test_a_comma_list_series_and_sweeps_name_them_alike(write: Write, head: str)
     stops = "dry: {scenario: stop.yaml, set: {rail.condition: dry}}\nwet: {scenario: stop.yaml}\n"
     series = write("a.series.yaml", f"schema: uictest/series/1\nname: a\n{stops}{include}")
     assert [each.id for each in load_series(series)] == [f"a[{each}]" for each in expected]
-    grid = "grid: {controller: [v23/wsp.yaml, v24/wsp.yaml]}\n"
-    plan = load_sweep(write("a.sweep.yaml", f"schema: uictest/sweep/1\nname: a\nscenario: stop.yaml\n{grid}"))
+    vary = "vary: {matrix: {controller: [v23/wsp.yaml, v24/wsp.yaml]}}\n"
+    plan = load_sweep(
+        write("a.sweep.yaml", f"schema: uictest/scenario/1\nname: a\nextends: stop.yaml\n{vary}")
+    )
     assert [row[0].label for row in plan.groups[0].rows] == ["wsp@2.3", "wsp@2.4"]
 
 

@@ -111,7 +111,7 @@ def test_parts_are_confined_wherever_they_come_from(place: Path) -> None:
     assert (diagnostic.file, diagnostic.line, diagnostic.key) == ("sub/car.yaml", 2, "vehicle.extends")
 
 
-SWEEP = "schema: uictest/sweep/1\nname: s\nscenario: {base}\ngrid: {{{axis}}}\n"
+SWEEP = "schema: uictest/scenario/1\nname: s\nextends: {base}\nvary: {{matrix: {{{axis}}}}}\n"
 
 
 @pytest.mark.parametrize(

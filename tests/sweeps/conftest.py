@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 from pathlib import Path
+from textwrap import indent
 
 import numpy as np
 import pytest
@@ -22,9 +23,9 @@ name: stop
 initial_speed: 30 km/h
 rail: {condition: wet, friction: 0.1}
 """
-HEAD = "schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\n"
-GRID = """\
-grid:
+HEAD = "schema: uictest/scenario/1\nname: study\nextends: stop.yaml\n"
+MATRIX = """\
+matrix:
   rail.friction: [0.08, 0.10, 0.12]
   brake.command: [80 %, 100 %]
 """
@@ -32,14 +33,19 @@ SLIP_BAND = Path(__file__).parent / "controllers"
 """A controller from outside with the commands of the built-in slip-band."""
 
 
+def vary(sections):
+    """What a scenario says of what varies."""
+    return "vary:\n" + indent(sections, "  ")
+
+
 @pytest.fixture
 def load(tmp_path, monkeypatch):
-    """The plan of a sweep whose file says the given text after its head."""
+    """The plan of a sweep whose file says the given text under `vary`."""
     monkeypatch.chdir(tmp_path)
     Path("stop.yaml").write_text(SCENARIO)
 
-    def write_and_load(text=GRID, *overrides, scenario="stop.yaml", **options):
-        Path("study.sweep.yaml").write_text(HEAD.replace("stop.yaml", scenario) + text)
+    def write_and_load(text=MATRIX, *overrides, scenario="stop.yaml", **options):
+        Path("study.sweep.yaml").write_text(HEAD.replace("stop.yaml", scenario) + vary(text))
         return load_sweep(Path("study.sweep.yaml"), overrides, **options)
 
     return write_and_load

@@ -53,8 +53,8 @@ def test_sensitivities_around_other_values_than_the_scenarios_are_warned_of(call
     scenario("a", "rail: {condition: wet, friction: 0.1}\n")
     sweep = workplace / "scenarios" / "b.sweep.yaml"
     sweep.write_text(
-        "schema: uictest/sweep/1\nname: b\nscenario: a.yaml\nsample:\n  method: saltelli\n  size: 2\n"
-        "  parameters:\n    rail.friction: {uniform: [0.11, 0.15]}\n"
+        "schema: uictest/scenario/1\nname: b\nextends: a.yaml\nvary:\n  sample:\n    method: saltelli\n"
+        "    size: 2\n    parameters: {rail.friction: {uniform: [0.11, 0.15]}}\n"
     )
     call("check", code=0, says="warning: rail.friction: the scenario's own 0.1 lies OUTSIDE the range")
 

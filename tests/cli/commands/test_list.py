@@ -98,11 +98,9 @@ def test_requirements_of_selected_cases_and_of_the_scenario_of_a_sweep(call, sce
     scenario("b", "requirements: [BR-2]\n")
     assert call("list", "--requirements", "-m", "wet").out == "covered\tBR-1\tscenario a (1 case)\n"
     scenario("a", "requirements: [BR-1]\n")
-    text = (
-        "schema: uictest/sweep/1\nname: s\nscenario: scenarios/a.yaml\ngrid: {brake.command: [80 %, 90 %]}\n"
-    )
+    text = "schema: uictest/scenario/1\nname: s\nextends: scenarios/a.yaml\nvary: {matrix: {seed: [1, 2]}}\n"
     (workplace / "s.sweep.yaml").write_text(text)
-    assert call("list", "s.sweep.yaml", "--requirements").out == "covered\tBR-1\tscenario a (1 case)\n"
+    assert call("list", "s.sweep.yaml", "--requirements").out == "covered\tBR-1\tscenario s (1 case)\n"
 
 
 def test_no_requirement_at_all(call, scenario):

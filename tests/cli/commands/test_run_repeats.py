@@ -77,24 +77,25 @@ def test_a_recording_is_one_stop(call, scenario):
 
 
 @pytest.mark.parametrize(
-    ("repeat", "grid", "said"),
+    ("repeat", "lists", "said"),
     [
-        (2, "seed: [0, 1]", ["'stop.yaml' repeats its stop 2 times", "list or sample `seed`"]),
+        (2, "seed: [0, 1]", ["repeat: the scenario repeats its stop 2 times", "list or sample `seed`"]),
         (
             1,
             "repeat: [1, 2], outcome_of_repeats: [all, median]",
             [
-                f"grid.{key}: '{key}' cannot vary: a sweep runs one stop per case"
+                f"vary.matrix.{key}: '{key}' cannot vary: a sweep runs one stop per case"
                 for key in ("repeat", "outcome_of_repeats")
             ],
         ),
     ],
 )
-def test_a_sweep_runs_one_stop_per_case(call, scenario, repeat, grid, said):
+def test_a_sweep_runs_one_stop_per_case(call, scenario, repeat, lists, said):
     scenario("stop", f"{WET}repeat: {repeat}\n")
     sweep = Path("scenarios/study.sweep.yaml")
     sweep.write_text(
-        f"schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\ngrid: {{{grid}}}\n", "utf-8"
+        f"schema: uictest/scenario/1\nname: study\nextends: stop.yaml\nvary: {{matrix: {{{lists}}}}}\n",
+        "utf-8",
     )
     answer = call("sweep", sweep, "--dry-run", code=4)
     for each in said:

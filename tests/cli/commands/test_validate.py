@@ -342,8 +342,10 @@ def test_what_a_scenario_names_is_checked_on_loading(call, scenario, command, te
 def study(validated):
     """A sweep of four stops, of which three are outside of the validation."""
     path = Path("study.sweep.yaml")
-    head = "schema: uictest/sweep/1\nname: study\nscenario: scenarios/stop.yaml\n"
-    path.write_text(f"{head}grid: {{initial_speed: [30 km/h, 32 km/h], brake.command: [100 %, 90 %]}}\n")
+    head = "schema: uictest/scenario/1\nname: study\nextends: scenarios/stop.yaml\n"
+    path.write_text(
+        f"{head}vary: {{matrix: {{initial_speed: [30 km/h, 32 km/h], brake.command: [100 %, 90 %]}}}}\n"
+    )
     return path
 
 

@@ -9,10 +9,10 @@ from uictest.core.files import FolderLock
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such locks")
 
-SWEEP = """schema: uictest/sweep/1
+SWEEP = """schema: uictest/scenario/1
 name: study
-scenario: stop.yaml
-ranges: {initial_speed: {first: 20 km/h, last: 30 km/h, count: 20}}
+extends: stop.yaml
+vary: {ranges: {initial_speed: {first: 20 km/h, last: 30 km/h, count: 20}}}
 """
 COMMAND = ("sweep", "scenarios/study.sweep.yaml", "-q")
 

@@ -37,8 +37,8 @@ def study(scenario):
     Path("share.py").write_text(CONTROLLER)
 
     def write(text):
-        head = "schema: uictest/sweep/1\nname: study\nscenario: scenarios/stop.yaml\n"
-        Path(FILE).write_text(f"{head}{text}")
+        head = "schema: uictest/scenario/1\nname: study\nextends: scenarios/stop.yaml\nvary:\n"
+        Path(FILE).write_text(f"{head}  {text}")
         return Path(FILE)
 
     return write
@@ -50,7 +50,7 @@ def summary():
 
 
 def test_a_controller_that_fails_is_an_error_and_the_sweep_goes_on(call, study):
-    call("sweep", study("grid: {controller.parameters.share: [0, -1, 0.3]}\n"), code=3)
+    call("sweep", study("matrix: {controller.parameters.share: [0, -1, 0.3]}\n"), code=3)
     outcomes = [row["outcome"] for row in summary()]
     assert outcomes[1] == "error" and "error" not in outcomes[::2]
     assert summary()[1]["reason"].startswith("controller: step failed: ValueError: a share below zero")
@@ -60,7 +60,7 @@ def test_a_controller_that_fails_is_an_error_and_the_sweep_goes_on(call, study):
 
 
 def test_another_content_of_the_controller_is_another_sweep(call, study):
-    file = study("grid: {controller.parameters.share: [0, 0.3]}\n")
+    file = study("matrix: {controller.parameters.share: [0, 0.3]}\n")
     assert call("sweep", file).code in (0, 1)
     first = summary()
     manifest = json.loads(Path("reports/study/manifest.json").read_bytes())
@@ -73,7 +73,7 @@ def test_another_content_of_the_controller_is_another_sweep(call, study):
 
 
 def test_an_axis_of_controllers_names_them_in_manifest_and_ids(call, study):
-    file = study("grid: {controller: [threshold, {python: share.py, class: Share}, own.yaml]}\n")
+    file = study("matrix: {controller: [threshold, {python: share.py, class: Share}, own.yaml]}\n")
     Path("own.yaml").write_text(
         "schema: uictest/controller/1\npython: share.py\nclass: Share\nparameters: {share: 0.5}\n"
     )
@@ -88,7 +88,7 @@ def test_an_axis_of_controllers_names_them_in_manifest_and_ids(call, study):
 
 
 def test_the_frontier_of_a_parameter_is_found(call, study):
-    file = study("grid: {controller.parameters.share: [0.0, 1.0]}\n")
+    file = study("matrix: {controller.parameters.share: [0.0, 1.0]}\n")
     scenario = Path("scenarios/stop.yaml")
     text = scenario.read_text()
     scenario.write_text(f"{text}criteria: [uictest-stop]\nsimulation: {{maximum_duration: 15 s}}\n")

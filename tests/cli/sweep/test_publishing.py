@@ -12,12 +12,13 @@ import yaml
 
 FOLDER = Path("reports/pads")
 TEXT = """\
-schema: uictest/sweep/1
+schema: uictest/scenario/1
 name: pads
-scenario: scenarios/stop.yaml
-grid:
-  brake.system.disc.pad_friction: [0.30, 0.45]
-  brake.command: [80 %, 100 %]
+extends: scenarios/stop.yaml
+vary:
+  matrix:
+    brake.system.disc.pad_friction: [0.30, 0.45]
+    brake.command: [80 %, 100 %]
 """
 
 
@@ -112,8 +113,8 @@ def test_the_command_for_one_stop_works_as_printed_beside_the_sweep(call, pads):
 
 
 def test_a_case_in_error_is_3_and_a_row_and_not_drawn(call, pads):
-    steps = "grid: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n"
-    pads.write_text(TEXT.split("grid")[0] + steps)
+    steps = "  matrix: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n"
+    pads.write_text(TEXT.split("  matrix")[0] + steps)
     assert call("sweep", pads).code == 3
     document = json.loads((FOLDER / "sweep.json").read_text())
     assert document["outcomes"]["error"] == 1
@@ -124,14 +125,15 @@ def test_a_case_in_error_is_3_and_a_row_and_not_drawn(call, pads):
 
 
 K_DRY = """\
-schema: uictest/sweep/1
+schema: uictest/scenario/1
 name: pads
-scenario: scenarios/stop.yaml
-sample:
-  size: 32
-  parameters:
-    brake.system.disc.pad_friction: {uniform: [0.36, 0.40]}
-k_dry: {measure: mean_deceleration}
+extends: scenarios/stop.yaml
+vary:
+  sample:
+    size: 32
+    parameters:
+      brake.system.disc.pad_friction: {uniform: [0.36, 0.40]}
+  k_dry: {measure: mean_deceleration}
 """
 
 

@@ -9,7 +9,7 @@ from uictest.plans.scenario import ScenarioErrors
 from uictest.plans.sweeps import load_sweep
 from uictest.plans.sweeps.base_case import BaseCase
 
-from ..conftest import GRID, HEAD
+from ..conftest import MATRIX
 
 SAMPLE = "sample: {method: sobol, size: 4, parameters: {rail.friction: {uniform: [0.05, 0.15]}}}\n"
 
@@ -21,14 +21,14 @@ def values(plan, key):
 
 
 def test_every_combination_first_key_slowest_and_numbers_for_values_without_a_name(load):
-    plan = load(GRID + "zip: {seed: [1, 2], rail.gradient: [0 permille, 5 permille]}\n")
+    plan = load(MATRIX + "zip: {seed: [1, 2], rail.gradient: [0 permille, 5 permille]}\n")
     assert plan.size == 12
     assert values(plan, "rail.friction") == ["0.08"] * 4 + ["0.10"] * 4 + ["0.12"] * 4
     assert values(plan, "seed") == ["1", "2"] * 6
     assert values(plan, "rail.gradient") == ["0 permille", "5 permille"] * 6
     assert plan.ids(np.array([3])) == ["study[friction=0.08,command=100,seed=2,gradient=5permille]"]
     profiles = "{points: [{position: 0 m, friction: 0.1}]}, {points: [{position: 0 m, friction: 0.2}]}"
-    plan = load(f"grid: {{rail.friction: [{profiles}]}}\n")
+    plan = load(f"matrix: {{rail.friction: [{profiles}]}}\n")
     assert plan.ids(np.arange(2)) == ["study[friction=value1]", "study[friction=value2]"]
     plan = load(
         "ranges:\n  rail.friction: {first: 0.08, last: 0.10, step: 0.01}\n"
@@ -39,61 +39,49 @@ def test_every_combination_first_key_slowest_and_numbers_for_values_without_a_na
 
 
 def test_a_sample_is_numbered_in_ids_that_are_unique_and_of_each_case(load):
-    plan = load(SAMPLE + "grid: {brake.command: [80 %, 100 %]}\n")
+    plan = load(SAMPLE + "matrix: {brake.command: [80 %, 100 %]}\n")
     assert plan.ids(np.array([0, 5])) == ["study[command=80,sample=0]", "study[command=100,sample=1]"]
     drawn = plan.settings(np.arange(8))["rail.friction"]
     assert drawn.texts[:4] == drawn.texts[4:]
     assert all(0.05 <= number <= 0.15 for number in drawn.numbers)
-    plan = load(SAMPLE + GRID.replace("rail.friction", "rail.condition.friction"))
+    plan = load(SAMPLE + MATRIX.replace("rail.friction", "rail.condition.friction"))
     ids = plan.ids(np.arange(plan.size))
     assert len(set(ids)) == plan.size
     assert plan.ids(np.array([7, 2])) == [ids[7], ids[2]]
 
 
 def test_the_command_line_fixes_a_key_or_sweeps_it(load):
-    fixed = load(GRID, "rail.friction=0.2")
+    fixed = load(MATRIX, "rail.friction=0.2")
     assert fixed.keys == ("brake.command",)
     assert fixed.base.scenario.rail.friction == 0.2
-    swept = load(GRID, "rail.friction=0.2,0.3")
+    swept = load(MATRIX, "rail.friction=0.2,0.3")
     assert values(swept, "rail.friction") == ["0.2", "0.2", "0.3", "0.3"]
     assert load(
-        SAMPLE + GRID.replace("rail.friction", "seed").replace("0.08, 0.10, 0.12", "1"), "rail.friction=0.2"
+        SAMPLE + MATRIX.replace("rail.friction", "seed").replace("0.08, 0.10, 0.12", "1"), "rail.friction=0.2"
     ).keys == ("seed", "brake.command")
-    assert load(GRID, seed=7).base.scenario.seed == 7
+    assert load(MATRIX, seed=7).base.scenario.seed == 7
 
 
 def test_the_files_read_are_inputs(load):
-    inputs = load(GRID + "zip: {rig.caliper: [six-inch], vehicle: [crh380a]}\n").inputs
+    inputs = load(MATRIX + "zip: {rig.caliper: [six-inch], vehicle: [crh380a]}\n").inputs
     assert {"stop.yaml", "study.sweep.yaml", "library:vehicles/crh380a.yaml"} <= set(inputs)
-
-
-def test_a_case_of_a_scenario_with_several(load, tmp_path):
-    load()
-    Path("stop.yaml").write_text(Path("stop.yaml").read_text() + "matrix: {rig.compensation: [none, full]}\n")
-    wanted = HEAD + "case: stop[compensation=none]\n" + GRID
-    Path("study.sweep.yaml").write_text(wanted)
-    assert load_sweep(Path("study.sweep.yaml")).base.scenario.rig.compensation == "none"
-    with pytest.raises(ScenarioErrors, match="has 2 cases, a sweep starts from one"):
-        load(GRID)
-    with pytest.raises(ScenarioErrors, match=r"did you mean 'stop\[compensation=none\]'"):
-        load("case: stop[compensation=non]\n" + GRID)
 
 
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("grid: {rail.frictoin: [0.1]}\n", "study.sweep.yaml:4:8: rail.frictoin: unknown key 'frictoin'"),
-        ("grid: {rail.frictoin: [0.1]}\n", "did you mean 'friction'?"),
-        ("grid: {rail.friction: [0.1, 5]}\n", "study.sweep.yaml:4:29: rail.friction: 5 is out of range"),
-        ("grid: {initial_speed: [30]}\n", "write `30 km/h` or"),
-        ("grid: {brake.position: [R, X]}\n", "unknown brake position 'X'"),
-        ("grid: {vehicle: [crh380]}\n", "did you mean 'crh380a'?"),
-        ("grid: {rail.friction: [0.1, 0.1]}\n", "is there twice"),
-        ("grid: {name: [a, b]}\n", "cannot vary"),
-        ("grid: {rail.friction: {first: 0.1, last: 0.2, step: 0.1}}\n", "goes under `ranges`"),
-        ("gird: {rail.friction: [0.1]}\n", "did you mean 'grid'?"),
+        ("matrix: {rail.frictoin: [0.1]}\n", "study.sweep.yaml:5:12: rail.frictoin: unknown key 'frictoin'"),
+        ("matrix: {rail.frictoin: [0.1]}\n", "did you mean 'friction'?"),
+        ("matrix: {rail.friction: [0.1, 5]}\n", "study.sweep.yaml:5:33: rail.friction: 5 is out of range"),
+        ("matrix: {initial_speed: [30]}\n", "write `30 km/h` or"),
+        ("matrix: {brake.position: [R, X]}\n", "unknown brake position 'X'"),
+        ("matrix: {vehicle: [crh380]}\n", "did you mean 'crh380a'?"),
+        ("matrix: {rail.friction: [0.1, 0.1]}\n", "is there twice"),
+        ("matrix: {name: [a, b]}\n", "cannot vary"),
+        ("matrix: {rail.friction: {first: 0.1, last: 0.2, step: 0.1}}\n", "goes under `ranges`"),
+        ("matrx: {rail.friction: [0.1]}\n", "did you mean 'matrix'?"),
         ("", "nothing varies"),
-        ("grid: {rail.friction: [0.1]}\nzip: {rail.friction: [0.2]}\n", "is under grid as well"),
+        ("matrix: {rail.friction: [0.1]}\nzip: {rail.friction: [0.2]}\n", "is under vary.matrix as well"),
         ("zip: {rail.friction: [0.1, 0.2], seed: [1]}\n", "1 values where 'rail.friction' has 2"),
         ("ranges: {rail.friction: {first: 0.1, last: 0.2}}\n", "give either 'step' or 'count'"),
         ("ranges: {rail.friction: {first: 0.1, last: 0.2, step: -0.1}}\n", "do not lead from 0.1 to 0.2"),
@@ -139,7 +127,7 @@ def test_what_a_distribution_expects(load, distribution, expected):
     with pytest.raises(ScenarioErrors) as caught:
         load(f"sample: {{size: 3, parameters: {{rail.friction: {distribution}}}}}\n")
     (error,) = caught.value.diagnostics
-    assert (error.file, error.line) == ("study.sweep.yaml", 4)
+    assert (error.file, error.line) == ("study.sweep.yaml", 5)
     assert expected in str(error)
 
 
@@ -189,42 +177,42 @@ def test_a_normal_without_spread_between_its_ends_is_rejected(load, normal, expe
 
 def test_all_errors_are_reported_at_once_and_those_of_an_axis_counted(load):
     with pytest.raises(ScenarioErrors) as caught:
-        load("grid:\n  rail.friction: [5, 0.1, 6]\n  brake.command: [200 %]\n")
-    assert [error.line for error in caught.value.diagnostics] == [5, 6]
+        load("matrix:\n  rail.friction: [5, 0.1, 6]\n  brake.command: [200 %]\n")
+    assert [error.line for error in caught.value.diagnostics] == [6, 7]
     with pytest.raises(ScenarioErrors, match="; 2 more of the 5 values are rejected"):
-        load("grid: {rail.friction: [0.1, 5, 6, 0.2, 7]}\n")
+        load("matrix: {rail.friction: [0.1, 5, 6, 0.2, 7]}\n")
     with pytest.raises(ScenarioErrors, match="; 999 more of the 1000 values are rejected"):
         load("ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}\n")
     with pytest.raises(ScenarioErrors, match=r"unknown key 'frictoin'\n"):
-        load("grid: {rail.frictoin: [1, 2, 3]}\n")
+        load("matrix: {rail.frictoin: [1, 2, 3]}\n")
 
 
 @pytest.mark.parametrize(
     ("text", "column", "expected"),
     [
-        ("grid: {rail.friction: [0.1, 5, 6, 0.2, 7]}", 29, "5 is out of range"),
-        ("ranges: {rail.friction: {first: 1, last: 1.4, step: 0.1}}", 25, "1.1 is out of range"),
+        ("matrix: {rail.friction: [0.1, 5, 6, 0.2, 7]}", 33, "5 is out of range"),
+        ("ranges: {rail.friction: {first: 1, last: 1.4, step: 0.1}}", 27, "1.1 is out of range"),
         (
             "ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}",
-            25,
+            27,
             "'0.001' is inconsistent with",
         ),
-        ("ranges: {rail.frictoin: {first: 1, last: 2, count: 9}}", 10, "unknown key 'frictoin'"),
-        ("zip: {seed: [1, 2, 3], rail.friction: [0.1, 0, 0]}", 45, "0 is out of range"),
-        ("zip: {seed: [1, 2], rail.friction: [0.1, 0.002]}", 17, "'2' with '0.002' is inconsistent with"),
+        ("ranges: {rail.frictoin: {first: 1, last: 2, count: 9}}", 12, "unknown key 'frictoin'"),
+        ("zip: {seed: [1, 2, 3], rail.friction: [0.1, 0, 0]}", 47, "0 is out of range"),
+        ("zip: {seed: [1, 2], rail.friction: [0.1, 0.002]}", 19, "'2' with '0.002' is inconsistent with"),
         (
             "sample: {size: 1, parameters: {rail.friction: {uniform: [0.001, 9]}}}",
-            58,
+            60,
             "'0.001' is inconsistent with",
         ),
-        ("sample: {size: 1, parameters: {vehicle: {choice: [crh380a, a, b]}}}", 60, "no vehicle 'a'"),
+        ("sample: {size: 1, parameters: {vehicle: {choice: [crh380a, a, b]}}}", 62, "no vehicle 'a'"),
     ],
 )
 def test_an_axis_has_one_error_at_its_place(load, text, column, expected):
     with pytest.raises(ScenarioErrors) as caught:
         load(text + "\n")
     (error,) = caught.value.diagnostics
-    assert (error.file, error.line, error.column) == ("study.sweep.yaml", 4, column)
+    assert (error.file, error.line, error.column) == ("study.sweep.yaml", 5, column)
     assert expected in error.message
 
 
@@ -239,24 +227,24 @@ def test_only_the_first_rejected_value_is_read_as_a_scenario(load, monkeypatch):
 
 def test_what_a_value_does_to_an_option_is_reported_at_the_value(load):
     with pytest.raises(
-        ScenarioErrors, match=r"study.sweep.yaml:4:24: .*'0.005' is inconsistent with initial_speed"
+        ScenarioErrors, match=r"study.sweep.yaml:5:28: .*'0.005' is inconsistent with initial_speed"
     ):
-        load("grid: {rail.friction: [0.005]}\n", "initial_speed=300 km/h")
+        load("matrix: {rail.friction: [0.005]}\n", "initial_speed=300 km/h")
 
 
 def test_errors_inside_a_part_are_reported_in_its_file(load):
     load()
     Path("rail.yaml").write_text("name: rail\nfriction: 7\nfriction_ratio: 8\n")
     with pytest.raises(ScenarioErrors) as caught:
-        load("grid: {rail.condition: [rail.yaml, wet]}\n", "rail.friction=null")
+        load("matrix: {rail.condition: [rail.yaml, wet]}\n", "rail.friction=null")
     assert {error.file for error in caught.value.diagnostics} == {"rail.yaml"}
 
 
 @pytest.mark.parametrize(
     "text",
     [
-        "grid: {rail.condition: [dry, wet]}\n",
-        "grid: {rail.condition.friction: [0.2, 0.3]}\n",
+        "matrix: {rail.condition: [dry, wet]}\n",
+        "matrix: {rail.condition.friction: [0.2, 0.3]}\n",
         "sample: {size: 4, parameters: {rail.condition: {choice: [dry, wet]}}}\n",
         "sample: {size: 4, parameters: {rail.condition.friction: {uniform: [0.2, 0.3]}}}\n",
     ],
@@ -265,15 +253,6 @@ def test_a_rail_condition_is_not_swept_beside_the_friction_of_the_scenario(load,
     with pytest.raises(ScenarioErrors, match=r"but rail\.friction stays '0\.1'"):
         load(text)
     assert load(text + "zip: {rail.friction: [null, 0.2]}\n").size % 2 == 0
-
-
-def test_a_scenario_is_no_sweep_and_a_sweep_no_scenario(load):
-    load()
-    with pytest.raises(ScenarioErrors, match="a scenario without `vary` is run with `uictest run`"):
-        load_sweep(Path("stop.yaml"))
-    Path("study.sweep.yaml").write_text(HEAD.replace("stop.yaml", "study.sweep.yaml") + GRID)
-    with pytest.raises(ScenarioErrors, match="is a sweep, not a scenario"):
-        load_sweep(Path("study.sweep.yaml"))
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.name)

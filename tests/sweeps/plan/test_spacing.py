@@ -9,7 +9,7 @@ from uictest.analysis.summaries.tally import bins_of_plan, logarithmic_keys, spa
 from uictest.report import DrawnInterval
 
 TEXT = """\
-grid:
+matrix:
   seed: [1, 10, 100]
   rail.gradient: [1 permille, 2 permille, 3 permille, 4 permille]
 sample:

@@ -9,7 +9,7 @@ import pytest
 from uictest.plans.scenario import ScenarioErrors, load
 from uictest.plans.sweeps import Plan, load_sweep
 
-from ..conftest import SCENARIO
+from ..conftest import HEAD, SCENARIO, vary
 
 SECTIONS = """\
 matrix:
@@ -22,7 +22,7 @@ zip:
 sample: {size: 3, seed: 5, parameters: {brake.system.disc.pad_friction: {uniform: [0.3, 0.4]}}}
 quantiles: {measure: braking_distance, levels: [50 %]}
 """
-HEAD = "schema: uictest/scenario/1\nname: study\nextends: stop.yaml\n"
+OLD_HEAD = "schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\n"
 Write = Callable[..., Plan]
 
 
@@ -39,19 +39,15 @@ def write(tmp_path, monkeypatch):
     return to
 
 
-def vary(sections=SECTIONS):
-    return "vary:\n" + "".join(f"  {line}\n" for line in sections.splitlines())
-
-
 def cases(plan):
     indices = np.arange(plan.size)
     return [(key, column.texts) for key, column in plan.settings(indices).items()]
 
 
 def test_a_file_of_0_2_has_the_same_cases(write):
-    now = write(HEAD + vary())
+    now = write(HEAD + vary(SECTIONS))
     old_sections = SECTIONS.replace("matrix:", "grid:")
-    before = write("schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\n" + old_sections)
+    before = write(OLD_HEAD + old_sections)
     assert cases(before) == cases(now)
     assert before.ids(np.arange(before.size)) == now.ids(np.arange(now.size))
     assert before.quantiles == now.quantiles
@@ -64,12 +60,14 @@ def test_a_file_of_0_2_has_the_same_cases(write):
 
 def test_a_case_that_0_2_names_has_its_values(write):
     Path("stop.yaml").write_text(SCENARIO + "matrix: {brake.command: [60 %, 90 %]}\n")
-    old = "schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\ngrid: {seed: [1, 2]}\n"
+    old = OLD_HEAD + "grid: {seed: [1, 2]}\n"
     plan = write(f"{old}case: stop[command=90]\n")
     assert plan.base.scenario.brake.command == 0.9
     assert "the values of stop[command=90]" in plan.written_now
     with pytest.raises(ScenarioErrors, match="has 2 cases, a sweep starts from one"):
         write(old)
+    with pytest.raises(ScenarioErrors, match=r"did you mean 'stop\[command=90\]'"):
+        write(f"{old}case: stop[command=9]\n")
 
 
 def test_lists_of_cases_that_a_sweep_inherits_do_not_count(write):
@@ -86,12 +84,28 @@ def test_a_sweep_may_extend_a_sweep(write):
 
 
 def test_what_it_asks_of_its_draws_does_not_change_which_cases_there_are(write):
-    plan = write(HEAD + vary())
+    plan = write(HEAD + vary(SECTIONS))
     other_level = write(HEAD + vary(SECTIONS.replace("50 %", "40 %")))
     other_seed = write(HEAD + vary(SECTIONS.replace("seed: 5", "seed: 6")))
-    other_stop = write(HEAD + "initial_speed: 31 km/h\n" + vary())
+    other_stop = write(HEAD + "initial_speed: 31 km/h\n" + vary(SECTIONS))
     assert plan.cases_sha256 == other_level.cases_sha256
     assert len({plan.cases_sha256, other_seed.cases_sha256, other_stop.cases_sha256}) == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("grid: {rail.friction: {first: 0.1, last: 0.2, step: 0.1}}\n", "4:23: grid.rail.friction"),
+        ("gird: {rail.friction: [0.1]}\n", "did you mean 'grid'?"),
+        ("", "give values under grid, ranges, zip, sample"),
+        ("grid: {seed: [1]}\nzip: {seed: [2]}\n", "5:7: zip.seed: 'seed' is under grid as well"),
+        ("grid: {rail.frictoin: [0.1]}\n", "4:8: rail.frictoin: unknown key 'frictoin'"),
+    ],
+)
+def test_a_mistake_in_a_file_of_0_2_is_told_in_its_words(write, text, expected):
+    with pytest.raises(ScenarioErrors) as caught:
+        write(OLD_HEAD + text)
+    assert expected in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -117,9 +131,13 @@ def test_a_mistake_is_told_at_its_key(write, text, place, message):
     assert (first.line, first.key) == place or (not place[1] and first.line)
 
 
-def test_a_sweep_is_not_run_as_a_scenario(write):
-    write(HEAD + vary())
+def test_a_sweep_is_no_scenario_and_a_scenario_no_sweep(write):
+    write(HEAD + vary(SECTIONS))
     with pytest.raises(ScenarioErrors, match="run it with `uictest sweep`"):
         load([Path("study.sweep.yaml")])
     with pytest.raises(ScenarioErrors, match="'vary' belongs to the file"):
         load([Path("stop.yaml")], ["vary.matrix.seed=1"])
+    with pytest.raises(ScenarioErrors, match="a scenario without `vary` is run with `uictest run`"):
+        load_sweep(Path("stop.yaml"))
+    with pytest.raises(ScenarioErrors, match="is a sweep, not a scenario"):
+        write(OLD_HEAD.replace("stop.yaml", "study.sweep.yaml"))

@@ -8,7 +8,7 @@ from uictest.plans.scenario import ScenarioErrors
 from uictest.plans.scenario.parts.tail_requests import QuantileRequest
 from uictest.plans.sweeps import load_sweep
 
-from ..conftest import HEAD
+from ..conftest import HEAD, vary
 
 SAMPLE = "sample: {method: %s, size: 4, parameters: {vehicle.body.mass: {uniform: [30 t, 34 t]}}}\n"
 DRAWN = SAMPLE % "random"
@@ -22,7 +22,7 @@ def load_on(tmp_path, monkeypatch):
     def write_and_load(condition, text):
         stop = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 30 km/h\n"
         Path("stop.yaml").write_text(f"{stop}rail: {{condition: {condition}}}\n")
-        Path("study.sweep.yaml").write_text(HEAD + text)
+        Path("study.sweep.yaml").write_text(HEAD + vary(text))
         return load_sweep(Path("study.sweep.yaml"))
 
     return write_and_load
@@ -56,15 +56,19 @@ def test_the_bound_lies_on_the_tail_unless_stated(load_on):
 @pytest.mark.parametrize(
     ("condition", "text", "expected"),
     [
-        ("dry", "grid: {brake.command: [80 %]}\nk_dry: {}\n", "5:1: k_dry: the values of this sweep are"),
-        ("dry", SAMPLE % "sobol" + "k_dry: {}\n", "k_dry: points of method sobol are not independent"),
+        (
+            "dry",
+            "matrix: {brake.command: [80 %]}\nk_dry: {}\n",
+            "6:3: vary.k_dry: the values of this sweep are",
+        ),
+        ("dry", SAMPLE % "sobol" + "k_dry: {}\n", "vary.k_dry: points of method sobol are not independent"),
         (
             "dry",
             SAMPLE % "latin-hypercube" + "quantiles: {measure: braking_time, levels: [1 %]}\n",
             "write `sample: {method: random, ...}`",
         ),
         ("wet", DRAWN + "k_dry: {}\n", "K_dry holds for dry rail; the rail condition is 'wet'"),
-        ("dry", DRAWN + "grid: {rail.condition: [dry, wet]}\nk_dry: {}\n", "the rail condition is 'wet'"),
+        ("dry", DRAWN + "matrix: {rail.condition: [dry, wet]}\nk_dry: {}\n", "the rail condition is 'wet'"),
         ("dry", DRAWN + "k_dry: {measure: braking_distance}\n", "is no deceleration in m/s2: its unit is m"),
         ("dry", DRAWN + "k_dry: {measure: initial_adhesion}\n", "such as mean_deceleration"),
         ("dry", DRAWN + "k_dry: {nominal: 1.2}\n", "write `1.2 m/s2`"),
@@ -72,7 +76,7 @@ def test_the_bound_lies_on_the_tail_unless_stated(load_on):
         (
             "wet",
             DRAWN + "quantiles: [{measure: mean_decelleration, levels: [1 %]}]\n",
-            "quantiles.0.measure: no measure 'mean_decelleration'",
+            "vary.quantiles.0.measure: no measure 'mean_decelleration'",
         ),
         (
             "wet",

@@ -14,12 +14,12 @@ from uictest.rig import ASSIGNMENTS, FRICTION_KEYS, WHEELSET_ASSIGNMENTS, assemb
 from uictest.running.chunked.case_blocks import BlockAssembler
 from uictest.running.chunked.scenario_function import ScenarioVariants
 
-from ..conftest import GRID
+from ..conftest import MATRIX
 
 SWEEPS = {
-    "grid": GRID + "  initial_speed: [20 km/h, 8 m/s]\n",
+    "grid": MATRIX + "  initial_speed: [20 km/h, 8 m/s]\n",
     "parts": """\
-grid:
+matrix:
   vehicle: [intercity-180, crh380a]
   vehicle.wheelset.radius: [0.43 m, 0.45 m]
   controller: [threshold, slip-band]
@@ -27,7 +27,7 @@ grid:
   rail.condition: [dry, wet]
 """,
     "laws": """\
-grid:
+matrix:
   rail.friction:
     - {points: [{position: 0 m, friction: 0.1}, {position: 5 m, friction: 0.3}], interpolation: steps}
     - 0.07
@@ -35,14 +35,14 @@ grid:
 zip: {simulation.time_step: [0.5 ms, 0.25 ms], controller.cycle_time: [10 ms, 5 ms], seed: [3, 4]}
 """,
     "pads": """\
-grid:
+matrix:
   brake.pad: [constant, disc-pad, composite-block]
   brake.disc_temperature: [null, modelled, constant]
   brake.initial_disc_temperature: [null, 300 degC]
   brake.system.disc.thermal.thickness: [15 mm, 25 mm]
 """,
     "faults": """\
-grid:
+matrix:
   faults:
     - []
     - [{at: 3 s, wheelset: 2, part: speed-sensor, kind: stuck}]
@@ -51,7 +51,7 @@ grid:
   simulation.time_step: [0.5 ms, 0.25 ms]
 """,
     "sample": """\
-grid: {rig.compensation: [none, full]}
+matrix: {rig.compensation: [none, full]}
 sample:
   method: sobol
   size: 16
@@ -63,7 +63,7 @@ sample:
     rig.topology: {choice: [one-caliper, four-caliper]}
 """,
     "numbers": """\
-grid: {controller: [threshold, slip-band]}
+matrix: {controller: [threshold, slip-band]}
 sample:
   method: random
   size: 16
@@ -102,7 +102,7 @@ def written_out(plan, index, *overrides):
     keys = sorted(settings, key=lambda key: key.count("."))
     texts = [f"{key}={settings[key][0].text}" for key in keys]
     case = load_scenarios([Path("stop.yaml")], [*overrides, *texts])[0]
-    return replace(case, id=plan.ids(np.array([index]))[0])
+    return replace(case, id=plan.ids(np.array([index]))[0], path=plan.base.path)
 
 
 @pytest.mark.parametrize("name", SWEEPS)
@@ -119,7 +119,7 @@ def test_records_are_those_of_the_scenario_written_out(load, name):
 
 def test_keys_inside_a_fault_of_the_base_vary(load):
     fault = "faults=[{at: 3 s, wheelset: 2, part: speed-sensor, kind: stuck}]"
-    plan = load("grid:\n  faults.0.at: [3 s, 20 m]\n  faults.0.wheelset: [1, 4]\n", fault)
+    plan = load("matrix:\n  faults.0.at: [3 s, 20 m]\n  faults.0.wheelset: [1, 4]\n", fault)
     block = BlockAssembler(plan).block(np.arange(plan.size))
     assert block.rejections == [""] * plan.size
     for place in range(plan.size):
@@ -150,7 +150,7 @@ def test_a_case_does_not_depend_on_its_neighbours(load):
 
 def test_impossible_combinations_are_rejected_case_by_case(load):
     plan = load(
-        "grid:\n  simulation.time_step: [0.5 ms, 0.4 ms, 0.25 ms]\n  controller.cycle_time: [10 ms, 5 ms]\n"
+        "matrix:\n  simulation.time_step: [0.5 ms, 0.4 ms, 0.25 ms]\n  controller.cycle_time: [10 ms, 5 ms]\n"
     )
     rejections = BlockAssembler(plan).block(np.arange(6)).rejections
     assert [bool(reason) for reason in rejections] == [False, False, False, True, False, False]

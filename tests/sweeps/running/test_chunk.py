@@ -87,7 +87,7 @@ def test_a_case_that_fails_is_a_row_with_its_reason(load, made_up):
 
 
 def test_a_rejected_combination_is_a_row_with_its_reason(load, made_up):
-    plan = load("grid: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n")
+    plan = load("matrix: {simulation.time_step: [0.5 ms, 0.4 ms], controller.cycle_time: [10 ms, 5 ms]}\n")
     found = rows(made_up(plan).run(np.arange(4)))
     assert [row["outcome"] for row in found].count("error") == 1
     assert "does not divide the controller cycle" in found[3]["reason"]

@@ -21,7 +21,7 @@ distributed = pytest.importorskip("distributed")
 # What dask does with its own sockets and loops when a process is killed is not ours to judge.
 pytestmark = pytest.mark.filterwarnings("ignore")
 TEXT = """\
-grid: {rail.friction: [0.08, 0.12]}
+matrix: {rail.friction: [0.08, 0.12]}
 sample: {size: 48, parameters: {brake.command: {uniform: [60 %, 100 %]}}}
 """
 

@@ -35,7 +35,7 @@ def with_common_noise(found, of):
 
 def test_one_block_runs_controllers_of_all_kinds_with_the_same_bits(load, library, python_file):
     kinds = f"[slip-band, {{library: {library}}}, threshold, {{python: {python_file}}}]"
-    found = rows(load(f"grid:\n  controller: {kinds}\n{FRICTIONS}"))
+    found = rows(load(f"matrix:\n  controller: {kinds}\n{FRICTIONS}"))
     built_in = with_common_noise(found, "slip-band")
     assert [row["outcome"] for row in built_in].count("error") == 0
     assert with_common_noise(found, "{library") == built_in
@@ -47,7 +47,7 @@ def test_one_block_runs_controllers_of_all_kinds_with_the_same_bits(load, librar
 @pytest.mark.parametrize("kind", ["library", "python"])
 def test_a_controller_that_fails_is_a_row_and_the_others_keep_their_bits(load, kind, library, python_file):
     written = {"library": library, "python": python_file}[kind]
-    swept = "grid:\n  controller.parameters.fails_at: [-1, 0, 150]\n" + FRICTIONS
+    swept = "matrix:\n  controller.parameters.fails_at: [-1, 0, 150]\n" + FRICTIONS
     controller = f"controller={{{kind}: {written}, parameters: {{}}}}"
     plan = load(swept, controller)
     found = rows(plan)
@@ -69,7 +69,7 @@ def test_a_controller_that_fails_is_a_row_and_the_others_keep_their_bits(load, k
 @pytest.mark.parametrize(
     ("text", "texts"),
     [
-        ("grid:\n  controller.parameters.upper_slide: [0.1, 0.3]\n", ["0.1", "0.3"]),
+        ("matrix:\n  controller.parameters.upper_slide: [0.1, 0.3]\n", ["0.1", "0.3"]),
         (
             "ranges:\n  controller.parameters.upper_slide: {first: 0.1, last: 0.3, count: 3}\n",
             ["0.1", "0.2", "0.3"],
@@ -112,7 +112,7 @@ def test_parameters_of_a_controller_are_drawn_as_bare_numbers(load, python_file,
 
 
 def test_a_plan_is_the_same_on_another_machine(load, python_file):
-    plan = load(f"grid:\n  controller: [threshold, {{python: {python_file}}}]\n")
+    plan = load(f"matrix:\n  controller: [threshold, {{python: {python_file}}}]\n")
     sent = pickle.loads(pickle.dumps(plan))
     assert list(programs_of(sent)) == list(programs_of(plan)) != []
     indices = np.arange(plan.size)
@@ -120,7 +120,7 @@ def test_a_plan_is_the_same_on_another_machine(load, python_file):
 
 
 def test_a_worker_without_the_file_of_a_controller_says_so(load, python_file, tmp_path):
-    plan = load("grid: {rail.friction: [0.1]}\n", f"controller={{python: {python_file}}}")
+    plan = load("matrix: {rail.friction: [0.1]}\n", f"controller={{python: {python_file}}}")
     (tmp_path / "slip_band.py").write_text("another one\n")
     with pytest.raises(RuntimeError, match=r"the worker does not have .*slip_band\.py as it is here"):
         cluster._run_chunk("token", program_digest(), plan, np.arange(1))

@@ -56,7 +56,7 @@ criteria:
      applies: {gradient: {value: -1 permille, tolerance: 4 permille}}}
 """
 SWEEP = """\
-grid:
+matrix:
   criteria: [sides.yaml, [wheels.yaml, sides.yaml], never.yaml]
   brake.position: [R, P]
   rig.wsp: [active, bypassed]
@@ -128,7 +128,7 @@ def test_a_case_is_judged_by_its_own_bound(load, made_up, entry, key):
     plan = load()
     stop.write_text(f"{stop.read_text()}criteria: {entry.format(own)}\n")
     plan = load(
-        f"grid: {{{key}.upper: [1 m, 1 km], rail.friction: [0.08, 0.12], brake.command: [80 %, 90 %]}}\n"
+        f"matrix: {{{key}.upper: [1 m, 1 km], rail.friction: [0.08, 0.12], brake.command: [80 %, 90 %]}}\n"
     )
     runner = made_up(plan)
     block = runner.assembler.block(np.arange(plan.size))

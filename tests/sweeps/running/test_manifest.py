@@ -36,7 +36,7 @@ def test_what_is_computed_from_finished_cases_may_change(load):
         return manifest(load_sweep(Path("again.sweep.yaml")))
 
     load("sample: {size: 8, parameters: {rail.friction: {uniform: [0.1, 0.2]}}}\n")
-    plain, requested = of(""), of("quantiles: {measure: braking_distance, levels: [50 %]}\n")
+    plain, requested = of(""), of("  quantiles: {measure: braking_distance, levels: [50 %]}\n")
     assert plain["inputs"] != requested["inputs"]
     assert list(manifest_differences(plain, requested)) == []
     Path("study.sweep.yaml").write_text(Path("study.sweep.yaml").read_text().replace("0.2]", "0.21]"))

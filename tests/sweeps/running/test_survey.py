@@ -18,7 +18,7 @@ from uictest.running.chunked.case_blocks import BlockAssembler
 from uictest.running.chunked.store import program_digest
 from uictest.running.chunked.table import biases_by_measure, survey_biases, survey_step
 
-from ..conftest import GRID, SCENARIO, formula
+from ..conftest import MATRIX, SCENARIO, formula
 
 SURVEY = "simulation.time_step=survey"
 IN_FILE = "simulation.time_step: [survey]\n"
@@ -41,7 +41,7 @@ def survey():
     return runner
 
 
-@pytest.mark.parametrize(("text", "overrides"), [(GRID, [SURVEY]), (f"{GRID}  {IN_FILE}", [])])
+@pytest.mark.parametrize(("text", "overrides"), [(MATRIX, [SURVEY]), (f"{MATRIX}  {IN_FILE}", [])])
 def test_the_survey_step_is_asked_for_alone_and_varies_nothing(load, text, overrides):
     plan = load(text, *overrides)
     assert plan.survey
@@ -51,16 +51,16 @@ def test_the_survey_step_is_asked_for_alone_and_varies_nothing(load, text, overr
 
 
 def test_only_the_last_step_of_the_command_line_counts(load):
-    plan = load(f"{GRID}  {IN_FILE}", "simulation.time_step=0.25 ms")
+    plan = load(f"{MATRIX}  {IN_FILE}", "simulation.time_step=0.25 ms")
     assert not plan.survey
     assert plan.base.scenario.simulation.time_step == 0.00025
-    assert load(GRID, "simulation.time_step=0.25 ms", SURVEY).survey
+    assert load(MATRIX, "simulation.time_step=0.25 ms", SURVEY).survey
 
 
 @pytest.mark.parametrize("values", ["survey,0.5 ms", "0.5 ms,survey"])
 def test_survey_is_no_value_among_others(load, values):
     with pytest.raises(ScenarioErrors, match="'survey' is the time step of a whole sweep"):
-        load(GRID, f"simulation.time_step={values}")
+        load(MATRIX, f"simulation.time_step={values}")
 
 
 def test_a_scenario_has_no_survey_step(tmp_path):
@@ -78,26 +78,26 @@ def test_the_bias_is_not_known_beside_another_step(load):
     load()
     Path("fine.yaml").write_text(scenario)
     with pytest.raises(ScenarioErrors, match=r"known beside 0\.5 ms; the scenario is run in 0\.25 ms"):
-        load(GRID, SURVEY, scenario="fine.yaml")
+        load(MATRIX, SURVEY, scenario="fine.yaml")
 
 
 @pytest.mark.parametrize(
     ("text", "key"),
     [
-        ("grid: {simulation: [{time_step: 0.25 ms}, {time_step: 0.5 ms}]}\n", "simulation"),
-        (f"{GRID}zip: {{simulation.time_step: [0.25 ms, 0.5 ms], seed: [1, 2]}}\n", "simulation.time_step"),
+        ("matrix: {simulation: [{time_step: 0.25 ms}, {time_step: 0.5 ms}]}\n", "simulation"),
+        (f"{MATRIX}zip: {{simulation.time_step: [0.25 ms, 0.5 ms], seed: [1, 2]}}\n", "simulation.time_step"),
     ],
 )
 def test_no_step_varies_beside_the_survey(load, text, key):
-    in_file = text.replace("grid: {", f"grid: {{{IN_FILE.strip()}, ") if "zip" not in text else text
-    in_file = in_file.replace("grid:\n", f"grid:\n  {IN_FILE}")
+    in_file = text.replace("matrix: {", f"matrix: {{{IN_FILE.strip()}, ") if "zip" not in text else text
+    in_file = in_file.replace("matrix:\n", f"matrix:\n  {IN_FILE}")
     with pytest.raises(ScenarioErrors, match=f"'{key}' cannot vary: the survey step is that of all cases"):
         load(in_file)
 
 
 def test_only_cases_within_their_bias_of_a_limit_are_repeated(load, survey):
     """The formula locks a wheelset for 5 (command - 9 friction) s; at most 1 s is accepted."""
-    plan = load(GRID, SURVEY, "criteria=uictest-stop")
+    plan = load(MATRIX, SURVEY, "criteria=uictest-stop")
     found = rows(survey(plan, longest_lock=0.4).run(np.arange(plan.size)))
     locks = [5.0 * (row["values.brake.command"] - 9.0 * row["values.rail.friction"]) for row in found]
     near = [abs(lock - 1.0) < 0.4 * abs(lock) for lock in locks]
@@ -106,9 +106,9 @@ def test_only_cases_within_their_bias_of_a_limit_are_repeated(load, survey):
 
 
 def test_nothing_is_repeated_without_a_bias_and_everything_for_an_unknown_one(load, survey):
-    plan = load(GRID, SURVEY)
+    plan = load(MATRIX, SURVEY)
     assert {row["time_step_ms"] for row in rows(survey(plan).run(np.arange(plan.size)))} == {1.0}
-    plan = load(GRID, SURVEY, "criteria=uictest-stop")
+    plan = load(MATRIX, SURVEY, "criteria=uictest-stop")
     known = {name: bias for name, bias in NO_BIAS.items() if name != "longest_lock"}
     runner = replace(survey(plan), biases=known)
     assert {row["time_step_ms"] for row in rows(runner.run(np.arange(plan.size)))} == {0.5}
@@ -116,27 +116,27 @@ def test_nothing_is_repeated_without_a_bias_and_everything_for_an_unknown_one(lo
 
 def test_a_value_at_its_limit_is_repeated_where_the_step_moves_it_at_all(load, survey):
     """In the formula nothing saturates: 0 s at a limit of 0 s."""
-    plan = load(GRID, SURVEY, "criteria=uictest-rig")
+    plan = load(MATRIX, SURVEY, "criteria=uictest-rig")
     steps = {row["time_step_ms"] for row in rows(survey(plan).run(np.arange(plan.size)))}
     moved = {row["time_step_ms"] for row in rows(survey(plan, loadcell_saturation=0.1).run(np.arange(6)))}
     assert (steps, moved) == ({1.0}, {0.5})
 
 
 def test_criteria_of_a_series_decide_nothing(load, survey):
-    plan = load(GRID, SURVEY, "criteria=uictest-wsp")
+    plan = load(MATRIX, SURVEY, "criteria=uictest-wsp")
     found = rows(survey(plan).run(np.arange(plan.size)))
     assert {row["time_step_ms"] for row in found} == {1.0}
 
 
 def test_what_the_survey_step_cannot_simulate_is_repeated(load, survey):
-    plan = load("grid: {controller.cycle_time: [10 ms, 2.5 ms]}\n", SURVEY)
+    plan = load("matrix: {controller.cycle_time: [10 ms, 2.5 ms]}\n", SURVEY)
     found = rows(survey(plan).run(np.arange(2)))
     assert [row["time_step_ms"] for row in found] == [1.0, 0.5]
     assert "error" not in {row["outcome"] for row in found}
 
 
 def test_a_repeated_case_is_that_of_regular_steps_and_another_that_of_the_longer_ones(load):
-    text = "grid: {rail.friction: [0.05, 0.08], brake.command: [80 %, 100 %], criteria: [uictest-stop]}\n"
+    text = "matrix: {rail.friction: [0.05, 0.08], brake.command: [80 %, 100 %], criteria: [uictest-stop]}\n"
     beside = {
         step: rows(chunk_runner(load(text, f"simulation.time_step={step}"), rig.run_block).run(np.arange(4)))
         for step in ("0.5 ms", "1 ms")
@@ -156,7 +156,7 @@ def test_a_repeated_case_is_that_of_regular_steps_and_another_that_of_the_longer
 
 def test_a_survey_and_a_regular_sweep_have_different_manifests(load):
     def manifest(*overrides):
-        selection = CaseSelection(load(GRID, *overrides))
+        selection = CaseSelection(load(MATRIX, *overrides))
         return sweep_manifest(selection, expression=None, overrides=(), seed=None)
 
     assert manifest(SURVEY) == manifest() | {"time_step": "survey"}
@@ -169,7 +169,7 @@ def test_the_biases_belong_to_what_a_sweep_depends_on(monkeypatch):
 
 
 def test_the_bias_of_every_criterion_of_the_library_is_known(load):
-    plan = load(GRID, SURVEY, "criteria=[uic-541-05-appendix-b,uictest-rig,uictest-stop]")
+    plan = load(MATRIX, SURVEY, "criteria=[uic-541-05-appendix-b,uictest-rig,uictest-stop]")
     survey = survey_step(plan, 2, ["valve_actuations"])
     judged = {each.measure for profile in plan.base.scenario.judged_by for each in profile.criteria}
     assert judged | {"valve_actuations"} == {each.measure for each in survey.biases}
@@ -185,7 +185,7 @@ def test_the_bias_of_every_criterion_of_the_library_is_known(load):
 def test_a_measure_without_a_bias_is_named(load, monkeypatch):
     known = {name: each for name, each in survey_biases().items() if name != "longest_lock"}
     monkeypatch.setattr("uictest.running.chunked.table.survey_biases", lambda: known)
-    survey = survey_step(load(GRID, SURVEY, "criteria=[uictest-stop,uictest-wsp]"), 6, [])
+    survey = survey_step(load(MATRIX, SURVEY, "criteria=[uictest-stop,uictest-wsp]"), 6, [])
     assert survey.unknown == ("longest_lock",)
     assert "bias of the survey step: not known of longest_lock" in list(survey_notes(survey, 6))
 

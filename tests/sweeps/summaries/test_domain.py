@@ -45,21 +45,21 @@ STOPS = (
     ("rail.friction=0.10", "controller=slip-band", "initial_speed=25 km/h"),
 )
 SAMPLE = "sample:\n  size: 40\n  parameters:\n"
-LISTS = "grid:\n  brake.command: [80 %, 90 %, 100 %]\n"
+LISTS = "matrix:\n  brake.command: [80 %, 90 %, 100 %]\n"
 PLANS = {
     "listed numbers": f"{LISTS}  rail.friction: [0.08, 0.09, 0.10, 0.11, 0.12]\n",
     "drawn numbers": f"{SAMPLE}    rail.friction: {{uniform: [0.08, 0.12]}}\n"
     "    initial_speed: {uniform: [20 km/h, 45 km/h]}\n",
-    "names": "grid:\n  controller: [threshold, slip-band]\n  brake.command: [80 %, 100 %]\n"
+    "names": "matrix:\n  controller: [threshold, slip-band]\n  brake.command: [80 %, 100 %]\n"
     "  initial_speed: [25 km/h, 30 km/h, 45 km/h]\n",
-    "settings": "grid:\n  rig.wsp: [active, bypassed]\n  brake.position: [R, P]\n",
-    "a number of one wheelset": "grid:\n  vehicle.wheelsets.2.wheel_radius: [0.45 m, 0.46 m]\n",
-    "friction of the condition": "grid:\n  rail.friction: [null, 0.1]\n"
+    "settings": "matrix:\n  rig.wsp: [active, bypassed]\n  brake.position: [R, P]\n",
+    "a number of one wheelset": "matrix:\n  vehicle.wheelsets.2.wheel_radius: [0.45 m, 0.46 m]\n",
+    "friction of the condition": "matrix:\n  rail.friction: [null, 0.1]\n"
     "  rail.condition.friction: [0.05, 0.09, 0.1]\n",
-    "points along the track": "grid:\n  rail.friction:\n"
+    "points along the track": "matrix:\n  rail.friction:\n"
     "    - points: [{position: 0 m, friction: 0.1}, {position: 50 m, friction: 0.05}]\n    - 0.1\n",
-    "what says nothing of the conditions": "grid:\n  seed: [0, 1, 2]\n  rail.friction: [0.1]\n",
-    "numbers inside of another part": "grid:\n  controller: [slip-band, threshold]\n"
+    "what says nothing of the conditions": "matrix:\n  seed: [0, 1, 2]\n  rail.friction: [0.1]\n",
+    "numbers inside of another part": "matrix:\n  controller: [slip-band, threshold]\n"
     "  controller.cycle_time: [10 ms, 20 ms]\n",
 }
 
@@ -82,7 +82,7 @@ def test_friction_that_changes_over_time_spans_its_factors(load):
     scenario.write_text(
         f"{scenario.read_text()}".replace("0.1}", f"0.1, friction_over_time: {{points: {points}}}}}")
     )
-    plan = load("grid:\n  rail.friction: [0.08, 0.1]\n")
+    plan = load("matrix:\n  rail.friction: [0.08, 0.1]\n")
     compare_with_each_alone(plan, reference(("rail.friction=0.09",)))
 
 
@@ -107,7 +107,7 @@ def compare_with_each_alone(plan, validated):
 
 
 def test_a_condition_spans_the_numbers_of_its_cases(load):
-    plan = load("grid:\n  initial_speed: [30 km/h, 50 km/h, 70 km/h]\n  rail.friction: [0.1, 0.2]\n")
+    plan = load("matrix:\n  initial_speed: [30 km/h, 50 km/h, 70 km/h]\n  rail.friction: [0.1, 0.2]\n")
     tally = DomainTally(plan, reference(("rail.friction=0.1",)))
     for index in range(plan.size):
         tally.with_column(rows_of(plan, [index]))
@@ -123,7 +123,7 @@ def test_a_condition_spans_the_numbers_of_its_cases(load):
 
 
 def test_a_sweep_inside_of_what_was_validated_says_so(load):
-    plan = load("grid:\n  rail.friction: [0.1]\n")
+    plan = load("matrix:\n  rail.friction: [0.1]\n")
     tally = DomainTally(plan, reference(("rail.friction=0.1",)))
     assert tally.with_column(rows_of(plan, [0]))[OUTSIDE].to_pylist() == [""]
     assert list(domain_notes(tally.result(), 1)) == ["0 of 1 case outside of what my-train validated"]

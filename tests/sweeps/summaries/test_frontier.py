@@ -8,7 +8,7 @@ from uictest.plans.scenario.yaml.quantities import parse_decimal_quantity
 from uictest.report import WrittenValue
 
 TEXT = """\
-grid:
+matrix:
   brake.command: [80 %, 100 %]
   rail.friction: [0.16, 0.04, 0.08, 0.12]
   seed: [1, 2]

@@ -8,7 +8,7 @@ from uictest.plans.sweeps.plan import saltelli_sample
 from uictest.report import SobolIndex, SobolSensitivity, WrittenValue
 
 TEXT = """\
-grid: {seed: [1, 2]}
+matrix: {seed: [1, 2]}
 sample:
   method: saltelli
   size: 512

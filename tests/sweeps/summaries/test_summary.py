@@ -18,14 +18,14 @@ from uictest.report.sweep.result import read_sweep_document, sweep_document
 from uictest.running.chunked import CaseSelection, ChunkRunner, ChunkStore
 from uictest.running.chunked.case_blocks import BlockAssembler
 
-from ..conftest import GRID, SCENARIO, formula
+from ..conftest import MATRIX, SCENARIO, formula
 
 
 @pytest.fixture
 def finished(load, made_up, tmp_path):
     """The findings of a finished sweep and the folder they are written to."""
 
-    def finish(text=GRID, scenario="stop.yaml"):
+    def finish(text=MATRIX, scenario="stop.yaml"):
         selection = CaseSelection(load(text, scenario=scenario))
         store = ChunkStore(tmp_path / "out")
         store.open({}, restart=True)
@@ -51,7 +51,7 @@ def unstopped(parameters, own, rail):
 
 
 def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(load, tmp_path):
-    selection = CaseSelection(load(GRID.replace("100 %]", "100 %]\n  simulation.maximum_duration: [60 s]")))
+    selection = CaseSelection(load(MATRIX.replace("100 %]", "100 %]\n  simulation.maximum_duration: [60 s]")))
     store = ChunkStore(tmp_path / "out")
     store.open({}, restart=True)
     runner = ChunkRunner(BlockAssembler(selection.plan), unstopped, selection.plan, rig.run_block)
@@ -159,7 +159,7 @@ def test_trends_of_a_figure_along_each_parameter(finished):
 
 def test_a_parameter_of_too_many_values_has_no_trend(finished):
     many = ", ".join(str(round(0.05 + k * 1e-4, 4)) for k in range(MOST_VALUES + 1))
-    _, folder = finished(GRID.replace("[0.08, 0.10, 0.12]", f"[{many}]"))
+    _, folder = finished(MATRIX.replace("[0.08, 0.10, 0.12]", f"[{many}]"))
     assert {row[0] for row in table(folder / "trends.csv")[1:]} == {"brake.command"}
 
 
@@ -200,7 +200,7 @@ def test_the_requirements_of_the_scenario_are_those_of_every_testcase(finished, 
     assert not (folder / "junit-properties.xml").exists()
     scenario = SCENARIO + "requirements: [BR-1, BR-2]\ntest_case: WSP-TC-7\n"
     (tmp_path / "named.yaml").write_text(scenario)
-    result, folder = finished(GRID, "named.yaml")
+    result, folder = finished(MATRIX, "named.yaml")
     assert (result.requirements, result.test_case) == (("BR-1", "BR-2"), "WSP-TC-7")
     assert result.notes[0] == "requirements that the scenario and its criteria name: BR-1, BR-2"
     assert read_sweep_document(read_document(folder)).requirements == ("BR-1", "BR-2")

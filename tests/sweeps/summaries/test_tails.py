@@ -19,7 +19,7 @@ from uictest.report.sweep.tail_tables import tail_tables
 from uictest.running.chunked import CaseSelection, ChunkRunner, ChunkStore, select_cases
 from uictest.running.chunked.case_blocks import BlockAssembler
 
-from ..conftest import HEAD, formula
+from ..conftest import HEAD, formula, vary
 
 DRY = (
     "schema: uictest/scenario/1\nname: stop\ninitial_speed: 30 km/h\nrail: {condition: dry, friction: 0.12}\n"
@@ -36,7 +36,7 @@ def load_dry(tmp_path, monkeypatch):
     Path("stop.yaml").write_text(DRY)
 
     def write_and_load(text):
-        Path("study.sweep.yaml").write_text(HEAD + text)
+        Path("study.sweep.yaml").write_text(HEAD + vary(text))
         return load_sweep(Path("study.sweep.yaml"))
 
     return write_and_load
@@ -191,7 +191,7 @@ def test_a_stop_that_does_not_end_has_no_value_of_any_measure(load_dry):
 
 
 def test_each_combination_of_listed_values_has_its_own(load_dry):
-    grid = "grid: {initial_speed: [20 km/h, 30 km/h]}\n"
+    grid = "matrix: {initial_speed: [20 km/h, 30 km/h]}\n"
     text = "quantiles: {measure: braking_distance, levels: [50 %]}\n"
     result, folder = finish(load_dry(SAMPLE % 100 + grid + K_DRY + text))
     rows = pd.read_parquet(folder / "summary.parquet")
@@ -204,7 +204,7 @@ def test_each_combination_of_listed_values_has_its_own(load_dry):
 
 
 def test_neither_a_selection_of_draws_is_a_sample_nor_a_shared_value_a_circumstance(load_dry):
-    result, _ = finish(load_dry(SAMPLE % 100 + "grid: {criteria: [uictest-stop]}\n" + K_DRY))
+    result, _ = finish(load_dry(SAMPLE % 100 + "matrix: {criteria: [uictest-stop]}\n" + K_DRY))
     assert [dict(table.circumstances) for table in result.k_dry] == [{}]
     result, _ = finish(load_dry(SAMPLE % 100 + K_DRY), only="sample=1")
     assert (result.quantiles, result.k_dry) == ((), ())
@@ -212,7 +212,7 @@ def test_neither_a_selection_of_draws_is_a_sample_nor_a_shared_value_a_circumsta
 
 
 def test_the_nominal_case_has_the_values_of_the_scenario(load_dry):
-    text = SAMPLE % 100 + "grid: {initial_speed: [20 km/h, 30 km/h]}\nk_dry: {}\n"
+    text = SAMPLE % 100 + "matrix: {initial_speed: [20 km/h, 30 km/h]}\nk_dry: {}\n"
     plan = load_dry(text.replace("}}}", "}, vehicle.wheelsets.2.brake_force: {uniform: [90 %, 95 %]}}}"))
     nominal = nominal_plan(plan)
     assert nominal.size == 2

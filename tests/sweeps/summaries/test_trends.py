@@ -7,13 +7,13 @@ from uictest.analysis.summaries.histograms import ReportedMeasure
 from uictest.analysis.summaries.tally import bins_of_plan
 from uictest.analysis.summaries.trends import TrendSums
 
-from ..conftest import GRID
+from ..conftest import MATRIX
 
 MEASURE = ReportedMeasure("initial adhesion", "g", ("adhesion",))
 
 
 def test_a_mean_is_that_of_the_combinations_that_have_the_measure_at_every_value(load):
-    plan = load(GRID)
+    plan = load(MATRIX)
     first, second = plan.groups
     assert (first.size, second.size) == (3, 2)
     # The measure depends on the first parameter alone; at the first value of the second it is missing twice.
@@ -35,7 +35,7 @@ def test_a_mean_is_that_of_the_combinations_that_have_the_measure_at_every_value
 
 
 def test_a_value_at_which_no_case_has_the_measure_takes_no_other_away(load):
-    plan = load(GRID)
+    plan = load(MATRIX)
     adhesion = np.array([np.nan, np.nan, 0.07, 0.08, 0.09, 0.10])
     rows = pa.table({"index": np.arange(6), "adhesion": adhesion})
     sums = TrendSums(plan, bins_of_plan(plan)[plan.groups[0].keys[0]], [MEASURE])

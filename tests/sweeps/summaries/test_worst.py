@@ -45,7 +45,7 @@ def test_those_not_met_come_first_then_the_narrowest(found, cut):
 
 def test_a_case_examined_alone_has_the_figures_of_its_row(load):
     """Bit for bit: the scalar rig and the lanes, with the noise of the same case."""
-    plan = load("grid:\n  rail.friction: [0.06, 0.15]\n  controller.slip_threshold: [0.5 m/s, 0.9 m/s]\n")
+    plan = load("matrix:\n  rail.friction: [0.06, 0.15]\n  controller.slip_threshold: [0.5 m/s, 0.9 m/s]\n")
     runner = chunk_runner(plan, rig.run_block)
     indices = [3, 0]
     block = runner.assembler.block(np.array(indices))

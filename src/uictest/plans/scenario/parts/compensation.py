@@ -84,7 +84,7 @@ class FourPhaseHysteresis(Section):
             ("wsp_squeezing", self.wsp_squeezing, "wsp_releasing", self.wsp_releasing),
         )
         for squeezing_key, squeezing, releasing_key, releasing in pairs:
-            # Both are straight where positive: the order at two ends decides, the first force of the lower one.
+            # Straight where positive: their order at the first force of the lower one and at the end decides.
             start = max(0.0, -squeezing.intercept / squeezing.slope)
             if any(squeezing.force(at) > releasing.force(at) for at in (start, HIGHEST_PRESSURE)):
                 yield Inconsistency(
