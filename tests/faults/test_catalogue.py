@@ -5,7 +5,7 @@ from dataclasses import astuple
 import pytest
 
 from uictest.core.units import KINDS
-from uictest.plans.faults import FAULT_KINDS, SPEED_SENSOR, Effects, FaultKind
+from uictest.plans.faults import FAULT_KINDS, SPEED_SENSOR, Effects
 from uictest.plans.scenario.yaml import parse_quantity
 
 ROWS = list(FAULT_KINDS.values())
@@ -13,7 +13,7 @@ NAMES = ["-".join(key) for key in FAULT_KINDS]
 
 
 @pytest.mark.parametrize("row", ROWS, ids=NAMES)
-def test_every_value_has_a_range_of_its_kind(row: FaultKind) -> None:
+def test_every_value_has_a_range_of_its_kind(row):
     if row.value is not None:
         assert row.value.kind in KINDS
         low, high = (parse_quantity(text, row.value.kind) for text in (row.value.at_least, row.value.at_most))
@@ -21,7 +21,7 @@ def test_every_value_has_a_range_of_its_kind(row: FaultKind) -> None:
 
 
 @pytest.mark.parametrize("row", ROWS, ids=NAMES)
-def test_every_fault_changes_something(row: FaultKind) -> None:
+def test_every_fault_changes_something(row):
     """With its largest value; without one where it needs none."""
     value = None if row.value is None else float(parse_quantity(row.value.at_most, row.value.kind))
     assert astuple(row.effects(value)) != astuple(Effects())
@@ -30,7 +30,7 @@ def test_every_fault_changes_something(row: FaultKind) -> None:
 
 
 @pytest.mark.parametrize("row", ROWS, ids=NAMES)
-def test_a_lost_sensor_alone_reports_its_fault(row: FaultKind) -> None:
+def test_a_lost_sensor_alone_reports_its_fault(row):
     """With or without a value that it reads."""
     values = [None] if row.value is None or row.value.without else []
     if row.value is not None:
@@ -40,11 +40,11 @@ def test_a_lost_sensor_alone_reports_its_fault(row: FaultKind) -> None:
 
 
 @pytest.mark.parametrize("row", ROWS, ids=NAMES)
-def test_only_what_the_train_has_once_belongs_to_no_wheelset(row: FaultKind) -> None:
+def test_only_what_the_train_has_once_belongs_to_no_wheelset(row):
     assert row.of_wheelset == (row.part not in ("brake-line", "controller"))
 
 
 @pytest.mark.parametrize("row", ROWS, ids=NAMES)
-def test_descriptions_are_sentences_that_explain_the_value(row: FaultKind) -> None:
+def test_descriptions_are_sentences_that_explain_the_value(row):
     assert row.description.endswith(".")
     assert ("`value`" in row.description) == (row.value is not None)

@@ -7,7 +7,7 @@ from dataclasses import asdict
 
 import pytest
 
-from uictest.plans.faults import FAULT_KINDS, Effects, FaultKind
+from uictest.plans.faults import FAULT_KINDS, Effects
 from uictest.plans.scenario.yaml import parse_quantity
 
 NOTHING = {
@@ -66,20 +66,18 @@ FAULTS = [
 ]
 
 
-def test_without_a_fault_nothing_is_changed() -> None:
+def test_without_a_fault_nothing_is_changed():
     assert asdict(Effects()) == NOTHING
 
 
 @pytest.mark.parametrize(("part", "name", "value", "changed"), FAULTS)
-def test_a_fault_changes_what_its_description_says_and_nothing_else(
-    part: str, name: str, value: str, changed: dict[str, float]
-) -> None:
+def test_a_fault_changes_what_its_description_says_and_nothing_else(part, name, value, changed):
     row = FAULT_KINDS[part, name]
     given = float(parse_quantity(value, row.value.kind)) if row.value and value else None
     assert asdict(row.effects(given)) == pytest.approx({**NOTHING, **changed})
 
 
-def test_every_fault_is_held_to_its_description() -> None:
+def test_every_fault_is_held_to_its_description():
     """With a value where it takes one, and without where it can do without."""
     ways = {
         (*key, given)
@@ -91,7 +89,7 @@ def test_every_fault_is_held_to_its_description() -> None:
 
 
 @pytest.mark.parametrize("row", FAULT_KINDS.values(), ids=["-".join(key) for key in FAULT_KINDS])
-def test_no_value_in_range_is_beyond_what_equations_hold_for(row: FaultKind) -> None:
+def test_no_value_in_range_is_beyond_what_equations_hold_for(row):
     """A way is open by 0 to 1, a share of readings is one, air leaks out and not in, time passes."""
     if row.value is None:
         return

@@ -1,21 +1,15 @@
 """Whether a compensation was identified for the rig of a stop."""
 
-from collections.abc import Callable
-from pathlib import Path
-
 import pytest
 
-from uictest.plans.scenario import Case, ScenarioErrors, misfits, rig_differences
-
-Load = Callable[..., Case]
-Write = Callable[..., Path]
+from uictest.plans.scenario import ScenarioErrors, misfits, rig_differences
 
 
-def told(case: Case) -> list[str]:
+def told(case):
     return [str(each) for each in misfits(case.scenario)]
 
 
-def test_the_shipped_compensation_is_for_the_shipped_rig(case: Load) -> None:
+def test_the_shipped_compensation_is_for_the_shipped_rig(case):
     differences = rig_differences(case().scenario)
     assert differences
     assert all(each.share == 0.0 for each in differences)
@@ -30,20 +24,18 @@ def test_the_shipped_compensation_is_for_the_shipped_rig(case: Load) -> None:
         ("brake.system.wsp_valve.travel_time=50 ms", "is 50 ms, the compensation is for 20 ms within 50 %"),
     ],
 )
-def test_a_number_beyond_its_tolerance_is_named_with_both_values(
-    case: Load, override: str, reason: str
-) -> None:
+def test_a_number_beyond_its_tolerance_is_named_with_both_values(case, override, reason):
     assert told(case(override)) == [f"{override.partition('=')[0]} {reason}"]
     assert told(case(override, "rig.topology=four-caliper")) == []
     assert told(case(override, "rig.compensation_model=identify")) == []
 
 
-def test_the_valve_of_a_module_without_a_caliper_counts(case: Load) -> None:
+def test_the_valve_of_a_module_without_a_caliper_counts(case):
     [reason] = told(case("vehicle.wheelsets.3.wsp_valve.vent_conductance=9e-8 m3/(s Pa)"))
     assert reason.startswith("vehicle.wheelsets.3.wsp_valve.vent_conductance is 9e-8 m3/(s Pa), ")
 
 
-def test_numbers_within_their_tolerances_fit_but_not_in_sum(case: Load) -> None:
+def test_numbers_within_their_tolerances_fit_but_not_in_sum(case):
     """Together they move a stop further than any of them does."""
     friction, volume = "rig.caliper.load_friction=8 %", "brake.system.tank.volume=2.9 L"
     assert told(case(friction)) == told(case(volume)) == []
@@ -53,17 +45,17 @@ def test_numbers_within_their_tolerances_fit_but_not_in_sum(case: Load) -> None:
     ]
 
 
-def test_valves_that_differ_alike_count_once(case: Load) -> None:
+def test_valves_that_differ_alike_count_once(case):
     conductance = "vehicle.wheelsets.{}.wsp_valve.vent_conductance=3.5e-8 m3/(s Pa)"
     assert told(case(*(conductance.format(n) for n in (2, 3, 4)))) == []
 
 
-def test_the_valve_of_the_module_with_the_caliper_does_not_matter(case: Load) -> None:
+def test_the_valve_of_the_module_with_the_caliper_does_not_matter(case):
     """No compensation stands in for that one."""
     assert told(case("vehicle.wheelsets.1.wsp_valve.vent_conductance=9e-8 m3/(s Pa)")) == []
 
 
-def test_a_compensation_that_lists_no_rig_is_not_known_to_fit(case: Load) -> None:
+def test_a_compensation_that_lists_no_rig_is_not_known_to_fit(case):
     scenario = case().scenario
     model = scenario.rig.compensation_model.model_copy(update={"identified_for": None})
     rig = scenario.rig.model_copy(update={"compensation_model": model})
@@ -79,13 +71,13 @@ def test_a_compensation_that_lists_no_rig_is_not_known_to_fit(case: Load) -> Non
         "rig.compensation_model.cylinder.denominator=[0, 0, 0]",
     ],
 )
-def test_a_compensation_whose_numbers_were_changed_is_not_known_to_fit(case: Load, override: str) -> None:
+def test_a_compensation_whose_numbers_were_changed_is_not_known_to_fit(case, override):
     """It would keep the list of the rig that other numbers were identified for."""
     numerator = ["rig.compensation_model.cylinder.numerator=[1, 0, 0, 0]"] * ("cylinder" in override)
     assert rig_differences(case(override, *numerator).scenario) is None
 
 
-def test_a_compensation_to_identify_has_tolerances_to_be_held_to(case: Load, write: Write) -> None:
+def test_a_compensation_to_identify_has_tolerances_to_be_held_to(case, write):
     """It was an internal error, after minutes of identification."""
     own = "schema: uictest/compensation/1\nname: own\nextends: identify\nidentified_for: null\n"
     write("own.yaml", own)
@@ -93,7 +85,7 @@ def test_a_compensation_to_identify_has_tolerances_to_be_held_to(case: Load, wri
         case("rig.compensation_model=own.yaml")
 
 
-def test_no_profile_takes_the_id_of_a_check_of_the_rig(case: Load, write: Write) -> None:
+def test_no_profile_takes_the_id_of_a_check_of_the_rig(case, write):
     criterion = "{id: compensation-fits, layer: validity, measure: braking_distance, upper: 1 km}"
     write("own.yaml", f"schema: uictest/criteria/1\nname: own\ncriteria: [{criterion}]\n")
     with pytest.raises(ScenarioErrors, match="is in profile 'uictest-rig' as well"):

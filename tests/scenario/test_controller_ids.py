@@ -6,17 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from uictest.plans.scenario import Case, Diagnostic, load
+from uictest.plans.scenario import load
 from uictest.plans.series import load_series
 from uictest.plans.sweeps import load_sweep
 
-Loaded = Callable[..., list[Case]]
-Refused = Callable[..., tuple[Diagnostic, ...]]
 Write = Callable[..., Path]
 BOTH = "matrix: {controller: [v23/wsp.yaml, v24/wsp.yaml]}\n"
 
 
-def _part(write: Write, folder: str, program: str, name: str = "name: wsp\n", more: str = "") -> str:
+def _part(write, folder, program, name="name: wsp\n", more=""):
     """Write a controller; return the digits of its program."""
     write(f"{folder}/wsp.py", program.encode())
     write(
@@ -26,11 +24,11 @@ def _part(write: Write, folder: str, program: str, name: str = "name: wsp\n", mo
     return sha256(program.encode()).hexdigest()[:8]
 
 
-def _version(text: str) -> str:
+def _version(text):
     return f"__version__ = {text!r}\n"
 
 
-def test_a_controller_is_named_by_its_part_not_by_its_file(write: Write, loaded: Loaded, head: str) -> None:
+def test_a_controller_is_named_by_its_part_not_by_its_file(write, loaded, head):
     _part(write, "v23", "", "name: ours\n")
     _part(write, "v24", "")
     cases = loaded(f"{head}matrix: {{controller: [v23/wsp.yaml, v24/wsp.yaml, threshold]}}\n")
@@ -49,9 +47,7 @@ def test_a_controller_is_named_by_its_part_not_by_its_file(write: Write, loaded:
         (("2.4/", "2.4"), None),  # the same in the characters of a file name
     ],
 )
-def test_programs_of_one_name_have_their_versions_or_digests(
-    write: Write, loaded: Loaded, head: str, versions: tuple[str, str], suffixes: tuple[str, str] | None
-) -> None:
+def test_programs_of_one_name_have_their_versions_or_digests(write, loaded, head, versions, suffixes):
     digests = [
         _part(write, folder, f"{_version(version)}# {folder}\n")
         for folder, version in zip(("v23", "v24"), versions, strict=True)
@@ -60,7 +56,7 @@ def test_programs_of_one_name_have_their_versions_or_digests(
     assert ids == [f"stop[controller=wsp@{suffix}]" for suffix in suffixes or digests]
 
 
-def test_a_comma_list_series_and_sweeps_name_them_alike(write: Write, head: str) -> None:
+def test_a_comma_list_series_and_sweeps_name_them_alike(write, head):
     """`controller=v23/wsp.yaml,v24/wsp.yaml` was refused as the same id."""
     _part(write, "v23", _version("2.3"))
     _part(write, "v24", _version("2.4"))
@@ -79,7 +75,7 @@ def test_a_comma_list_series_and_sweeps_name_them_alike(write: Write, head: str)
     assert [row[0].label for row in plan.groups[0].rows] == ["wsp@2.3", "wsp@2.4"]
 
 
-def test_one_program_with_other_parameters_needs_a_name(write: Write, refused: Refused, head: str) -> None:
+def test_one_program_with_other_parameters_needs_a_name(write, refused, head):
     for folder, more in (("v23", "parameters: {a: 1}\n"), ("v24", "parameters: {a: 2}\n")):
         _part(write, folder, "", more=f"{more}free_parameters: true\n")
     (error,) = refused(head + BOTH)

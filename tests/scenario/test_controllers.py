@@ -1,17 +1,12 @@
 """Controllers from outside: what a scenario may write, and what the messages say about the rest."""
 
-from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
 
 import pytest
 
-from uictest.plans.scenario import Case, Diagnostic, load, values_in
+from uictest.plans.scenario import load, values_in
 from uictest.plans.scenario.program_files import stated_version
-
-Loaded = Callable[..., list[Case]]
-Refused = Callable[..., tuple[Diagnostic, ...]]
-Write = Callable[..., Path]
 
 PROGRAM = b'__version__ = "1.2.0"\nclass Wsp: ...\n'
 
@@ -58,9 +53,7 @@ PROGRAM = b'__version__ = "1.2.0"\nclass Wsp: ...\n'
         ("'tcp://rig:5025'", "controller", "no controller", 'write `{connect: "tcp://rig:5025"}`'),
     ],
 )
-def test_what_to_write_instead(
-    refused: Refused, write: Write, head: str, controller: str, key: str, message: str, hint: str
-) -> None:
+def test_what_to_write_instead(refused, write, head, controller, key, message, hint):
     write("wsp.py", PROGRAM)
     diagnostics = {each.key: each for each in refused(f"{head}controller: {controller}\n")}
     assert message in diagnostics[key].message
@@ -68,7 +61,7 @@ def test_what_to_write_instead(
     assert diagnostics[key].line == 4
 
 
-def test_a_file_is_identified_and_not_run(loaded: Loaded, write: Write, head: str) -> None:
+def test_a_file_is_identified_and_not_run(loaded, write, head):
     write("wsp.py", PROGRAM + b"raise SystemExit\n")
     (case,) = loaded(
         f"{head}controller: {{python: wsp.py, class: Wsp, parameters: {{gain: 2}}, free_parameters: true}}\n"
@@ -80,9 +73,7 @@ def test_a_file_is_identified_and_not_run(loaded: Loaded, write: Write, head: st
     assert expected.items() <= dict(values_in(case.scenario.controller)).items()
 
 
-def test_a_version_that_a_scenario_states_goes_before_that_of_the_file(
-    loaded: Loaded, write: Write, head: str
-) -> None:
+def test_a_version_that_a_scenario_states_goes_before_that_of_the_file(loaded, write, head):
     write("wsp.py", PROGRAM)
     (case,) = loaded(f"{head}controller: {{python: wsp.py, class: Wsp, version: 2.0-rc1}}\n")
     assert case.scenario.controller.version == "2.0-rc1"
@@ -108,7 +99,7 @@ def test_a_version_that_a_scenario_states_goes_before_that_of_the_file(
         ("this is no Python", ""),
     ],
 )
-def test_the_version_of_a_python_file_is_a_text_in_it(text: str, version: str) -> None:
+def test_the_version_of_a_python_file_is_a_text_in_it(text, version):
     assert stated_version("python", text.encode()) == version
 
 
@@ -126,15 +117,11 @@ def test_the_version_of_a_python_file_is_a_text_in_it(text: str, version: str) -
         ),
     ],
 )
-def test_the_version_of_an_fmu_is_that_of_its_description(
-    fmu: Callable[[str], bytes], description: str, version: str
-) -> None:
+def test_the_version_of_an_fmu_is_that_of_its_description(fmu, description, version):
     assert stated_version("fmu", fmu(description)) == version
 
 
-def test_a_file_that_states_no_version_has_none(
-    loaded: Loaded, write: Write, head: str, fmu: Callable[[str], bytes]
-) -> None:
+def test_a_file_that_states_no_version_has_none(loaded, write, head, fmu):
     whole = fmu('<fmiModelDescription version="1.4"/>')
     for content, version in ((whole, "1.4"), (whole[:-9], None), (b"no archive", None)):
         write("wsp.fmu", content)
@@ -152,18 +139,14 @@ def test_a_file_that_states_no_version_has_none(
         ("{connect: 'tcp://rig:5025'}", "tcp://rig:5025"),
     ],
 )
-def test_a_controller_without_a_name_is_called_after_its_program(
-    loaded: Loaded, write: Write, head: str, controller: str, label: str
-) -> None:
+def test_a_controller_without_a_name_is_called_after_its_program(loaded, write, head, controller, label):
     for name in ("wsp.py", "build/libwsp.so", "wsp.fmu"):
         write(name, PROGRAM)
     (case,) = loaded(f"{head}controller: {controller}\n")
     assert case.scenario.controller.label == label
 
 
-def test_a_file_of_several_cases_is_read_once(
-    write: Write, head: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_of_several_cases_is_read_once(write, head, monkeypatch):
     program, read = write("wsp.py", PROGRAM), []
     original = Path.read_bytes
     monkeypatch.setattr(Path, "read_bytes", lambda path: read.append(path.name) or original(path))
@@ -173,7 +156,7 @@ def test_a_file_of_several_cases_is_read_once(
     assert read.count(program.name) == 1
 
 
-def test_another_build_is_a_change_against_the_part_that_is_extended(write: Write, head: str) -> None:
+def test_another_build_is_a_change_against_the_part_that_is_extended(write, head):
     """The part at the root of `extends` has the SHA-256 of its own file."""
     from uictest.judging.evaluation import EffectiveParts
 

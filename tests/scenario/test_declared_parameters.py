@@ -2,18 +2,11 @@
 
 import ast
 import json
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
 from uictest.judging.evaluation import EffectiveParts
-from uictest.plans.scenario import Case, Diagnostic, ScenarioErrors, load_controller, with_parameters
-
-Loaded = Callable[..., list[Case]]
-Refused = Callable[..., tuple[Diagnostic, ...]]
-Write = Callable[..., Path]
-Fmu = Callable[[str], bytes]
+from uictest.plans.scenario import ScenarioErrors, load_controller, with_parameters
 
 PYTHON = """
 PARAMETERS = {
@@ -61,7 +54,7 @@ CONTROLLERS = {
 
 
 @pytest.fixture
-def programs(write: Write, fmu: Fmu) -> None:
+def programs(write, fmu):
     write("wsp.py", PYTHON.encode())
     write("plain.py", b"class Wsp: ...\n")
     write("libwsp.so", b"")
@@ -72,31 +65,27 @@ def programs(write: Write, fmu: Fmu) -> None:
 @pytest.mark.usefixtures("programs")
 @pytest.mark.parametrize("controller", CONTROLLERS.values(), ids=CONTROLLERS.keys())
 class TestEveryKind:
-    def test_a_misspelt_name_is_an_error_with_the_nearest(
-        self, refused: Refused, head: str, controller: str
-    ) -> None:
+    def test_a_misspelt_name_is_an_error_with_the_nearest(self, refused, head, controller):
         """A run with `uper_slide` passed with the default of the controller."""
         (error,) = refused(f"{head}controller: {{{controller}, parameters: {{uper_slide: 0.1}}}}\n")
         assert (error.key, error.line) == ("controller.parameters.uper_slide", 4)
         assert "no parameter uper_slide" in error.message
         assert "upper_slide" in error.hint
 
-    def test_a_value_outside_of_its_declaration_is_an_error(
-        self, refused: Refused, head: str, controller: str
-    ) -> None:
+    def test_a_value_outside_of_its_declaration_is_an_error(self, refused, head, controller):
         for given in ("1.5", "-0.1", "15 %", "true", "[0.1]"):
             (error,) = refused(f"{head}controller: {{{controller}, parameters: {{upper_slide: {given}}}}}\n")
             assert error.key == "controller.parameters.upper_slide"
             assert "out of range" in error.message or "expected a number" in error.message
 
-    def test_values_within_it_are_accepted(self, loaded: Loaded, head: str, controller: str) -> None:
+    def test_values_within_it_are_accepted(self, loaded, head, controller):
         given = "{upper_slide: 1, cycles: 4, mode: slow}"
         (case,) = loaded(f"{head}controller: {{{controller}, parameters: {given}}}\n")
         program = case.scenario.controller.program
         assert program is not None
         assert json.loads(program.parameters) == {"upper_slide": 1, "cycles": 4, "mode": "slow"}
 
-    def test_axes_of_every_sort_are_checked(self, refused: Refused, head: str, controller: str) -> None:
+    def test_axes_of_every_sort_are_checked(self, refused, head, controller):
         base = f"{head}controller: {{{controller}}}\n"
         wrong = "controller.parameters.uper_slide"
         for section in (
@@ -111,7 +100,7 @@ class TestEveryKind:
 
 
 @pytest.mark.usefixtures("programs")
-def test_defaults_are_handed_over_and_shown(loaded: Loaded, head: str) -> None:
+def test_defaults_are_handed_over_and_shown(loaded, head):
     """The controller is given what the results name; whole numbers stay whole."""
     for name in ("python", "part's list", "library", "socket"):
         (case,) = loaded(f"{head}controller: {{{CONTROLLERS[name]}, parameters: {{cycles: 4}}}}\n")
@@ -132,16 +121,14 @@ def test_defaults_are_handed_over_and_shown(loaded: Loaded, head: str) -> None:
 
 
 @pytest.mark.usefixtures("programs")
-def test_an_fmu_keeps_its_own_start_values(loaded: Loaded, head: str) -> None:
+def test_an_fmu_keeps_its_own_start_values(loaded, head):
     (case,) = loaded(f"{head}controller: {{fmu: two.fmu, parameters: {{cycles: 4}}}}\n")
     assert case.scenario.controller.parameters == {"cycles": 4}  # type: ignore[attr-defined]
 
 
 @pytest.mark.usefixtures("programs")
 @pytest.mark.parametrize("program", ["python: plain.py, class: Wsp", "connect: 'tcp://rig:1'"])
-def test_where_nothing_is_declared_the_lines_to_write_are_shown(
-    refused: Refused, loaded: Loaded, head: str, program: str
-) -> None:
+def test_where_nothing_is_declared_the_lines_to_write_are_shown(refused, loaded, head, program):
     given = "parameters: {kp: 0.5, mode: fast}"
     (error,) = refused(f"{head}controller: {{{program}, {given}}}\n")
     assert "declares no parameters, given: kp, mode" in error.message
@@ -156,7 +143,7 @@ def test_where_nothing_is_declared_the_lines_to_write_are_shown(
 
 
 @pytest.mark.usefixtures("programs")
-def test_what_is_known_only_in_a_run_is_left_to_it(loaded: Loaded, head: str) -> None:
+def test_what_is_known_only_in_a_run_is_left_to_it(loaded, head):
     (case,) = loaded(f"{head}controller: {{library: libwsp.so, parameters: {{kp: 1}}}}\n")
     program = case.scenario.controller.program
     assert program is not None
@@ -179,8 +166,8 @@ def test_what_is_known_only_in_a_run_is_left_to_it(loaded: Loaded, head: str) ->
     ],
 )
 def test_declarations_that_cannot_be_read_name_the_line_of_the_program(
-    refused: Refused, write: Write, head: str, declarations: str, key: str, message: str
-) -> None:
+    refused, write, head, declarations, key, message
+):
     write("wsp.py", f"class Wsp: ...\nPARAMETERS = {declarations}\n".encode())
     errors = refused(f"{head}controller: {{python: wsp.py, class: Wsp}}\n")
     error = next(each for each in errors if each.key == key)
@@ -192,16 +179,12 @@ def test_declarations_that_cannot_be_read_name_the_line_of_the_program(
     "content",
     [b"PARAMETERS = (", b"\x00PARAMETERS", b"'''\nPARAMETERS = no example\n'''\n", b"PARAMETERS: dict\n"],
 )
-def test_a_file_without_declarations_is_no_error_of_its_own(
-    loaded: Loaded, write: Write, head: str, content: bytes
-) -> None:
+def test_a_file_without_declarations_is_no_error_of_its_own(loaded, write, head, content):
     write("wsp.py", content)
     assert loaded(f"{head}controller: {{python: wsp.py, class: Wsp}}\n")
 
 
-def test_of_a_large_file_only_the_declarations_are_parsed(
-    write: Write, head: str, refused: Refused, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_of_a_large_file_only_the_declarations_are_parsed(write, head, refused, monkeypatch):
     parsed: list[int] = []
     parse = ast.parse
     monkeypatch.setattr(ast, "parse", lambda text: (parsed.append(len(text)), parse(text))[1])
@@ -213,18 +196,14 @@ def test_of_a_large_file_only_the_declarations_are_parsed(
     assert max(parsed) < 100
 
 
-def test_an_fmu_that_cannot_be_read_is_left_to_whoever_loads_it(
-    loaded: Loaded, write: Write, head: str, fmu: Fmu
-) -> None:
+def test_an_fmu_that_cannot_be_read_is_left_to_whoever_loads_it(loaded, write, head, fmu):
     for content in (b"no archive", fmu("<fmiModel"), fmu("nothing")):
         write("wsp.fmu", content)
         assert loaded(f"{head}controller: {{fmu: wsp.fmu, parameters: {{kp: 1}}}}\n")
 
 
 @pytest.mark.usefixtures("programs")
-def test_a_part_that_extends_another_inherits_its_declarations(
-    write: Write, head: str, refused: Refused
-) -> None:
+def test_a_part_that_extends_another_inherits_its_declarations(write, head, refused):
     write(
         "ours.yaml",
         f"schema: uictest/controller/1\nname: ours\nlibrary: libwsp.so\ndeclared_parameters: {LISTED}\n",
@@ -234,7 +213,7 @@ def test_a_part_that_extends_another_inherits_its_declarations(
 
 
 @pytest.mark.usefixtures("programs")
-def test_parameters_of_a_command_line_are_checked_alike(write: Write) -> None:
+def test_parameters_of_a_command_line_are_checked_alike(write):
     part = load_controller(
         str(write("ours.yaml", "schema: uictest/controller/1\npython: wsp.py\nclass: Wsp\n"))
     )

@@ -1,27 +1,24 @@
 """Which files a folder holds."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from uictest.plans.scenario import ScenarioErrors, load
 
-Write = Callable[[str, str], Path]
 
-
-def named(head: str, name: str) -> str:
+def named(head, name):
     return head.replace("name: stop", f"name: {name}")
 
 
-def test_a_folder_is_searched_below_in_order(write: Write, head: str) -> None:
+def test_a_folder_is_searched_below_in_order(write, head):
     for path in ("set/b.yaml", "set/a.yml", "set/deep/c.yaml"):
         write(path, named(head, Path(path).stem))
 
     assert [case.id for case in load([Path("set")])] == ["a", "b", "c"]
 
 
-def test_what_is_no_scenario_is_passed_over(write: Write, head: str) -> None:
+def test_what_is_no_scenario_is_passed_over(write, head):
     write("set/a.yaml", named(head, "a"))
     for kind in ("vehicle", "bench", "channel-map"):
         write(f"set/{kind}.yaml", f"schema: uictest/{kind}/1\nextends: crh380a\n")
@@ -31,7 +28,7 @@ def test_what_is_no_scenario_is_passed_over(write: Write, head: str) -> None:
     assert [case.id for case in load([Path("set")])] == ["a"]
 
 
-def test_a_named_file_is_always_read(write: Write, head: str) -> None:
+def test_a_named_file_is_always_read(write, head):
     write("_base.yaml", named(head, "base"))
     write("car.yaml", "schema: uictest/vehicle/1\n")
 
@@ -40,20 +37,20 @@ def test_a_named_file_is_always_read(write: Write, head: str) -> None:
         load([Path("car.yaml")])
 
 
-def test_a_file_without_a_schema_is_an_error_and_not_passed_over(write: Write) -> None:
+def test_a_file_without_a_schema_is_an_error_and_not_passed_over(write):
     write("set/a.yaml", "name: a\n")
 
     with pytest.raises(ScenarioErrors, match="missing key 'schema'"):
         load([Path("set")])
 
 
-def test_a_file_named_twice_is_loaded_once(write: Write, head: str) -> None:
+def test_a_file_named_twice_is_loaded_once(write, head):
     write("set/a.yaml", named(head, "a"))
 
     assert len(load([Path("set"), Path("set/a.yaml"), Path("set/../set/a.yaml")])) == 1
 
 
-def test_two_scenarios_of_one_name_are_refused(write: Write, head: str) -> None:
+def test_two_scenarios_of_one_name_are_refused(write, head):
     write("a.yaml", head)
     write("b.yaml", head)
 
@@ -65,17 +62,17 @@ def test_two_scenarios_of_one_name_are_refused(write: Write, head: str) -> None:
     assert "'a.yaml'" in diagnostic.message
 
 
-def test_an_empty_folder_holds_no_case(tmp_path: Path) -> None:
+def test_an_empty_folder_holds_no_case(tmp_path):
     assert load([tmp_path]) == []
 
 
 @pytest.mark.parametrize("name", ["a" * 5000 + ".yaml", "a\x00.yaml", "stop.yaml/inside.yaml", "/dev/null"])
-def test_a_name_that_no_file_can_have_is_refused(name: str) -> None:
+def test_a_name_that_no_file_can_have_is_refused(name):
     with pytest.raises(ScenarioErrors, match=r"no such file|not a file"):
         load([Path(name)])
 
 
-def test_a_name_that_is_no_text_is_refused(write: Write, head: str) -> None:
+def test_a_name_that_is_no_text_is_refused(write, head):
     write("set/stop\udcff.yaml", head)
 
     with pytest.raises(ScenarioErrors, match="the file name is not UTF-8"):

@@ -1,22 +1,19 @@
 """matrix, zip, include, exclude."""
 
-from collections.abc import Callable
 from math import prod
 from pathlib import Path
 
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.plans.scenario import Case, ScenarioErrors, expansion
-from uictest.plans.scenario.expansion import Variant, expand
+from uictest.plans.scenario import ScenarioErrors, expansion
+from uictest.plans.scenario.expansion import expand
 from uictest.plans.scenario.identifiers import case_id, short_keys
 from uictest.plans.scenario.yaml.parsing import parse
 from uictest.plans.scenario.yaml.tree import Document, Map, as_written
 
-Loaded = Callable[..., list[Case]]
 
-
-def ids(cases: list[Case]) -> list[str]:
+def ids(cases):
     return [case.id for case in cases]
 
 
@@ -44,18 +41,18 @@ ANOTHER = "include: [{seed: 9, initial_speed: 80 km/h}]"
     ],
 )
 def test_the_first_key_is_the_slowest_zip_goes_within_the_matrix_and_include_comes_last(
-    loaded: Loaded, head: str, sections: str, expected: list[str]
-) -> None:
+    loaded, head, sections, expected
+):
     assert ids(loaded(f"{head}{sections}\n")) == [f"stop[{each}]" for each in expected]
 
 
-def test_a_case_has_the_values_of_its_id(loaded: Loaded, head: str) -> None:
+def test_a_case_has_the_values_of_its_id(loaded, head):
     _, case, *_ = loaded(head + "matrix: {rail.friction: [0.10, 0.2], brake.command: [80 %, 100 %]}\n")
     assert case.parameters == {"rail.friction": "0.10", "brake.command": "100 %"}
     assert (case.scenario.rail.friction, case.scenario.brake.command) == (0.1, 1.0)
 
 
-def test_a_key_below_a_reference_changes_the_part(loaded: Loaded, head: str) -> None:
+def test_a_key_below_a_reference_changes_the_part(loaded, head):
     cases = loaded(head + "matrix:\n  vehicle.body.mass: [30 t, 40 t]\n  vehicle: [crh380a, intercity-180]\n")
 
     assert ids(cases)[1] == "stop[mass=30t,vehicle=intercity-180]"
@@ -67,7 +64,7 @@ def test_a_key_below_a_reference_changes_the_part(loaded: Loaded, head: str) -> 
     ]
 
 
-def test_values_that_are_mappings_are_counted_or_named(loaded: Loaded, head: str) -> None:
+def test_values_that_are_mappings_are_counted_or_named(loaded, head):
     cases = loaded(
         head + "matrix:\n  rail.friction: [0.1, {points: [{position: 0 m, friction: 0.2}]}]\n"
         "  vehicle: [{extends: crh380a, body: {mass: 40 t}}]\n"
@@ -77,7 +74,7 @@ def test_values_that_are_mappings_are_counted_or_named(loaded: Loaded, head: str
     assert cases[1].parameters["rail.friction"] == "{points: [{position: 0 m, friction: 0.2}]}"
 
 
-def test_short_keys_are_as_long_as_they_must_be() -> None:
+def test_short_keys_are_as_long_as_they_must_be():
     assert short_keys(["vehicle.body.mass", "vehicle.bogie.mass", "mass.x", "seed"]) == {
         "vehicle.body.mass": "body.mass",
         "vehicle.bogie.mass": "bogie.mass",
@@ -94,18 +91,18 @@ AXES = st.dictionaries(
 )
 
 
-def tree(text: str) -> Map:
+def tree(text):
     node = parse(Document("text", Path(), text))
     assert isinstance(node, Map)
     return node
 
 
-def values(variant: Variant) -> tuple[str, ...]:
+def values(variant):
     return tuple(as_written(setting.value.node) for setting in variant)
 
 
 @given(AXES)
-def test_a_matrix_makes_every_combination_once(axes: dict[str, list[int]]) -> None:
+def test_a_matrix_makes_every_combination_once(axes):
     written = ", ".join(f"'x.{key}': {numbers}" for key, numbers in axes.items())
 
     variants = expand(tree(f"matrix: {{{written}}}"))
@@ -117,7 +114,7 @@ def test_a_matrix_makes_every_combination_once(axes: dict[str, list[int]]) -> No
 
 
 @given(AXES, st.data())
-def test_exclude_and_include_count(axes: dict[str, list[int]], data: st.DataObject) -> None:
+def test_exclude_and_include_count(axes, data):
     written = ", ".join(f"'x.{key}': {numbers}" for key, numbers in axes.items())
     chosen = {key: data.draw(st.sampled_from(numbers)) for key, numbers in axes.items()}
     entry = ", ".join(f"'x.{key}': {number}" for key, number in chosen.items())
@@ -129,9 +126,7 @@ def test_exclude_and_include_count(axes: dict[str, list[int]], data: st.DataObje
 
 
 @pytest.mark.parametrize("count", [100, 400])
-def test_excluding_looks_at_each_value_a_fixed_number_of_times(
-    count: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_excluding_looks_at_each_value_a_fixed_number_of_times(count, monkeypatch):
     looked_at = []
     compared = expansion._comparable
     monkeypatch.setattr(expansion, "_comparable", lambda node: (looked_at.append(1), compared(node))[1])
@@ -144,7 +139,7 @@ def test_excluding_looks_at_each_value_a_fixed_number_of_times(
     assert len(looked_at) <= 2 * count
 
 
-def test_a_second_exclusion_of_the_same_cases_is_refused() -> None:
+def test_a_second_exclusion_of_the_same_cases_is_refused():
     matrix = "matrix: {'x.a': [1, 2], 'x.b': [1, 2, 3]}\n"
 
     assert len(expand(tree(matrix + "exclude: [{'x.a': 1, 'x.b': 1}, {'x.a': 1}]"))) == 3
@@ -153,7 +148,7 @@ def test_a_second_exclusion_of_the_same_cases_is_refused() -> None:
 
 
 @given(st.integers(1, 6), st.integers(1, 6))
-def test_zip_makes_as_many_cases_as_its_lists_are_long(length: int, count: int) -> None:
+def test_zip_makes_as_many_cases_as_its_lists_are_long(length, count):
     written = ", ".join(f"k{number}: {list(range(length))}" for number in range(count))
 
     variants = expand(tree(f"zip: {{{written}}}"))

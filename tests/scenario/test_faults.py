@@ -1,21 +1,16 @@
 """Faults in a scenario: when they are, what they take, and what is wrong with them."""
 
-from collections.abc import Callable
-
 import pytest
 
 from uictest.judging.evaluation.effective_parts import EffectiveParts
-from uictest.plans.scenario import Case, Diagnostic
 
-Loaded = Callable[..., list[Case]]
-Refused = Callable[..., tuple[Diagnostic, ...]]
 SILENT = "part: controller, kind: silent, "
 ON_2 = "at: 3 s, wheelset: 2, "
 SENSOR = ON_2 + "part: speed-sensor, "
 STUCK = "{at: 3 s, wheelset: 2, part: speed-sensor, kind: stuck}"
 
 
-def test_an_instant_is_a_time_a_speed_or_a_distance(head: str, loaded: Loaded) -> None:
+def test_an_instant_is_a_time_a_speed_or_a_distance(head, loaded):
     for text, value, unit in (("3 s", 3.0, "s"), ("90 km/h", 25.0, "m/s"), ("0.12 km", 120.0, "m")):
         [case] = loaded(f"{head}faults: [{{at: {text}, part: controller, kind: silent}}]\n")
         [fault] = case.scenario.faults
@@ -42,29 +37,27 @@ def test_an_instant_is_a_time_a_speed_or_a_distance(head: str, loaded: Loaded) -
         (SENSOR + "kind: missing-teeth, value: 2", "kind", "counts no teeth", "whole-teeth"),
     ],
 )
-def test_what_is_wrong_is_said_at_its_key(
-    head: str, refused: Refused, fault: str, key: str, message: str, hint: str
-) -> None:
+def test_what_is_wrong_is_said_at_its_key(head, refused, fault, key, message, hint):
     [diagnostic] = refused(f"{head}faults: [{{{fault}}}]\n")
     assert diagnostic.key == ("faults.0" if not key else f"faults.0.{key}")
     assert message in diagnostic.message
     assert hint in diagnostic.hint
 
 
-def test_a_pole_wheel_keeps_a_tooth(head: str, refused: Refused) -> None:
+def test_a_pole_wheel_keeps_a_tooth(head, refused):
     sensor = "rig: {sensors: {extends: pole-wheel, speed: {teeth: 60, missing_teeth: 5}}}\n"
     fault = "{at: 3 s, wheelset: 2, part: speed-sensor, kind: missing-teeth, value: 55}"
     [diagnostic] = refused(f"{head}{sensor}faults: [{fault}]\n")
     assert diagnostic.message == "55 and 5 of 60 teeth: at least one must be left"
 
 
-def test_there_is_room_for_eight(head: str, loaded: Loaded, refused: Refused) -> None:
+def test_there_is_room_for_eight(head, loaded, refused):
     assert loaded(f"{head}faults: [{', '.join([STUCK] * 8)}]\n")
     [diagnostic] = refused(f"{head}faults: [{', '.join([STUCK] * 9)}]\n")
     assert "at most 8" in diagnostic.message
 
 
-def test_lists_of_faults_name_their_cases(head: str, loaded: Loaded) -> None:
+def test_lists_of_faults_name_their_cases(head, loaded):
     lost = "{at: 90 km/h, part: speed-sensor, kind: lost, wheelset: 1, until: 8 s, value: 5 km/h}"
     cases = loaded(f"{head}matrix: {{faults: [[], [{STUCK}], [{STUCK}, {lost}]]}}\n")
     assert [case.id for case in cases] == [
@@ -74,7 +67,7 @@ def test_lists_of_faults_name_their_cases(head: str, loaded: Loaded) -> None:
     ]
 
 
-def test_keys_inside_a_fault_vary(head: str, loaded: Loaded) -> None:
+def test_keys_inside_a_fault_vary(head, loaded):
     axes = "faults.0.at: [3 s, 60 km/h], faults.0.wheelset: [1, 2]"
     cases = loaded(f"{head}faults: [{STUCK}]\nmatrix: {{{axes}}}\n")
     found = [(case.scenario.faults[0].at.text, case.scenario.faults[0].wheelset) for case in cases]
@@ -83,12 +76,12 @@ def test_keys_inside_a_fault_vary(head: str, loaded: Loaded) -> None:
     assert case.scenario.faults[0].label == "speed-sensor-lost-2"
 
 
-def test_a_key_beyond_the_list_names_what_there_is(head: str, refused: Refused) -> None:
+def test_a_key_beyond_the_list_names_what_there_is(head, refused):
     [diagnostic] = refused(f"{head}faults: [{STUCK}]\nmatrix: {{faults.1.at: [3 s]}}\n")
     assert diagnostic.message == "'faults' is a list of one entry, 0; '1' is none"
 
 
-def test_effective_parameters_list_the_faults(head: str, loaded: Loaded) -> None:
+def test_effective_parameters_list_the_faults(head, loaded):
     [with_fault] = loaded(f"{head}faults: [{STUCK}]\n")
     [without] = loaded(head)
     keys = [each.key for each in EffectiveParts().of(with_fault.scenario)["scenario"].parameters]

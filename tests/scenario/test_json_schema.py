@@ -1,7 +1,6 @@
 """The JSON Schema that editors use."""
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -23,28 +22,28 @@ HEAD: dict[str, Any] = {"schema": "uictest/scenario/1", "name": "stop", "initial
 
 
 @pytest.fixture(scope="module")
-def schema() -> dict[str, Any]:
+def schema():
     return json_schema()
 
 
 @pytest.fixture(scope="module")
-def validator(schema: dict[str, Any]) -> Draft7Validator:
+def validator(schema):
     return Draft7Validator(schema)
 
 
-def test_the_committed_schema_is_that_of_the_models(schema: dict[str, Any]) -> None:
+def test_the_committed_schema_is_that_of_the_models(schema):
     # Written by `uictest schema > schema/scenario.schema.json`.
     assert json.loads(COMMITTED.read_text()) == schema
 
 
-def test_it_is_a_draft_07_schema(schema: dict[str, Any]) -> None:
+def test_it_is_a_draft_07_schema(schema):
     Draft7Validator.check_schema(schema)
     assert schema["$schema"] == "http://json-schema.org/draft-07/schema#"
     newer = ("$defs", "prefixItems", "x-quantity", '"discriminator"', "unevaluatedProperties")
     assert not any(keyword in json.dumps(schema) for keyword in newer)
 
 
-def properties(node: Any, path: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
+def properties(node, path=""):
     if isinstance(node, dict):
         for name, schema in node.get("properties", {}).items():
             yield f"{path}.{name}", schema
@@ -55,39 +54,39 @@ def properties(node: Any, path: str = "") -> Iterator[tuple[str, dict[str, Any]]
             yield from properties(inner, path)
 
 
-def described(field: dict[str, Any], schema: dict[str, Any]) -> bool:
+def described(field, schema):
     """Whether the field, or what it refers to, has a description."""
     name = field.get("$ref", "").rpartition("/")[2]
     return bool(field.get("description") or schema["definitions"].get(name, {}).get("description"))
 
 
-def test_every_field_is_described(schema: dict[str, Any]) -> None:
+def test_every_field_is_described(schema):
     fields = dict(properties(schema))
 
     assert len(fields) > 150
     assert [path for path, field in fields.items() if not described(field, schema)] == []
 
 
-def test_it_knows_every_key_of_the_model(schema: dict[str, Any]) -> None:
+def test_it_knows_every_key_of_the_model(schema):
     keys = {field.alias or name for name, field in Scenario.model_fields.items()}
 
     assert set(schema["properties"]) == keys
 
 
-def test_references_resolve(schema: dict[str, Any]) -> None:
+def test_references_resolve(schema):
     used = {word for word in json.dumps(schema).split('"') if word.startswith("#/definitions/")}
 
     assert used
     assert used <= {f"#/definitions/{name}" for name in schema["definitions"]}
 
 
-def as_json(path: Path) -> Any:
+def as_json(path):
     """The content of a YAML file; keys of JSON are texts, also where YAML reads numbers."""
     return json.loads(json.dumps(yaml.safe_load(path.read_text())))
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
-def test_shipped_scenarios_are_valid(path: Path, validator: Draft7Validator) -> None:
+def test_shipped_scenarios_are_valid(path, validator):
     assert [error.message for error in validator.iter_errors(as_json(path))] == []
 
 
@@ -108,7 +107,7 @@ def test_shipped_scenarios_are_valid(path: Path, validator: Draft7Validator) -> 
         {"matrix": {"rail.friction": [0.1]}, "exclude": [{"rail.friction": 0.1}]},
     ],
 )
-def test_what_the_loader_accepts_is_valid(more: dict[str, Any], validator: Draft7Validator) -> None:
+def test_what_the_loader_accepts_is_valid(more, validator):
     assert [error.message for error in validator.iter_errors({**HEAD, **more})] == []
 
 
@@ -134,10 +133,10 @@ def test_what_the_loader_accepts_is_valid(more: dict[str, Any], validator: Draft
         {"controller": {"library": "libwsp.so", "parameters": {"a": None}}},
     ],
 )
-def test_what_the_loader_refuses_is_mostly_invalid(wrong: dict[str, Any], validator: Draft7Validator) -> None:
+def test_what_the_loader_refuses_is_mostly_invalid(wrong, validator):
     assert not validator.is_valid({**HEAD, **wrong})
 
 
-def test_an_initial_speed_may_come_from_the_parent_only(validator: Draft7Validator) -> None:
+def test_an_initial_speed_may_come_from_the_parent_only(validator):
     assert validator.is_valid({"schema": "uictest/scenario/1", "name": "a", "extends": "b.yaml"})
     assert not validator.is_valid({"schema": "uictest/scenario/1", "name": "a"})

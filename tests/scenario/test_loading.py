@@ -1,20 +1,16 @@
 """Cases as they come out."""
 
 import hashlib
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
-from uictest.plans.scenario import Case, Diagnostic, Quantity, ScenarioErrors, load
+from uictest.plans.scenario import Quantity, ScenarioErrors, load
 from uictest.plans.scenario.parts.rail import FrictionProfile
 
-Loaded = Callable[..., list[Case]]
-Refused = Callable[..., tuple[Diagnostic, ...]]
 
-
-def test_defaults_are_filled_in(loaded: Loaded, head: str) -> None:
+def test_defaults_are_filled_in(loaded, head):
     (case,) = loaded(head)
 
     scenario = case.scenario
@@ -32,7 +28,7 @@ def test_defaults_are_filled_in(loaded: Loaded, head: str) -> None:
     assert (scenario.matrix, scenario.zip, scenario.include, scenario.exclude) == (None, None, None, None)
 
 
-def test_friction_is_a_number_or_points(loaded: Loaded, head: str) -> None:
+def test_friction_is_a_number_or_points(loaded, head):
     points = (
         "{interpolation: steps, points: [{position: 0 m, friction: 0.2}, {position: 1 km, friction: 0.08}]}"
     )
@@ -47,28 +43,28 @@ def test_friction_is_a_number_or_points(loaded: Loaded, head: str) -> None:
     assert profile.scenario.rail.highest_friction == 0.2
 
 
-def test_a_scenario_cannot_be_changed(loaded: Loaded, head: str) -> None:
+def test_a_scenario_cannot_be_changed(loaded, head):
     (case,) = loaded(head)
 
     with pytest.raises(Exception, match="frozen"):
         case.scenario.seed = 1  # type: ignore[misc]
 
 
-def test_the_digest_is_that_of_the_bytes(loaded: Loaded, head: str) -> None:
+def test_the_digest_is_that_of_the_bytes(loaded, head):
     (case,) = loaded(head)
 
     assert case.inputs["stop.yaml"] == hashlib.sha256(head.encode()).hexdigest()
     assert case.path == Path("stop.yaml")
 
 
-def test_an_id_too_long_for_a_file_name_is_refused(refused: Refused, head: str) -> None:
+def test_an_id_too_long_for_a_file_name_is_refused(refused, head):
     (diagnostic,) = refused(head.replace("stop", "s" * 60) + f"matrix: {{title: [{'t' * 150}]}}\n")
 
     assert (diagnostic.line, diagnostic.column) == (4, 18)
     assert "longer than 200 characters" in diagnostic.message
 
 
-def test_a_part_is_made_once_for_all_cases(loaded: Loaded, head: str) -> None:
+def test_a_part_is_made_once_for_all_cases(loaded, head):
     first, second = loaded(head + "matrix: {seed: [1, 2]}\n")
 
     assert first.scenario.vehicle is second.scenario.vehicle
@@ -84,7 +80,7 @@ FRAGMENTS = st.sampled_from((*LINES, "? ", "- ", ": ", "&a ", "*a", "!!x ", *"{}
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.binary(max_size=200) | st.lists(FRAGMENTS, max_size=12).map(lambda parts: "".join(parts).encode()))
-def test_any_bytes_are_cases_or_scenario_errors(write: Callable[..., Path], content: bytes) -> None:
+def test_any_bytes_are_cases_or_scenario_errors(write, content):
     path = write("stop.yaml", content)
 
     try:

@@ -1,13 +1,11 @@
 """Files that must be refused, each with the place, the key and a hint that helps."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from uictest.plans.scenario import Diagnostic, ScenarioErrors, load
+from uictest.plans.scenario import ScenarioErrors, load
 
-Refused = Callable[..., tuple[Diagnostic, ...]]
 HEAD = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 120 km/h\n"
 SPEED = "schema: uictest/scenario/1\nname: stop\ninitial_speed: "
 NAME = "schema: uictest/scenario/1\ninitial_speed: 120 km/h\nname: "
@@ -335,9 +333,7 @@ ROWS = [*WHOLE, *((each[0] if each[0].startswith("schema") else HEAD + each[0], 
 @pytest.mark.parametrize(
     ("marked", "key", "message", "hint"), ROWS, ids=[f"{row[1]}: {row[2]}" for row in ROWS]
 )
-def test_is_refused_at_its_place(
-    marked: str | bytes, key: str, message: str, hint: str, refused: Refused
-) -> None:
+def test_is_refused_at_its_place(marked, key, message, hint, refused):
     before, after = (marked if isinstance(marked, bytes) else marked.encode()).split(MARK)
     line, column = before.count(b"\n") + 1, len(before.rpartition(b"\n")[2]) + 1
 
@@ -350,7 +346,7 @@ def test_is_refused_at_its_place(
     assert "Traceback" not in shown
 
 
-def test_an_alias_bomb_is_refused_without_being_expanded(refused: Refused) -> None:
+def test_an_alias_bomb_is_refused_without_being_expanded(refused):
     bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x]\n" + "".join(
         f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]\n" for n in range(1, 12)
     )
@@ -362,7 +358,7 @@ def test_an_alias_bomb_is_refused_without_being_expanded(refused: Refused) -> No
     assert len(diagnostics) <= 20
 
 
-def test_all_errors_of_a_file_are_told_at_once_from_top_to_bottom(refused: Refused) -> None:
+def test_all_errors_of_a_file_are_told_at_once_from_top_to_bottom(refused):
     diagnostics = refused(
         "schema: uictest/scenario/1\n"
         "name: Stop\n"
@@ -387,7 +383,7 @@ def test_all_errors_of_a_file_are_told_at_once_from_top_to_bottom(refused: Refus
     ]
 
 
-def test_errors_of_a_matrix_do_not_hide_each_other_nor_those_elsewhere(refused: Refused) -> None:
+def test_errors_of_a_matrix_do_not_hide_each_other_nor_those_elsewhere(refused):
     diagnostics = refused(
         HEAD + "brakes: {}\n"
         "matrix:\n"
@@ -413,7 +409,7 @@ def test_errors_of_a_matrix_do_not_hide_each_other_nor_those_elsewhere(refused: 
     ]
 
 
-def test_too_many_cases_do_not_hide_wrong_values(refused: Refused) -> None:
+def test_too_many_cases_do_not_hide_wrong_values(refused):
     axes = "".join(
         f"  {key}: [{values}]\n"
         for key, values in (
@@ -427,13 +423,13 @@ def test_too_many_cases_do_not_hide_wrong_values(refused: Refused) -> None:
     assert [(each.line, each.key) for each in diagnostics] == [(4, ""), (6, "rail.friction")]
 
 
-def test_an_error_in_every_value_of_an_axis_is_told_once_per_value(refused: Refused) -> None:
+def test_an_error_in_every_value_of_an_axis_is_told_once_per_value(refused):
     diagnostics = refused(HEAD + "matrix: {rail.friction: [2, 3], seed: [1, 2, 3]}\n")
 
     assert [(each.line, each.column) for each in diagnostics] == [(4, 26), (4, 29)]
 
 
-def test_a_missing_file_is_told_without_a_line_of_it(tmp_path: Path) -> None:
+def test_a_missing_file_is_told_without_a_line_of_it(tmp_path):
     with pytest.raises(ScenarioErrors) as caught:
         load([tmp_path / "nothing.yaml"])
 
@@ -441,7 +437,7 @@ def test_a_missing_file_is_told_without_a_line_of_it(tmp_path: Path) -> None:
     assert caught.value.diagnostics[0].file.endswith("nothing.yaml")
 
 
-def test_errors_of_several_files_are_told_together(write: Callable[..., Path]) -> None:
+def test_errors_of_several_files_are_told_together(write):
     write("set/a.yaml", HEAD.replace("120 km/h", "120"))
     write("set/b.yaml", "- list\n")
 
@@ -451,7 +447,7 @@ def test_errors_of_several_files_are_told_together(write: Callable[..., Path]) -
     assert [each.file for each in caught.value.diagnostics] == ["set/a.yaml", "set/b.yaml"]
 
 
-def test_a_hint_shows_a_whole_example_or_none(refused: Refused) -> None:
+def test_a_hint_shows_a_whole_example_or_none(refused):
     """Half of a long value would be refused as well."""
     rows = ("description: a", "write `[a]`"), (f"description: {'a' * 90}", "")
     for axis, hint in rows:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 from pydantic import ValidationError
 
@@ -21,13 +19,13 @@ DEPTH = {
 }
 
 
-def criteria(*readings: dict[str, Any], **changes: Any) -> Criteria:
+def criteria(*readings, **changes):
     own = {"id": "slides", "layer": "validity", "measure": "sliding_share", "lower": "35 %", **changes}
     written = {"definition": DEFINITION, "reading": "at-once", "readings": list(readings), **own}
     return Criteria.model_validate({"name": "tested", "criteria": [written]})
 
 
-def test_a_reading_is_the_criterion_with_another_measure_and_its_own_definitions() -> None:
+def test_a_reading_is_the_criterion_with_another_measure_and_its_own_definitions():
     profile = criteria(DEPTH)
     read = profile.criteria[0].read_as(profile.criteria[0].readings[0])
     assert (read.measure, read.wheelsets, read.lower) == (
@@ -51,7 +49,7 @@ def test_a_reading_is_the_criterion_with_another_measure_and_its_own_definitions
         ({}, [{**DEPTH, "source": "nowhere"}], "unknown source 'nowhere'"),
     ],
 )
-def test_readings_that_do_not_fit_are_refused(changes: Any, readings: Any, message: str) -> None:
+def test_readings_that_do_not_fit_are_refused(changes, readings, message):
     with pytest.raises(ValidationError, match=message):
         criteria(*readings, **changes)
 
@@ -59,14 +57,14 @@ def test_readings_that_do_not_fit_are_refused(changes: Any, readings: Any, messa
 @pytest.mark.parametrize(
     ("name", "value"), [("sliding_below", "88 %"), ("end_speed", "55 km/h"), ("end_speed", "61 km/h")]
 )
-def test_definitions_come_in_the_classes_that_are_measured(name: str, value: str) -> None:
+def test_definitions_come_in_the_classes_that_are_measured(name, value):
     own = {**DEFINITION, name: {**DEFINITION[name], "value": value}}
     with pytest.raises(ValidationError, match="no multiple of"):
         criteria(definition=own)
 
 
 @pytest.mark.parametrize("value", ["80 %", "100 %"])
-def test_a_share_of_the_speed_that_is_not_measured_is_refused(value: str) -> None:
+def test_a_share_of_the_speed_that_is_not_measured_is_refused(value):
     own = {**DEFINITION, "sliding_below": {"value": value, "range": [value, value]}}
     with pytest.raises(ValidationError, match=r"85 %|95 %"):
         criteria(definition=own)

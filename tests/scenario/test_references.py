@@ -1,18 +1,11 @@
 """References to parts: names, paths, inline mappings."""
 
-from collections.abc import Callable
-from pathlib import Path
-
 import pytest
 
-from uictest.plans.scenario import Case, Diagnostic, ScenarioErrors, load
-
-Loaded = Callable[..., list[Case]]
-Refused = Callable[..., tuple[Diagnostic, ...]]
-Write = Callable[[str, str], Path]
+from uictest.plans.scenario import ScenarioErrors, load
 
 
-def test_everything_left_out_is_the_librarys_default(loaded: Loaded, head: str) -> None:
+def test_everything_left_out_is_the_librarys_default(loaded, head):
     (case,) = loaded(head)
 
     scenario = case.scenario
@@ -33,7 +26,7 @@ def test_everything_left_out_is_the_librarys_default(loaded: Loaded, head: str) 
     assert all(len(digest) == 64 for digest in case.inputs.values())
 
 
-def test_an_inline_mapping_overrides_only_what_it_names(loaded: Loaded, head: str) -> None:
+def test_an_inline_mapping_overrides_only_what_it_names(loaded, head):
     (case,) = loaded(head + "vehicle: {extends: crh380a, body: {mass: 40 t}}\n")
 
     body = case.scenario.vehicle.body
@@ -42,22 +35,20 @@ def test_an_inline_mapping_overrides_only_what_it_names(loaded: Loaded, head: st
     assert "library:vehicles/crh380a.yaml" in case.inputs
 
 
-def test_another_controller_is_told_by_its_algorithm(loaded: Loaded, head: str) -> None:
+def test_another_controller_is_told_by_its_algorithm(loaded, head):
     (case,) = loaded(head + "controller: {extends: slip-band, upper_slide: 30 %}\n")
 
     assert case.scenario.controller.algorithm == "slip-band"
     assert case.scenario.controller.upper_slide == 0.3
 
 
-def test_several_criteria_keep_their_order(loaded: Loaded, head: str) -> None:
+def test_several_criteria_keep_their_order(loaded, head):
     (case,) = loaded(head + "criteria: [uictest-stop, uic-541-05-appendix-b]\n")
 
     assert [each.name for each in case.scenario.criteria] == ["uictest-stop", "uic-541-05-appendix-b"]
 
 
-def test_a_changed_part_knows_the_library_part_at_the_root_of_its_extends(
-    loaded: Loaded, write: Write, head: str
-) -> None:
+def test_a_changed_part_knows_the_library_part_at_the_root_of_its_extends(loaded, write, head):
     write("mine.yaml", "schema: uictest/controller/1\nname: mine\nextends: threshold\nhold_limit: 3 s\n")
     (case,) = loaded(head + "controller: {extends: mine.yaml, slip_threshold: 3 km/h}\n")
 
@@ -67,9 +58,7 @@ def test_a_changed_part_knows_the_library_part_at_the_root_of_its_extends(
         assert (each.original.slip_threshold, each.original.hold_limit) == (0.9993, 2.0)
 
 
-def test_a_part_without_a_library_part_is_based_on_its_users_file_or_on_nothing(
-    loaded: Loaded, write: Write, head: str
-) -> None:
+def test_a_part_without_a_library_part_is_based_on_its_users_file_or_on_nothing(loaded, write, head):
     own = "algorithm: slip-band, cycle_time: 10 ms, reference_deceleration: 2 m/s2, minimum_speed: 5 km/h"
     write("parts/own.yaml", "{schema: uictest/controller/1, name: own, " + own + ", upper_slide: 20 %}")
     (case,) = loaded(head + "controller: {extends: parts/own.yaml, lower_slide: 8 %}\n")
@@ -79,13 +68,13 @@ def test_a_part_without_a_library_part_is_based_on_its_users_file_or_on_nothing(
     assert (inline.scenario.controller.based_on, inline.scenario.controller.original) == (None, None)
 
 
-def test_the_errors_of_all_references_are_told(refused: Refused, head: str) -> None:
+def test_the_errors_of_all_references_are_told(refused, head):
     diagnostics = refused(head + "vehicle: a\ncontroller: b\ncriteria: [c, d]\n")
 
     assert [each.key for each in diagnostics] == ["vehicle", "controller", "criteria.0", "criteria.1"]
 
 
-def test_an_error_in_a_part_file_points_into_it(write: Write, head: str) -> None:
+def test_an_error_in_a_part_file_points_into_it(write, head):
     write("car.yaml", "schema: uictest/vehicle/1\nextends: crh380a\nbody: {mass: 40}\n")
 
     with pytest.raises(ScenarioErrors) as caught:
@@ -96,7 +85,7 @@ def test_an_error_in_a_part_file_points_into_it(write: Write, head: str) -> None
     assert (*place, diagnostic.key) == ("car.yaml", 3, 14, "body.mass")
 
 
-def test_a_part_of_another_kind_is_refused(write: Write, head: str) -> None:
+def test_a_part_of_another_kind_is_refused(write, head):
     write("rail.yaml", "schema: uictest/rail/1\nextends: wet\n")
 
     with pytest.raises(ScenarioErrors, match="expected uictest/vehicle/1, found 'uictest/rail/1'"):
@@ -106,9 +95,7 @@ def test_a_part_of_another_kind_is_refused(write: Write, head: str) -> None:
 CRITERION = "{id: same, layer: validity, measure: standstill, lower: 1}"
 
 
-def test_two_profiles_cannot_have_criteria_of_the_same_name(
-    refused: Refused, head: str, write: Write
-) -> None:
+def test_two_profiles_cannot_have_criteria_of_the_same_name(refused, head, write):
     write("a.yaml", f"schema: uictest/criteria/1\nname: a\ncriteria: [{CRITERION}]\n")
 
     (by_name,) = refused(f"{head}criteria:\n- a.yaml\n- uictest-stop\n- a.yaml\n")
@@ -119,14 +106,14 @@ def test_two_profiles_cannot_have_criteria_of_the_same_name(
     assert (inline.line, inline.message) == (6, "criterion 'same' of profile 'b' is in profile 'a' as well")
 
 
-def test_a_part_cannot_give_inherited_numbers_another_source(head: str, loaded: Loaded) -> None:
+def test_a_part_cannot_give_inherited_numbers_another_source(head, loaded):
     sources = "sources: {chosen: {mark: published, text: Some other paper}}"
     with pytest.raises(ScenarioErrors, match="source 'chosen' describes numbers of the part") as rejected:
         loaded(head + f"controller: {{extends: threshold, {sources}}}\n")
     assert "sources.chosen" in str(rejected.value)
 
 
-def test_a_part_may_add_sources_of_its_own(head: str, loaded: Loaded) -> None:
+def test_a_part_may_add_sources_of_its_own(head, loaded):
     sources = "sources: {bench: {mark: chosen, text: Bench test}}"
     (case,) = loaded(
         head + f"controller: {{extends: threshold, {sources}, hold_limit: {{value: 3 s, source: bench}}}}\n"
@@ -135,7 +122,7 @@ def test_a_part_may_add_sources_of_its_own(head: str, loaded: Loaded) -> None:
     assert case.scenario.controller.sources["chosen"].mark == "chosen"
 
 
-def test_a_library_part_that_extends_another_is_its_own_original(head: str, loaded: Loaded) -> None:
+def test_a_library_part_that_extends_another_is_its_own_original(head, loaded):
     (named,) = loaded(head + "rail: {condition: wet-cleaning}\nbrake: {system: distributor}\n")
     assert named.scenario.rail.condition.based_on == "wet-cleaning"
     assert named.scenario.rail.condition.original.cleaning is not None

@@ -1,12 +1,8 @@
 """Repeats in a scenario file, and what is said of wrong ones."""
 
-from collections.abc import Callable
-
 import pytest
 
-from uictest.plans.scenario import Case, Diagnostic, ShareOfStops
-
-Loaded = Callable[..., list[Case]]
+from uictest.plans.scenario import ShareOfStops
 
 
 @pytest.mark.parametrize(
@@ -18,14 +14,12 @@ Loaded = Callable[..., list[Case]]
         ("seed: 4294967286\nrepeat: 10", [], 10, "all"),  # the last seed is the largest
     ],
 )
-def test_one_stop_unless_the_file_says_more(
-    loaded: Loaded, head: str, text: str, overrides: list[str], repeat: int, outcome: str
-) -> None:
+def test_one_stop_unless_the_file_says_more(loaded, head, text, overrides, repeat, outcome):
     (case,) = loaded(head + text, *overrides)
     assert (case.scenario.repeat, case.scenario.outcome_of_repeats) == (repeat, outcome)
 
 
-def test_a_share_of_the_stops(loaded: Loaded, head: str) -> None:
+def test_a_share_of_the_stops(loaded, head):
     (case,) = loaded(head + "repeat: 10\noutcome_of_repeats: {at_least: 90 %}")
     share = case.scenario.outcome_of_repeats
     assert isinstance(share, ShareOfStops)
@@ -60,9 +54,7 @@ def test_a_share_of_the_stops(loaded: Loaded, head: str) -> None:
         ),
     ],
 )
-def test_what_is_wrong_is_said(
-    refused: Callable[..., tuple[Diagnostic, ...]], head: str, text: str, message: str, hint: str
-) -> None:
+def test_what_is_wrong_is_said(refused, head, text, message, hint):
     (diagnostic,) = refused(head + text)
     assert f"{diagnostic.key}: {diagnostic.message}" == message
     assert diagnostic.hint.startswith(hint)

@@ -1,14 +1,11 @@
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from hypothesis import given, strategies as st
 
 from uictest.plans.scenario import (
-    Case,
-    Diagnostic,
     in_order_of_ids,
     load,
     named_requirements,
@@ -16,10 +13,6 @@ from uictest.plans.scenario import (
     values_in,
 )
 from uictest.plans.scenario.yaml import ScenarioErrors
-
-Loaded = Callable[..., list[Case]]
-Refused = Callable[..., tuple[Diagnostic, ...]]
-Write = Callable[..., Path]
 
 CRITERIA = """\
 criteria:
@@ -30,7 +23,7 @@ criteria:
 """
 
 
-def test_every_case_of_a_matrix_has_the_ids_of_its_scenario(loaded: Loaded, head: str) -> None:
+def test_every_case_of_a_matrix_has_the_ids_of_its_scenario(loaded, head):
     cases = loaded(
         head + "requirements: [BR-WSP-12]\ntest_case: TC-7\nmatrix: {brake.command: [80 %, 90 %]}\n"
     )
@@ -40,12 +33,12 @@ def test_every_case_of_a_matrix_has_the_ids_of_its_scenario(loaded: Loaded, head
     ]
 
 
-def test_each_case_may_have_a_test_case_of_its_own(loaded: Loaded, head: str) -> None:
+def test_each_case_may_have_a_test_case_of_its_own(loaded, head):
     cases = loaded(head + "zip:\n  brake.command: [80 %, 90 %]\n  test_case: [TC-1, TC-2]\n")
     assert [case.scenario.test_case for case in cases] == ["TC-1", "TC-2"]
 
 
-def test_a_child_inherits_the_requirements_of_its_parent_or_replaces_them(write: Write, head: str) -> None:
+def test_a_child_inherits_the_requirements_of_its_parent_or_replaces_them(write, head):
     parent = write("parent.yaml", head + "requirements: [BR-1]\n")
     child = "schema: uictest/scenario/1\nextends: parent.yaml\n"
     paths = [
@@ -57,7 +50,7 @@ def test_a_child_inherits_the_requirements_of_its_parent_or_replaces_them(write:
     assert requirements == {"stop": ("BR-1",), "same": ("BR-1",), "other": ("BR-2",)}
 
 
-def test_the_requirements_of_criteria_are_those_of_the_scenario_too(loaded: Loaded, head: str) -> None:
+def test_the_requirements_of_criteria_are_those_of_the_scenario_too(loaded, head):
     (case,) = loaded(head + "requirements: [C-3, A-1]\n" + CRITERIA)
     assert named_requirements(case.scenario) == ("C-3", "A-1", "B-2")
 
@@ -73,15 +66,13 @@ def test_the_requirements_of_criteria_are_those_of_the_scenario_too(loaded: Load
         (CRITERIA.replace("[B-2, A-1]", "[B-2, B-2]"), 7, "'B-2' appears twice"),
     ],
 )
-def test_what_is_no_list_of_ids_is_refused_where_it_stands(
-    refused: Refused, head: str, text: str, line: int, message: str
-) -> None:
+def test_what_is_no_list_of_ids_is_refused_where_it_stands(refused, head, text, line, message):
     (diagnostic,) = refused(head + text)
     assert (diagnostic.file, diagnostic.line) == ("stop.yaml", line)
     assert message in diagnostic.message
 
 
-def test_ids_are_listed_by_their_numbers() -> None:
+def test_ids_are_listed_by_their_numbers():
     assert in_order_of_ids(["BR-10", "BR-9", "A", "BR-9.10", "BR-9.2"]) == [
         "A",
         "BR-9",
@@ -92,20 +83,20 @@ def test_ids_are_listed_by_their_numbers() -> None:
 
 
 @given(st.sets(st.text("019AZaz._:/-", min_size=1, max_size=10)))
-def test_any_ids_have_an_order_that_their_first_order_does_not_change(ids: set[str]) -> None:
+def test_any_ids_have_an_order_that_their_first_order_does_not_change(ids):
     ordered = in_order_of_ids(ids)
     assert set(ordered) == ids
     assert in_order_of_ids(reversed(ordered)) == ordered
 
 
-def test_requirements_are_no_parameters(loaded: Loaded, head: str) -> None:
+def test_requirements_are_no_parameters(loaded, head):
     """A stop cannot depend on them, so a profile that only names other ones is not a changed profile."""
     (case,) = loaded(head + CRITERIA)
     assert not [key for key, _ in values_in(case.scenario.criteria[0]) if "requirements" in key]
     assert not [key for key, _ in values_in(case.scenario) if {"requirements", "test_case"} & set(key)]
 
 
-def _read(write: Write, name: str, content: str | bytes) -> tuple[str, ...]:
+def _read(write, name, content):
     return read_requirement_list(write(name, content))
 
 
@@ -121,7 +112,7 @@ def _read(write: Write, name: str, content: str | bytes) -> tuple[str, ...]:
         ("all.yml", "[BR-1, BR-2]\n"),
     ],
 )
-def test_lists_are_read_as_tools_export_them(write: Write, name: str, content: str | bytes) -> None:
+def test_lists_are_read_as_tools_export_them(write, name, content):
     assert _read(write, name, content) == ("BR-1", "BR-2")
 
 
@@ -138,22 +129,20 @@ def test_lists_are_read_as_tools_export_them(write: Write, name: str, content: s
         ("all.txt", b"BR-1\nBR-\xe4\n", "all.txt:2:4", "is not UTF-8 text"),
     ],
 )
-def test_an_error_in_a_list_names_its_place(
-    write: Write, name: str, content: str | bytes, place: str, message: str
-) -> None:
+def test_an_error_in_a_list_names_its_place(write, name, content, place, message):
     with pytest.raises(ScenarioErrors) as caught:
         _read(write, name, content)
     assert str(caught.value).startswith(f"{place}: ")
     assert message in str(caught.value)
 
 
-def test_every_wrong_line_is_reported_at_once(write: Write) -> None:
+def test_every_wrong_line_is_reported_at_once(write):
     with pytest.raises(ScenarioErrors) as caught:
         _read(write, "all.txt", "a b\nBR-1\nc d\n")
     assert [each.line for each in caught.value.diagnostics] == [1, 3]
 
 
-def test_a_missing_list_is_an_error_of_the_file(write: Write) -> None:
+def test_a_missing_list_is_an_error_of_the_file(write):
     write("other.txt", "BR-1\n")
     with pytest.raises(ScenarioErrors, match="no such file"):
         read_requirement_list(Path("all.txt"))

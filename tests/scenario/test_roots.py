@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.plans.scenario import Diagnostic, ScenarioErrors, load
+from uictest.plans.scenario import ScenarioErrors, load
 from uictest.plans.sweeps import load_sweep
 from uictest.recorded.field_data import load_map
 from uictest.rig.bench.recipe import load_bench
@@ -18,7 +18,7 @@ CAR = "schema: uictest/vehicle/1\nextends: intercity-180\n"
 
 
 @pytest.fixture
-def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def place(tmp_path, monkeypatch):
     """A working folder `here/` with a sub-folder and, beside it, a folder `there/`."""
     for folder in ("here/sub", "there"):
         (tmp_path / folder).mkdir(parents=True)
@@ -29,7 +29,7 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def refused(read: Callable[[], object]) -> Diagnostic:
+def refused(read):
     with pytest.raises(ScenarioErrors) as caught:
         read()
     (diagnostic,) = caught.value.diagnostics
@@ -37,7 +37,7 @@ def refused(read: Callable[[], object]) -> Diagnostic:
     return diagnostic
 
 
-def scenario(text: str, name: str = "sub/stop.yaml") -> Path:
+def scenario(text, name="sub/stop.yaml"):
     Path(name).write_text(HEAD + text)
     return Path(name)
 
@@ -52,7 +52,7 @@ REFERENCES = {
 
 
 @pytest.mark.parametrize("key", REFERENCES)
-def test_a_reference_that_climbs_out_is_refused_before_the_file_is_opened(place: Path, key: str) -> None:
+def test_a_reference_that_climbs_out_is_refused_before_the_file_is_opened(place, key):
     diagnostic = refused(lambda: load([scenario(REFERENCES[key])]))
 
     assert (diagnostic.file, diagnostic.key) == ("sub/stop.yaml", key)
@@ -61,13 +61,13 @@ def test_a_reference_that_climbs_out_is_refused_before_the_file_is_opened(place:
     assert f"--trust {place / 'there'}" in diagnostic.hint
 
 
-def test_what_is_not_there_outside_is_not_told_apart_from_what_is(place: Path) -> None:
+def test_what_is_not_there_outside_is_not_told_apart_from_what_is(place):
     diagnostic = refused(lambda: load([scenario("extends: ../../there/nothing.yaml\n")]))
 
     assert "leads out of" in diagnostic.message
 
 
-def test_links_are_followed_before_it_is_decided(place: Path) -> None:
+def test_links_are_followed_before_it_is_decided(place):
     Path("sub/link.yaml").symlink_to(place / "there" / "secret.yaml")
     Path("sub/folder").symlink_to(place / "there")
 
@@ -75,7 +75,7 @@ def test_links_are_followed_before_it_is_decided(place: Path) -> None:
     assert "leads out of" in refused(lambda: load([scenario("extends: folder/secret.yaml\n")])).message
 
 
-def test_a_link_out_of_a_folder_given_is_not_read(place: Path) -> None:
+def test_a_link_out_of_a_folder_given_is_not_read(place):
     Path("sub/link.yaml").symlink_to(place / "there" / "secret.yaml")
 
     diagnostic = refused(lambda: load([Path("sub")]))
@@ -84,9 +84,7 @@ def test_a_link_out_of_a_folder_given_is_not_read(place: Path) -> None:
     assert diagnostic.message == "a link that leads out of the folders given"
 
 
-def test_the_working_folder_the_folders_given_and_trusted_ones_are_open(
-    place: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_working_folder_the_folders_given_and_trusted_ones_are_open(place, monkeypatch):
     child = scenario("extends: ../../there/base.yaml\nvehicle: ../../there/car.yaml\n").absolute()
 
     assert load([child], trusted=[place / "there"])
@@ -96,14 +94,14 @@ def test_the_working_folder_the_folders_given_and_trusted_ones_are_open(
     assert load([child])
 
 
-def test_a_file_named_on_the_command_line_opens_its_folder(place: Path) -> None:
+def test_a_file_named_on_the_command_line_opens_its_folder(place):
     (place / "there" / "own.yaml").write_text("schema: uictest/vehicle/1\nextends: car.yaml\n")
     stop = scenario(SPEED)
 
     assert load([stop], ["vehicle=../there/own.yaml"])[0].scenario.vehicle.name == "intercity-180"
 
 
-def test_parts_are_confined_wherever_they_come_from(place: Path) -> None:
+def test_parts_are_confined_wherever_they_come_from(place):
     Path("sub/car.yaml").write_text(CAR.replace("intercity-180", "../../there/secret.yaml"))
 
     diagnostic = refused(lambda: load([scenario(SPEED + "vehicle: car.yaml\n")]))
@@ -122,14 +120,14 @@ SWEEP = "schema: uictest/scenario/1\nname: s\nextends: {base}\nvary: {{matrix: {
         ("stop.yaml", "rail.condition: [dry, {extends: ../../there/secret.yaml}]"),
     ],
 )
-def test_sweeps_are_confined(place: Path, base: str, axis: str) -> None:
+def test_sweeps_are_confined(place, base, axis):
     scenario(SPEED)
     Path("sub/s.sweep.yaml").write_text(SWEEP.format(base=base, axis=axis))
 
     assert "leads out of" in refused(lambda: load_sweep(Path("sub/s.sweep.yaml"))).message
 
 
-def test_a_trusted_folder_is_open_to_a_sweep_and_the_scenario_it_names(place: Path) -> None:
+def test_a_trusted_folder_is_open_to_a_sweep_and_the_scenario_it_names(place):
     (place / "there" / "child.yaml").write_text(HEAD + "extends: base.yaml\nvehicle: car.yaml\n")
     text = SWEEP.format(base="../../there/child.yaml", axis="vehicle: [crh380a, ../../there/car.yaml]")
     Path("sub/s.sweep.yaml").write_text(text)
@@ -153,7 +151,7 @@ READERS: dict[str, tuple[str, Callable[[Path], object]]] = {
 
 
 @pytest.mark.parametrize("name", READERS)
-def test_other_files_are_confined_too(place: Path, name: str) -> None:
+def test_other_files_are_confined_too(place, name):
     text, read = READERS[name]
     Path("sub/file.yaml").write_text(text)
 

@@ -2,14 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 
-from uictest.plans.scenario import Case, Criterion, Diagnostic
-
-Loaded = Callable[..., list[Case]]
-Refused = Callable[..., tuple[Diagnostic, ...]]
 PROFILE = """criteria:
   name: own
   criteria:
@@ -19,13 +13,13 @@ PROFILE = """criteria:
 """
 
 
-def written(text: str, layer: str = "requirement") -> str:
+def written(text, layer="requirement"):
     return PROFILE.format(layer=layer, text=text.replace("\n", "\n      "))
 
 
 @pytest.fixture
-def criterion(loaded: Loaded, head: str) -> Callable[[str], Criterion]:
-    def read(text: str) -> Criterion:
+def criterion(loaded, head):
+    def read(text):
         (case,) = loaded(head + written(text))
         return case.scenario.criteria[0].criteria[0]
 
@@ -41,9 +35,7 @@ def criterion(loaded: Loaded, head: str) -> Callable[[str], Criterion]:
         ("{value: 125 % of the dry stop, source: scenario}", 1.25),
     ],
 )
-def test_a_bound_is_a_share_of_the_dry_stop(
-    criterion: Callable[[str], Criterion], text: str, share: float
-) -> None:
+def test_a_bound_is_a_share_of_the_dry_stop(criterion, text, share):
     read = criterion(f"measure: braking_distance\nupper: {text}")
     assert read.upper == pytest.approx(share)
     assert read.of_dry_stop
@@ -52,13 +44,13 @@ def test_a_bound_is_a_share_of_the_dry_stop(
 
 
 def test_a_criterion_of_a_series_has_the_unit_of_its_measure(
-    criterion: Callable[[str], Criterion],
-) -> None:
+    criterion,
+):
     read = criterion("scope: series\nmeasure: worst_contact_energy\nupper: 1.5 MJ")
     assert (read.unit, read.upper, read.needs_series) == ("kJ", 1.5e6, True)
 
 
-def test_a_criterion_of_stops_needs_no_series(criterion: Callable[[str], Criterion]) -> None:
+def test_a_criterion_of_stops_needs_no_series(criterion):
     assert not criterion("measure: braking_distance\nupper: 600 m").needs_series
 
 
@@ -103,16 +95,14 @@ def test_a_criterion_of_stops_needs_no_series(criterion: Callable[[str], Criteri
         ("scope: train\nmeasure: k_wet\nlower: 0.8", "expected one of stop, series", ""),
     ],
 )
-def test_what_makes_no_sense_is_refused_at_its_place(
-    refused: Refused, head: str, text: str, message: str, hint: str
-) -> None:
+def test_what_makes_no_sense_is_refused_at_its_place(refused, head, text, message, hint):
     diagnostics = refused(head + written(text))
     shown = [each for each in diagnostics if message in each.message]
     assert shown, diagnostics
     assert hint in shown[0].hint
 
 
-def test_which_stops_count_cannot_depend_on_the_dry_stop(refused: Refused, head: str) -> None:
+def test_which_stops_count_cannot_depend_on_the_dry_stop(refused, head):
     text = written("measure: braking_distance\nupper: 125 % of the dry stop", layer="validity")
     (diagnostic,) = refused(head + text)
     assert "validity" in diagnostic.message

@@ -1,22 +1,21 @@
 """The scenarios that come with the project."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from uictest.plans.scenario import COMPENSATION_SETTINGS, Case, load
+from uictest.plans.scenario import COMPENSATION_SETTINGS, load
 from uictest.plans.scenario.parts.rail import FrictionProfile
 
 FOLDER = Path(__file__).parents[2] / "scenarios"
 
 
 @pytest.fixture(scope="module")
-def cases() -> dict[str, Case]:
+def cases():
     return {case.id: case for case in load([FOLDER])}
 
 
-def test_every_kind_of_stop_is_there(cases: dict[str, Case]) -> None:
+def test_every_kind_of_stop_is_there(cases):
     assert list(cases) == [
         "cleaned-rail-120",
         *(f"cleaned-rail-80[carry_over={share}]" for share in ("0", "0.5", "1")),
@@ -39,7 +38,7 @@ def test_every_kind_of_stop_is_there(cases: dict[str, Case]) -> None:
     [path for path in sorted(FOLDER.glob("*.yaml")) if not {".sweep", ".series"} & set(path.suffixes)],
     ids=lambda path: path.stem,
 )
-def test_a_file_is_named_after_its_scenario_and_explains_itself(path: Path) -> None:
+def test_a_file_is_named_after_its_scenario_and_explains_itself(path):
     first = load([path])[0].scenario
 
     assert path.read_text().startswith("# yaml-language-server: $schema=../schema/scenario.schema.json\n")
@@ -49,7 +48,7 @@ def test_a_file_is_named_after_its_scenario_and_explains_itself(path: Path) -> N
     assert first.tags
 
 
-def test_the_two_tests_of_the_leaflet_start_at_120_in_position_r(cases: dict[str, Case]) -> None:
+def test_the_two_tests_of_the_leaflet_start_at_120_in_position_r(cases):
     dry, slip = cases["dry-120"].scenario, cases["slip-120"].scenario
 
     for scenario in (dry, slip):
@@ -60,7 +59,7 @@ def test_the_two_tests_of_the_leaflet_start_at_120_in_position_r(cases: dict[str
     assert slip.rail.condition.name == "wet"
 
 
-def test_the_slide_tests_differ_in_the_rig_alone(cases: dict[str, Case]) -> None:
+def test_the_slide_tests_differ_in_the_rig_alone(cases):
     one, four = cases["slide-80[compensation=full]"].scenario, cases["slide-80-four-caliper"].scenario
 
     assert (one.rig.topology, four.rig.topology) == ("one-caliper", "four-caliper")
@@ -68,7 +67,7 @@ def test_the_slide_tests_differ_in_the_rig_alone(cases: dict[str, Case]) -> None
         assert getattr(one, part) == getattr(four, part)
 
 
-def test_only_three_scenarios_are_not_expected_to_pass(cases: dict[str, Case]) -> None:
+def test_only_three_scenarios_are_not_expected_to_pass(cases):
     expected = {case.id: case.scenario.expect for case in cases.values() if case.scenario.expect != "pass"}
     assert expected == {
         "cleaned-rail-120": "invalid",
@@ -78,7 +77,7 @@ def test_only_three_scenarios_are_not_expected_to_pass(cases: dict[str, Case]) -
     assert cases["wsp-bypassed-80"].scenario.rig.wsp == "bypassed"
 
 
-def test_the_change_of_friction_is_sudden(cases: dict[str, Case]) -> None:
+def test_the_change_of_friction_is_sudden(cases):
     friction = cases["friction-step-120"].scenario.rail.friction
 
     assert isinstance(friction, FrictionProfile)
@@ -113,9 +112,7 @@ EMPTY_WAGON = """\
 
 
 @pytest.mark.parametrize("car", [TRAM, LOCOMOTIVE, EMPTY_WAGON], ids=["tram", "locomotive", "empty wagon"])
-def test_cars_from_trams_to_locomotives_are_plausible(
-    loaded: Callable[..., list[Case]], head: str, car: str
-) -> None:
+def test_cars_from_trams_to_locomotives_are_plausible(loaded, head, car):
     (case,) = loaded(f"{head}vehicle:\n  extends: intercity-180\n{car}simulation: {{time_step: 1 ms}}\n")
 
     assert case.scenario.vehicle.total_mass > 10_000.0

@@ -1,31 +1,28 @@
 """The longest step is where pressures begin to swing from step to step, and no shipped part comes near it."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
-from uictest.plans.scenario import Case, ScenarioErrors
-from uictest.plans.scenario.feasibility import StepLimit, ValveConductances, limit_of_air, limit_of_vehicle
+from uictest.plans.scenario import ScenarioErrors
+from uictest.plans.scenario.feasibility import ValveConductances, limit_of_air, limit_of_vehicle
 from uictest.rig import simulate
 
 STEP = 0.5e-3
-Load = Callable[..., Case]
 
 
 @pytest.fixture
-def head(head: str) -> str:
+def head(head):
     return f"{head}rail: {{condition: dry}}\n".replace("120 km/h", "20 km/h")
 
 
-def air_limit(case: Case) -> StepLimit:
+def air_limit(case):
     system = case.scenario.brake.system
     smallest = min(float(system.tank.volume), case.scenario.tank_volume_with_caliper)
     valve = ValveConductances(system.wsp_valve.fill_conductance, system.wsp_valve.vent_conductance)
     return limit_of_air(system, case.scenario.rig.caliper, smallest, [valve] * 4)
 
 
-def swing(case: Case, channel: str) -> float:
+def swing(case, channel):
     """Share of a channel's travel that is made back and forth between neighbouring steps."""
     recording = simulate(case, record_every=float(case.scenario.simulation.time_step)).recording
     assert recording is not None
@@ -36,7 +33,7 @@ def swing(case: Case, channel: str) -> float:
 
 @pytest.mark.parametrize("brake", ["ep-disc", "distributor"])
 @pytest.mark.parametrize("vehicle", ["intercity-180", "crh380a", "manchester-benchmark"])
-def test_the_library_leaves_room_for_a_step_of_one_millisecond(case: Load, brake: str, vehicle: str) -> None:
+def test_the_library_leaves_room_for_a_step_of_one_millisecond(case, brake, vehicle):
     stop = case(f"brake.system={brake}", f"vehicle={vehicle}", "simulation.time_step=1 ms")
     assert air_limit(stop).longest > 1e-3
     assert limit_of_vehicle(stop.scenario.vehicle).longest > 1e-3
@@ -50,7 +47,7 @@ def test_the_library_leaves_room_for_a_step_of_one_millisecond(case: Load, brake
         ("rig.caliper.viscous_friction=70 N s/m", "tank_pressure_1"),
     ],
 )
-def test_no_pressure_swings_just_inside_the_limit(case: Load, changed: str, channel: str) -> None:
+def test_no_pressure_swings_just_inside_the_limit(case, changed, channel):
     stop = case(changed)
     assert STEP <= air_limit(stop).longest < 1.2 * STEP
     assert swing(stop, channel) < 1e-3
@@ -67,12 +64,12 @@ def test_no_pressure_swings_just_inside_the_limit(case: Load, changed: str, chan
         ("rig.caliper.viscous_friction=0 N s/m", "the free piston of the caliper"),
     ],
 )
-def test_air_that_a_step_cannot_follow_is_rejected(case: Load, changed: str, of: str) -> None:
+def test_air_that_a_step_cannot_follow_is_rejected(case, changed, of):
     with pytest.raises(ScenarioErrors, match=f"too long for {of}"):
         case(changed)
 
 
-def test_a_step_within_the_stated_limit_is_accepted(case: Load) -> None:
+def test_a_step_within_the_stated_limit_is_accepted(case):
     tight = "brake.system.relay_valve.proportional_band=0.02 bar"
     with pytest.raises(ScenarioErrors, match=r"time_step must be at most 0\.2") as rejected:
         case(tight)
@@ -80,6 +77,6 @@ def test_a_step_within_the_stated_limit_is_accepted(case: Load) -> None:
     assert air_limit(case(tight, "simulation.time_step=0.25 ms")).longest > 0.25e-3
 
 
-def test_a_piston_that_nothing_holds_is_rejected(case: Load) -> None:
+def test_a_piston_that_nothing_holds_is_rejected(case):
     with pytest.raises(ScenarioErrors, match="without spring rate and viscous friction"):
         case("rig.caliper.viscous_friction=0 N s/m", "rig.caliper.spring_rate=0 N/m")

@@ -1,23 +1,21 @@
 """What single wheelsets have of their own: what is accepted, and what holds where."""
 
-from collections.abc import Callable
 from operator import attrgetter
 
 import pytest
 
-from uictest.plans.scenario import Case, ScenarioErrors, wheelset_value
+from uictest.plans.scenario import ScenarioErrors, wheelset_value
 from uictest.plans.scenario.parts.wheelsets import REGULAR
 
-Load = Callable[..., Case]
 FOUR_CALIPERS = "rig.topology=four-caliper"
 
 
 @pytest.fixture
-def head(head: str) -> str:
+def head(head):
     return f"{head}vehicle: {{extends: intercity-180, wheelsets: {{2: {{wheel_radius: 0.42 m}}}}}}\n"
 
 
-def test_a_wheelset_has_its_own_value_where_it_says_one(case: Load) -> None:
+def test_a_wheelset_has_its_own_value_where_it_says_one(case):
     scenario = case("vehicle.wheelsets.4.caliper.load_friction=7 %", FOUR_CALIPERS).scenario
     radii = [wheelset_value(scenario, number, "wheel_radius") for number in (1, 2, 3, 4)]
     regular = scenario.vehicle.wheelset.radius
@@ -30,7 +28,7 @@ def test_a_wheelset_has_its_own_value_where_it_says_one(case: Load) -> None:
 
 
 @pytest.mark.parametrize("name", ["load_friction=9 %", "coulomb_friction=60 N"])
-def test_a_wheelset_whose_module_is_a_tank_has_no_caliper_of_its_own(case: Load, name: str) -> None:
+def test_a_wheelset_whose_module_is_a_tank_has_no_caliper_of_its_own(case, name):
     """Nothing would read the value."""
     with pytest.raises(ScenarioErrors, match=r"vehicle\.wheelsets\.2\.caliper.*wheelset 2 has no caliper"):
         case(f"vehicle.wheelsets.2.caliper.{name}")
@@ -38,7 +36,7 @@ def test_a_wheelset_whose_module_is_a_tank_has_no_caliper_of_its_own(case: Load,
 
 
 @pytest.mark.parametrize("name", REGULAR)
-def test_every_own_value_replaces_one_of_the_same_kind(case: Load, name: str) -> None:
+def test_every_own_value_replaces_one_of_the_same_kind(case, name):
     """What the scenario says for all is accepted for one, and read from there."""
     scenario = case().scenario
     regular = wheelset_value(scenario, 3, name)
@@ -64,24 +62,24 @@ def test_every_own_value_replaces_one_of_the_same_kind(case: Load, name: str) ->
         ("vehicle.wheelsets.2.wheel_radius={value: 0.42 m, source: scales}", "unknown source 'scales'"),
     ],
 )
-def test_what_is_wrong_is_named_with_what_is_accepted(case: Load, override: str, message: str) -> None:
+def test_what_is_wrong_is_named_with_what_is_accepted(case, override, message):
     with pytest.raises(ScenarioErrors, match=f"(?s){message}"):
         case(override)
 
 
-def test_wheels_must_fit_between_the_axles(case: Load) -> None:
+def test_wheels_must_fit_between_the_axles(case):
     short = "vehicle.bogie.half_wheelbase=0.5 m"
     assert case(short).scenario.vehicle.bogie.half_wheelbase == 0.5
     with pytest.raises(ScenarioErrors, match=r"wheelsets\.4\.wheel_radius: the wheels of a bogie overlap"):
         case(short, "vehicle.wheelsets.4.wheel_radius=0.55 m")
 
 
-def test_a_small_wheel_must_be_able_to_have_the_inertia(case: Load) -> None:
+def test_a_small_wheel_must_be_able_to_have_the_inertia(case):
     with pytest.raises(ScenarioErrors, match=r"wheelsets\.1\.wheel_radius: no wheelset of this mass"):
         case("vehicle.wheelsets.1.wheel_radius=0.2 m")
 
 
-def test_a_brake_may_be_too_strong_on_single_wheelsets(case: Load) -> None:
+def test_a_brake_may_be_too_strong_on_single_wheelsets(case):
     strong = [f"vehicle.wheelsets.{number}.brake_force=300 %" for number in (1, 2, 3, 4)]
     assert case(strong[0])
     with pytest.raises(ScenarioErrors, match="the brake would slow this car"):
@@ -98,14 +96,12 @@ def test_a_brake_may_be_too_strong_on_single_wheelsets(case: Load) -> None:
         ("standard", "vehicle.wheelsets.2.sensors.speed.missing_teeth", "1", "counts no teeth"),
     ],
 )
-def test_pole_wheels_that_cannot_be_are_rejected(
-    case: Load, sensors: str, key: str, value: str, message: str
-) -> None:
+def test_pole_wheels_that_cannot_be_are_rejected(case, sensors, key, value, message):
     with pytest.raises(ScenarioErrors, match=f"{key}: .*{message}"):
         case(f"rig.sensors={sensors}", f"{key}={value}")
 
 
-def test_pads_that_brake_better_somewhere_may_be_too_strong(case: Load) -> None:
+def test_pads_that_brake_better_somewhere_may_be_too_strong(case):
     points = "{points: [{speed: 0 km/h, factor: 5}, {speed: 100 km/h, factor: 1}]}"
     force = "{numerator: 1000 kN, denominator: 10 kN, reference: 14 kN}"
     with pytest.raises(ScenarioErrors, match="the brake would slow this car"):

@@ -1,13 +1,11 @@
 """`extends` between scenario files."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from uictest.plans.scenario import Case, ScenarioErrors, load
+from uictest.plans.scenario import ScenarioErrors, load
 
-Write = Callable[[str, str], Path]
 PARENT = """\
 schema: uictest/scenario/1
 name: parent
@@ -19,14 +17,14 @@ matrix: {seed: [1, 2]}
 """
 
 
-def child(write: Write, more: str = "", extends: str = "parent.yaml") -> list[Case]:
+def child(write, more="", extends="parent.yaml"):
     write("set/parent.yaml", PARENT)
     return load(
         [write("set/child.yaml", f"schema: uictest/scenario/1\nname: child\nextends: {extends}\n{more}")]
     )
 
 
-def test_maps_merge_lists_replace_and_the_name_is_the_childs(write: Write) -> None:
+def test_maps_merge_lists_replace_and_the_name_is_the_childs(write):
     cases = child(write, "tags: [c]\nbrake: {command: 80 %}\nmatrix: {seed: [7]}\n")
 
     scenario = cases[0].scenario
@@ -37,7 +35,7 @@ def test_maps_merge_lists_replace_and_the_name_is_the_childs(write: Write) -> No
     assert list(cases[0].inputs)[:2] == ["set/child.yaml", "set/parent.yaml"]
 
 
-def test_null_takes_back_what_the_parent_says(write: Write) -> None:
+def test_null_takes_back_what_the_parent_says(write):
     cases = child(write, "matrix: null\nrail: {friction: null}\n")
 
     assert [case.id for case in cases] == ["child"]
@@ -52,7 +50,7 @@ CONDITIONS = [
 
 
 @pytest.mark.parametrize("more", CONDITIONS)
-def test_a_new_rail_condition_does_not_keep_the_parents_friction(write: Write, more: str) -> None:
+def test_a_new_rail_condition_does_not_keep_the_parents_friction(write, more):
     with pytest.raises(ScenarioErrors) as caught:
         child(write, more)
 
@@ -62,7 +60,7 @@ def test_a_new_rail_condition_does_not_keep_the_parents_friction(write: Write, m
     assert "null takes the friction of the condition" in diagnostic.hint
 
 
-def test_a_new_rail_condition_with_a_friction_or_none_is_accepted(write: Write) -> None:
+def test_a_new_rail_condition_with_a_friction_or_none_is_accepted(write):
     same = child(write, "rail: {condition: wet, gradient: 5 permille}\n")[0].scenario.rail
     own = child(write, "rail: {condition: dry, friction: null}\n")[0].scenario.rail
     given = child(write, "rail: {condition: dry, friction: 0.2}\n")[0].scenario.rail
@@ -72,7 +70,7 @@ def test_a_new_rail_condition_with_a_friction_or_none_is_accepted(write: Write) 
     assert (given.condition.name, given.friction) == ("dry", 0.2)
 
 
-def test_paths_start_at_the_file_that_says_them(write: Write) -> None:
+def test_paths_start_at_the_file_that_says_them(write):
     write("cars/heavy.yaml", "schema: uictest/vehicle/1\nextends: intercity-180\nbody: {mass: 40 t}\n")
     write("base/base.yaml", PARENT + "vehicle: ../cars/heavy.yaml\n")
 
@@ -83,7 +81,7 @@ def test_paths_start_at_the_file_that_says_them(write: Write) -> None:
 
 
 @pytest.mark.parametrize("loop", [["a"], ["a", "b"], ["a", "b", "c"]])
-def test_a_circle_is_told_at_the_reference_that_closes_it(write: Write, loop: list[str]) -> None:
+def test_a_circle_is_told_at_the_reference_that_closes_it(write, loop):
     for name, after in zip(loop, [*loop[1:], loop[0]], strict=True):
         write(f"{name}.yaml", f"schema: uictest/scenario/1\nname: {name}\nextends: {after}.yaml\n")
 
@@ -95,7 +93,7 @@ def test_a_circle_is_told_at_the_reference_that_closes_it(write: Write, loop: li
     assert "circular 'extends': a.yaml -> " in diagnostic.message
 
 
-def test_an_error_in_a_parent_points_into_the_parent(write: Write) -> None:
+def test_an_error_in_a_parent_points_into_the_parent(write):
     write("base.yaml", PARENT.replace("120 km/h", "fast"))
 
     with pytest.raises(ScenarioErrors) as caught:
@@ -105,7 +103,7 @@ def test_an_error_in_a_parent_points_into_the_parent(write: Write) -> None:
     assert (diagnostic.file, diagnostic.line, diagnostic.column) == ("base.yaml", 3, 16)
 
 
-def test_a_missing_parent_is_told_at_the_reference_with_the_nearest_file(write: Write) -> None:
+def test_a_missing_parent_is_told_at_the_reference_with_the_nearest_file(write):
     with pytest.raises(ScenarioErrors) as caught:
         child(write, extends="parnet.yaml")
 
@@ -114,14 +112,14 @@ def test_a_missing_parent_is_told_at_the_reference_with_the_nearest_file(write: 
     assert "'parent.yaml'" in diagnostic.hint
 
 
-def test_a_parent_must_be_a_scenario(write: Write) -> None:
+def test_a_parent_must_be_a_scenario(write):
     write("car.yaml", "schema: uictest/vehicle/1\nname: car\n")
 
     with pytest.raises(ScenarioErrors, match="expected uictest/scenario/1, found 'uictest/vehicle/1'"):
         child(write, extends="../car.yaml")
 
 
-def test_generations_are_bounded(write: Write) -> None:
+def test_generations_are_bounded(write):
     for number in range(20):
         write(f"{number}.yaml", f"schema: uictest/scenario/1\nname: g\nextends: {number + 1}.yaml\n")
 

@@ -1,31 +1,27 @@
 """`--set key=value` and `--seed`."""
 
-from collections.abc import Callable
-
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.plans.scenario import Case, Diagnostic, ScenarioErrors
+from uictest.plans.scenario import ScenarioErrors
 from uictest.plans.scenario.yaml.overrides import parse_overrides
 from uictest.plans.scenario.yaml.tree import as_written
 
-Loaded = Callable[..., list[Case]]
-Refused = Callable[..., tuple[Diagnostic, ...]]
 SWEPT = "rail: {condition: wet}\nmatrix: {rail.friction: [0.1, 0.2], seed: [1, 2]}\n"
 
 
-def texts(argument: str) -> list[str]:
+def texts(argument):
     return [as_written(value) for value in parse_overrides([argument], None)[0].values]
 
 
-def test_one_value_replaces_the_axis_of_its_key(loaded: Loaded, head: str) -> None:
+def test_one_value_replaces_the_axis_of_its_key(loaded, head):
     cases = loaded(head + SWEPT, "rail.friction=0.15")
 
     assert [case.id for case in cases] == ["stop[seed=1]", "stop[seed=2]"]
     assert {case.scenario.rail.friction for case in cases} == {0.15}
 
 
-def test_several_values_become_an_axis(loaded: Loaded, head: str) -> None:
+def test_several_values_become_an_axis(loaded, head):
     cases = loaded(head, "rail.friction=0.09,0.10", "brake.command=80 %, 100 %")
 
     assert [case.id for case in cases] == [
@@ -36,7 +32,7 @@ def test_several_values_become_an_axis(loaded: Loaded, head: str) -> None:
     ]
 
 
-def test_an_override_outranks_every_section(loaded: Loaded, head: str) -> None:
+def test_an_override_outranks_every_section(loaded, head):
     sections = "zip: {seed: [1, 2], expect: [pass, fail]}\ninclude: [{seed: 3}, {seed: 4, expect: pass}]\n"
 
     cases = loaded(head + sections + "exclude: [{seed: 1}]\n", "seed=7")
@@ -45,14 +41,14 @@ def test_an_override_outranks_every_section(loaded: Loaded, head: str) -> None:
     assert {case.scenario.seed for case in cases} == {7}
 
 
-def test_a_part_can_be_changed_inside(loaded: Loaded, head: str) -> None:
+def test_a_part_can_be_changed_inside(loaded, head):
     (case,) = loaded(head, "vehicle.body.mass=40 t", "brake.system.tank.volume=3 L")
 
     assert case.scenario.vehicle.body.mass == 40_000.0
     assert case.scenario.brake.system.tank.volume == pytest.approx(0.003)
 
 
-def test_the_seed_option_replaces_every_seed(loaded: Loaded, head: str) -> None:
+def test_the_seed_option_replaces_every_seed(loaded, head):
     cases = loaded(head + "matrix: {seed: [1, 2]}\n", seed=5)
 
     assert [(case.id, case.scenario.seed) for case in cases] == [("stop", 5)]
@@ -71,12 +67,12 @@ def test_the_seed_option_replaces_every_seed(loaded: Loaded, head: str) -> None:
         ("a=b=c", ["b=c"]),
     ],
 )
-def test_values_are_split_at_commas_outside_brackets(argument: str, values: list[str]) -> None:
+def test_values_are_split_at_commas_outside_brackets(argument, values):
     assert texts(argument) == values
 
 
 @given(st.integers(-1000, 1000), st.integers(0, 50), st.integers(1, 100))
-def test_a_range_is_exact_and_includes_its_end(first: int, steps: int, step: int) -> None:
+def test_a_range_is_exact_and_includes_its_end(first, steps, step):
     values = texts(f"a=range({first / 100:.2f},{(first + steps * step) / 100:.2f},{step / 100:.2f})")
 
     assert values == [f"{(first + number * step) / 100:.2f}" for number in range(steps + 1)]
@@ -99,7 +95,7 @@ def test_a_range_is_exact_and_includes_its_end(first: int, steps: int, step: int
         ("a=\udcff", 3, "not allowed"),
     ],
 )
-def test_a_malformed_option_is_refused_at_its_place(argument: str, column: int, message: str) -> None:
+def test_a_malformed_option_is_refused_at_its_place(argument, column, message):
     with pytest.raises(ScenarioErrors) as caught:
         parse_overrides([argument], None)
 
@@ -118,9 +114,7 @@ def test_a_malformed_option_is_refused_at_its_place(argument: str, column: int, 
         ("matrix=1", "matrix", ""),
     ],
 )
-def test_an_unknown_key_is_told_as_an_error_of_the_option(
-    argument: str, key: str, hint: str, refused: Refused, head: str
-) -> None:
+def test_an_unknown_key_is_told_as_an_error_of_the_option(argument, key, hint, refused, head):
     (diagnostic,) = refused(head, argument)
 
     assert (diagnostic.file, diagnostic.key) == ("--set", key)
@@ -128,7 +122,7 @@ def test_an_unknown_key_is_told_as_an_error_of_the_option(
 
 
 @given(st.text(max_size=30))
-def test_any_option_is_read_or_refused(argument: str) -> None:
+def test_any_option_is_read_or_refused(argument):
     try:
         parse_overrides([argument], None)
     except ScenarioErrors as errors:
@@ -143,9 +137,7 @@ WET_SWEPT = "rail: {condition: wet}\nmatrix: {rail.friction: [0.09, 0.1]}\n"
 @pytest.mark.parametrize(
     "override", ["rail.condition=dry", "rail.condition=wet,dry", "rail.condition.friction=0.2"]
 )
-def test_another_rail_condition_does_not_keep_the_friction_of_the_file(
-    refused: Refused, head: str, more: str, override: str
-) -> None:
+def test_another_rail_condition_does_not_keep_the_friction_of_the_file(refused, head, more, override):
     over_time = "rail.friction_over_time={points: [{time: 0 s, factor: 1}]}"
 
     (diagnostic,) = refused(head + more, override, over_time)
@@ -154,16 +146,14 @@ def test_another_rail_condition_does_not_keep_the_friction_of_the_file(
     assert "rail.friction stays '0.09'" in diagnostic.message or "stays '[0.09, 0.1]'" in diagnostic.message
 
 
-def test_a_matrix_of_rail_conditions_does_not_keep_one_friction(refused: Refused, head: str) -> None:
+def test_a_matrix_of_rail_conditions_does_not_keep_one_friction(refused, head):
     (diagnostic,) = refused(head + WET + "matrix: {rail.condition: [wet, dry]}\n")
 
     assert (diagnostic.line, diagnostic.column, diagnostic.key) == (5, 32, "rail.condition")
 
 
 @pytest.mark.parametrize("more", [WET, WET_SWEPT, WET + "matrix: {rail.condition: [wet, dry]}\n"])
-def test_another_rail_condition_is_accepted_with_a_friction_or_without_any(
-    loaded: Loaded, head: str, more: str
-) -> None:
+def test_another_rail_condition_is_accepted_with_a_friction_or_without_any(loaded, head, more):
     own = loaded(head + more, "rail.condition=dry", "rail.friction=null")
     given = loaded(head + more, "rail.condition=dry,wet", "rail.friction=0.2")
 
@@ -171,15 +161,13 @@ def test_another_rail_condition_is_accepted_with_a_friction_or_without_any(
     assert [case.scenario.rail.friction for case in given] == [0.2, 0.2]
 
 
-def test_other_numbers_of_a_rail_condition_may_change_alone(loaded: Loaded, head: str) -> None:
+def test_other_numbers_of_a_rail_condition_may_change_alone(loaded, head):
     rail = loaded(head + WET, "rail.condition=wet", "rail.condition.friction_decay=0.3 s/m")[0].scenario.rail
 
     assert (rail.friction, rail.condition.friction_decay) == (0.09, 0.3)
 
 
-def test_the_cleaning_of_a_condition_is_changed_key_by_key_that_of_the_rail_as_a_whole(
-    loaded: Loaded, refused: Refused, head: str
-) -> None:
+def test_the_cleaning_of_a_condition_is_changed_key_by_key_that_of_the_rail_as_a_whole(loaded, refused, head):
     cleaned = "rail: {condition: wet-cleaning, friction: 0.09}\n"
     swept = loaded(head + cleaned, "rail.condition.cleaning.energy=4 kJ/m,8 kJ/m")
     own = "{energy: 8 kJ/m, recovered_friction: 0.3, reach: 1 m, carry_over: 0}"
@@ -199,9 +187,7 @@ def test_the_cleaning_of_a_condition_is_changed_key_by_key_that_of_the_rail_as_a
     ]
 
 
-def test_a_rail_that_cleaning_improves_is_long_enough_for_a_stop(
-    loaded: Loaded, refused: Refused, head: str
-) -> None:
+def test_a_rail_that_cleaning_improves_is_long_enough_for_a_stop(loaded, refused, head):
     """Whether a stop can end is asked of the best friction that a wheelset may meet."""
     slippery = "rail: {condition: wet, friction: 0.002}\nsimulation: {maximum_duration: 100 s}\n"
     own = "{energy: 8 kJ/m, recovered_friction: 0.3, reach: 1 m, carry_over: 0}"

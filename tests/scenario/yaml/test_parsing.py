@@ -9,17 +9,17 @@ from hypothesis import given, strategies as st
 from uictest.plans.scenario import ScenarioErrors
 from uictest.plans.scenario.yaml import parsing
 from uictest.plans.scenario.yaml.parsing import parse
-from uictest.plans.scenario.yaml.tree import Document, Map, Node, Scalar, plain
+from uictest.plans.scenario.yaml.tree import Document, Map, Scalar, plain
 
 LOADERS = [yaml.SafeLoader, getattr(yaml, "CSafeLoader", yaml.SafeLoader)]
 
 
-def tree(text: str) -> Node:
+def tree(text):
     return parse(Document("text", Path(), text))
 
 
 @pytest.mark.parametrize("loader", LOADERS, ids=["python", "libyaml"])
-def test_every_key_and_value_has_its_place(loader: object, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_key_and_value_has_its_place(loader, monkeypatch):
     monkeypatch.setattr(parsing, "_LOADER", loader)
     root = tree("rail:\n  friction: 0.10\n  'gradient':  5 permille\ntags: [a, on]\n")
 
@@ -36,7 +36,7 @@ def test_every_key_and_value_has_its_place(loader: object, monkeypatch: pytest.M
 
 
 @pytest.mark.parametrize("loader", LOADERS, ids=["python", "libyaml"])
-def test_quoted_numbers_and_blocks_are_texts(loader: object, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_quoted_numbers_and_blocks_are_texts(loader, monkeypatch):
     monkeypatch.setattr(parsing, "_LOADER", loader)
 
     assert plain(tree("a: '1'\nb: \"true\"\nc: |\n  1\nd: >-\n  2\n")) == {
@@ -47,11 +47,11 @@ def test_quoted_numbers_and_blocks_are_texts(loader: object, monkeypatch: pytest
     }
 
 
-def test_a_byte_order_mark_is_no_character_of_the_first_key() -> None:
+def test_a_byte_order_mark_is_no_character_of_the_first_key():
     assert plain(tree("\ufeffname: x\n")) == {"name": "x"}
 
 
-def test_a_piece_keeps_its_place_in_the_whole() -> None:
+def test_a_piece_keeps_its_place_in_the_whole():
     document = Document("--set", Path(), "rail.friction=0.1,[")
 
     with pytest.raises(ScenarioErrors) as caught:
@@ -61,7 +61,7 @@ def test_a_piece_keeps_its_place_in_the_whole() -> None:
 
 
 @given(st.text())
-def test_any_text_is_a_tree_or_refused_with_a_place_in_it(text: str) -> None:
+def test_any_text_is_a_tree_or_refused_with_a_place_in_it(text):
     try:
         tree(text)
     except ScenarioErrors as errors:
@@ -72,7 +72,7 @@ def test_any_text_is_a_tree_or_refused_with_a_place_in_it(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", ['a: "x\\0.yaml"', '"a\\0": 1', 'a: ["\\x00"]'])
-def test_an_escaped_nul_is_refused_at_its_place(text: str) -> None:
+def test_an_escaped_nul_is_refused_at_its_place(text):
     """The system takes no path that has one."""
     with pytest.raises(ScenarioErrors, match=r"text:1:\d+: character '\\x00' is not accepted") as caught:
         tree(text)

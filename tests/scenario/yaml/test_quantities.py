@@ -34,7 +34,7 @@ WITH_UNITS = [(kind.name, symbol) for kind in KINDS.values() for symbol in kind.
         ("0.05 ms", "time", 5e-5),
     ],
 )
-def test_a_quantity_is_read_in_si(text: str, kind: str, value: float) -> None:
+def test_a_quantity_is_read_in_si(text, kind, value):
     quantity = parse_quantity(text, kind)
 
     assert quantity == pytest.approx(value, rel=1e-15)
@@ -43,14 +43,14 @@ def test_a_quantity_is_read_in_si(text: str, kind: str, value: float) -> None:
     assert quantity.source == "scenario"
 
 
-def test_conversion_rounds_once() -> None:
+def test_conversion_rounds_once():
     # 0.1 bar is 10 kPa exactly, although 0.1 is no binary number and 0.1 * 1e5 need not round to it.
     assert parse_quantity("0.1 bar", "pressure") == 10_000.0
     assert parse_quantity("0.3 ms", "time") == 0.0003
 
 
 @given(st.sampled_from(WITH_UNITS), st.decimals(-1_000_000, 1_000_000, places=6, allow_nan=False))
-def test_what_a_quantity_says_reads_back_as_the_same_quantity(unit: tuple[str, str], number: object) -> None:
+def test_what_a_quantity_says_reads_back_as_the_same_quantity(unit, number):
     kind, symbol = unit
     quantity = parse_quantity(f"{number:f} {symbol}", kind)
 
@@ -61,7 +61,7 @@ def test_what_a_quantity_says_reads_back_as_the_same_quantity(unit: tuple[str, s
 
 
 @given(st.sampled_from(WITH_UNITS), st.decimals(1, 1000, places=3, allow_nan=False))
-def test_units_differ_by_their_factor_alone(unit: tuple[str, str], number: object) -> None:
+def test_units_differ_by_their_factor_alone(unit, number):
     kind, symbol = unit
     accepted = KINDS[kind].units[symbol]
 
@@ -73,7 +73,7 @@ def test_units_differ_by_their_factor_alone(unit: tuple[str, str], number: objec
 
 
 @given(st.text())
-def test_any_text_is_a_finite_quantity_or_refused(text: str) -> None:
+def test_any_text_is_a_finite_quantity_or_refused(text):
     try:
         quantity = parse_quantity(text, "speed")
     except QuantityError as error:
@@ -104,14 +104,14 @@ def test_any_text_is_a_finite_quantity_or_refused(text: str) -> None:
         ("0.1 m", "number", "write 0.1"),
     ],
 )
-def test_the_hint_says_what_to_write(text: str, kind: str, hint: str) -> None:
+def test_the_hint_says_what_to_write(text, kind, hint):
     with pytest.raises(QuantityError) as caught:
         parse_quantity(text, kind)
 
     assert caught.value.hint.startswith(hint)
 
 
-def test_copies_keep_text_unit_and_source() -> None:
+def test_copies_keep_text_unit_and_source():
     quantity = parse_quantity("4 bar", "pressure", "maker")
 
     for twin in (copy.copy(quantity), copy.deepcopy(quantity)):

@@ -10,7 +10,7 @@ from uictest.plans.scenario.yaml.parsing import scalar_value
 @pytest.mark.parametrize(
     "text", ["on", "off", "yes", "no", "y", "12:30", "1_000", "0b11", "2026-01-01", "1e"]
 )
-def test_what_yaml_1_1_would_convert_is_a_text(text: str) -> None:
+def test_what_yaml_1_1_would_convert_is_a_text(text):
     assert scalar_value(text) == text
 
 
@@ -31,14 +31,14 @@ def test_what_yaml_1_1_would_convert_is_a_text(text: str) -> None:
         ("-.inf", -math.inf),
     ],
 )
-def test_core_schema(text: str, value: object) -> None:
+def test_core_schema(text, value):
     assert scalar_value(text) == value
     assert type(scalar_value(text)) is type(value)
 
 
-def test_not_a_number_is_a_number() -> None:
+def test_not_a_number_is_a_number():
     assert math.isnan(float(str(scalar_value(".nan"))))
 
 
-def test_thousands_of_digits_are_no_integer() -> None:
+def test_thousands_of_digits_are_no_integer():
     assert scalar_value("9" * 10_000) == math.inf
