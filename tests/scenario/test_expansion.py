@@ -54,7 +54,6 @@ def test_a_case_has_the_values_of_its_id(loaded, head):
 
 def test_a_key_below_a_reference_changes_the_part(loaded, head):
     cases = loaded(head + "matrix:\n  vehicle.body.mass: [30 t, 40 t]\n  vehicle: [crh380a, intercity-180]\n")
-
     assert ids(cases)[1] == "stop[mass=30t,vehicle=intercity-180]"
     assert [(case.scenario.vehicle.name, case.scenario.vehicle.body.mass) for case in cases] == [
         ("crh380a", 30_000.0),
@@ -69,7 +68,6 @@ def test_values_that_are_mappings_are_counted_or_named(loaded, head):
         head + "matrix:\n  rail.friction: [0.1, {points: [{position: 0 m, friction: 0.2}]}]\n"
         "  vehicle: [{extends: crh380a, body: {mass: 40 t}}]\n"
     )
-
     assert ids(cases) == ["stop[friction=0.1,vehicle=crh380a]", "stop[friction=value2,vehicle=crh380a]"]
     assert cases[1].parameters["rail.friction"] == "{points: [{position: 0 m, friction: 0.2}]}"
 
@@ -104,9 +102,7 @@ def values(variant):
 @given(AXES)
 def test_a_matrix_makes_every_combination_once(axes):
     written = ", ".join(f"'x.{key}': {numbers}" for key, numbers in axes.items())
-
     variants = expand(tree(f"matrix: {{{written}}}"))
-
     short = short_keys([f"x.{key}" for key in axes])
     assert len(variants) == prod(map(len, axes.values()))
     assert len({case_id("stop", variant, short) for variant in variants}) == len(variants)
@@ -118,9 +114,7 @@ def test_exclude_and_include_count(axes, data):
     written = ", ".join(f"'x.{key}': {numbers}" for key, numbers in axes.items())
     chosen = {key: data.draw(st.sampled_from(numbers)) for key, numbers in axes.items()}
     entry = ", ".join(f"'x.{key}': {number}" for key, number in chosen.items())
-
     variants = expand(tree(f"matrix: {{{written}}}\nexclude: [{{{entry}}}]\ninclude: [{{{entry}}}]"))
-
     assert len(variants) == prod(map(len, axes.values()))
     assert values(variants[-1]) == tuple(map(str, chosen.values()))
 
@@ -132,16 +126,13 @@ def test_excluding_looks_at_each_value_a_fixed_number_of_times(count, monkeypatc
     monkeypatch.setattr(expansion, "_comparable", lambda node: (looked_at.append(1), compared(node))[1])
     values = ", ".join(map(str, range(count)))
     items = ", ".join(f"{{'x.a': {number}}}" for number in range(1, count))
-
     variants = expand(tree(f"matrix: {{'x.a': [{values}]}}\nexclude: [{items}]"))
-
     assert len(variants) == 1
     assert len(looked_at) <= 2 * count
 
 
 def test_a_second_exclusion_of_the_same_cases_is_refused():
     matrix = "matrix: {'x.a': [1, 2], 'x.b': [1, 2, 3]}\n"
-
     assert len(expand(tree(matrix + "exclude: [{'x.a': 1, 'x.b': 1}, {'x.a': 1}]"))) == 3
     with pytest.raises(ScenarioErrors, match="no case has these values"):
         expand(tree(matrix + "exclude: [{'x.a': 1}, {'x.a': 1, 'x.b': 1}]"))
@@ -150,8 +141,6 @@ def test_a_second_exclusion_of_the_same_cases_is_refused():
 @given(st.integers(1, 6), st.integers(1, 6))
 def test_zip_makes_as_many_cases_as_its_lists_are_long(length, count):
     written = ", ".join(f"k{number}: {list(range(length))}" for number in range(count))
-
     variants = expand(tree(f"zip: {{{written}}}"))
-
     assert len(variants) == length
     assert all(len(set(values(variant))) == 1 for variant in variants)

@@ -12,7 +12,6 @@ from uictest.plans.scenario.parts.rail import FrictionProfile
 
 def test_defaults_are_filled_in(loaded, head):
     (case,) = loaded(head)
-
     scenario = case.scenario
     assert (scenario.brake.command, scenario.brake.position) == (1.0, "R")
     assert (scenario.rail.friction, scenario.rail.gradient) == (None, 0.0)
@@ -34,7 +33,6 @@ def test_friction_is_a_number_or_points(loaded, head):
     )
     (number,) = loaded(head + "rail: {friction: 0.10}\n")
     (profile,) = loaded(head + f"rail: {{friction: {points}}}\n")
-
     assert isinstance(number.scenario.rail.friction, Quantity)
     assert number.scenario.rail.friction.text == "0.10"
     assert isinstance(profile.scenario.rail.friction, FrictionProfile)
@@ -45,28 +43,24 @@ def test_friction_is_a_number_or_points(loaded, head):
 
 def test_a_scenario_cannot_be_changed(loaded, head):
     (case,) = loaded(head)
-
     with pytest.raises(Exception, match="frozen"):
         case.scenario.seed = 1  # type: ignore[misc]
 
 
 def test_the_digest_is_that_of_the_bytes(loaded, head):
     (case,) = loaded(head)
-
     assert case.inputs["stop.yaml"] == hashlib.sha256(head.encode()).hexdigest()
     assert case.path == Path("stop.yaml")
 
 
 def test_an_id_too_long_for_a_file_name_is_refused(refused, head):
     (diagnostic,) = refused(head.replace("stop", "s" * 60) + f"matrix: {{title: [{'t' * 150}]}}\n")
-
     assert (diagnostic.line, diagnostic.column) == (4, 18)
     assert "longer than 200 characters" in diagnostic.message
 
 
 def test_a_part_is_made_once_for_all_cases(loaded, head):
     first, second = loaded(head + "matrix: {seed: [1, 2]}\n")
-
     assert first.scenario.vehicle is second.scenario.vehicle
 
 
@@ -82,7 +76,6 @@ FRAGMENTS = st.sampled_from((*LINES, "? ", "- ", ": ", "&a ", "*a", "!!x ", *"{}
 @given(st.binary(max_size=200) | st.lists(FRAGMENTS, max_size=12).map(lambda parts: "".join(parts).encode()))
 def test_any_bytes_are_cases_or_scenario_errors(write, content):
     path = write("stop.yaml", content)
-
     try:
         cases = load([path])
     except ScenarioErrors as errors:

@@ -336,9 +336,7 @@ ROWS = [*WHOLE, *((each[0] if each[0].startswith("schema") else HEAD + each[0], 
 def test_is_refused_at_its_place(marked, key, message, hint, refused):
     before, after = (marked if isinstance(marked, bytes) else marked.encode()).split(MARK)
     line, column = before.count(b"\n") + 1, len(before.rpartition(b"\n")[2]) + 1
-
     diagnostics = refused(before + after)
-
     matching = [each for each in diagnostics if (each.line, each.column, each.key) == (line, column, key)]
     shown = "\n".join(map(str, diagnostics))
     assert any(message in each.message and hint in each.hint for each in matching), shown
@@ -350,9 +348,7 @@ def test_an_alias_bomb_is_refused_without_being_expanded(refused):
     bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x]\n" + "".join(
         f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 9)}]\n" for n in range(1, 12)
     )
-
     diagnostics = refused(bomb)
-
     assert (diagnostics[0].line, diagnostics[0].column) == (1, 5)
     assert "anchor '&a0' is not accepted" in diagnostics[0].message
     assert len(diagnostics) <= 20
@@ -370,7 +366,6 @@ def test_all_errors_of_a_file_are_told_at_once_from_top_to_bottom(refused):
         "title: twice\n"
         "matrix: {seed: []}\n"
     )
-
     assert [(each.line, each.key) for each in diagnostics] == [
         (2, "name"),
         (3, "initial_speed"),
@@ -396,7 +391,6 @@ def test_errors_of_a_matrix_do_not_hide_each_other_nor_those_elsewhere(refused):
         "  expect: [pas]\n"
         "exclude: [{sed: 1}]\n"
     )
-
     assert [(each.line, each.key) for each in diagnostics] == [
         (4, "brakes"),
         (6, "matrix.rail.friction"),
@@ -417,22 +411,18 @@ def test_too_many_cases_do_not_hide_wrong_values(refused):
             ("rail.friction", ", ".join(f"{0.1 + n / 1000:g}" for n in range(100)) + ", 7"),
         )
     )
-
     diagnostics = refused(HEAD + "matrix:\n" + axes)
-
     assert [(each.line, each.key) for each in diagnostics] == [(4, ""), (6, "rail.friction")]
 
 
 def test_an_error_in_every_value_of_an_axis_is_told_once_per_value(refused):
     diagnostics = refused(HEAD + "matrix: {rail.friction: [2, 3], seed: [1, 2, 3]}\n")
-
     assert [(each.line, each.column) for each in diagnostics] == [(4, 26), (4, 29)]
 
 
 def test_a_missing_file_is_told_without_a_line_of_it(tmp_path):
     with pytest.raises(ScenarioErrors) as caught:
         load([tmp_path / "nothing.yaml"])
-
     assert "no such file" in caught.value.diagnostics[0].message
     assert caught.value.diagnostics[0].file.endswith("nothing.yaml")
 
@@ -440,10 +430,8 @@ def test_a_missing_file_is_told_without_a_line_of_it(tmp_path):
 def test_errors_of_several_files_are_told_together(write):
     write("set/a.yaml", HEAD.replace("120 km/h", "120"))
     write("set/b.yaml", "- list\n")
-
     with pytest.raises(ScenarioErrors) as caught:
         load([Path("set")])
-
     assert [each.file for each in caught.value.diagnostics] == ["set/a.yaml", "set/b.yaml"]
 
 

@@ -54,7 +54,6 @@ REFERENCES = {
 @pytest.mark.parametrize("key", REFERENCES)
 def test_a_reference_that_climbs_out_is_refused_before_the_file_is_opened(place, key):
     diagnostic = refused(lambda: load([scenario(REFERENCES[key])]))
-
     assert (diagnostic.file, diagnostic.key) == ("sub/stop.yaml", key)
     assert diagnostic.line > 2
     assert diagnostic.message == f"'../../there/secret.yaml' leads out of {place / 'here'}"
@@ -63,30 +62,25 @@ def test_a_reference_that_climbs_out_is_refused_before_the_file_is_opened(place,
 
 def test_what_is_not_there_outside_is_not_told_apart_from_what_is(place):
     diagnostic = refused(lambda: load([scenario("extends: ../../there/nothing.yaml\n")]))
-
     assert "leads out of" in diagnostic.message
 
 
 def test_links_are_followed_before_it_is_decided(place):
     Path("sub/link.yaml").symlink_to(place / "there" / "secret.yaml")
     Path("sub/folder").symlink_to(place / "there")
-
     assert "leads out of" in refused(lambda: load([scenario("extends: link.yaml\n")])).message
     assert "leads out of" in refused(lambda: load([scenario("extends: folder/secret.yaml\n")])).message
 
 
 def test_a_link_out_of_a_folder_given_is_not_read(place):
     Path("sub/link.yaml").symlink_to(place / "there" / "secret.yaml")
-
     diagnostic = refused(lambda: load([Path("sub")]))
-
     assert diagnostic.file == "sub/link.yaml"
     assert diagnostic.message == "a link that leads out of the folders given"
 
 
 def test_the_working_folder_the_folders_given_and_trusted_ones_are_open(place, monkeypatch):
     child = scenario("extends: ../../there/base.yaml\nvehicle: ../../there/car.yaml\n").absolute()
-
     assert load([child], trusted=[place / "there"])
     (place / "there" / "other.yaml").write_text(HEAD.replace("stop", "other") + SPEED)
     assert len(load([child, place / "there" / "other.yaml"])) == 2
@@ -97,15 +91,12 @@ def test_the_working_folder_the_folders_given_and_trusted_ones_are_open(place, m
 def test_a_file_named_on_the_command_line_opens_its_folder(place):
     (place / "there" / "own.yaml").write_text("schema: uictest/vehicle/1\nextends: car.yaml\n")
     stop = scenario(SPEED)
-
     assert load([stop], ["vehicle=../there/own.yaml"])[0].scenario.vehicle.name == "intercity-180"
 
 
 def test_parts_are_confined_wherever_they_come_from(place):
     Path("sub/car.yaml").write_text(CAR.replace("intercity-180", "../../there/secret.yaml"))
-
     diagnostic = refused(lambda: load([scenario(SPEED + "vehicle: car.yaml\n")]))
-
     assert (diagnostic.file, diagnostic.line, diagnostic.key) == ("sub/car.yaml", 2, "vehicle.extends")
 
 
@@ -123,7 +114,6 @@ SWEEP = "schema: uictest/scenario/1\nname: s\nextends: {base}\nvary: {{matrix: {
 def test_sweeps_are_confined(place, base, axis):
     scenario(SPEED)
     Path("sub/s.sweep.yaml").write_text(SWEEP.format(base=base, axis=axis))
-
     assert "leads out of" in refused(lambda: load_sweep(Path("sub/s.sweep.yaml"))).message
 
 
@@ -131,7 +121,6 @@ def test_a_trusted_folder_is_open_to_a_sweep_and_the_scenario_it_names(place):
     (place / "there" / "child.yaml").write_text(HEAD + "extends: base.yaml\nvehicle: car.yaml\n")
     text = SWEEP.format(base="../../there/child.yaml", axis="vehicle: [crh380a, ../../there/car.yaml]")
     Path("sub/s.sweep.yaml").write_text(text)
-
     assert load_sweep(Path("sub/s.sweep.yaml"), trusted=[place / "there"]).size == 2
 
 
@@ -154,7 +143,5 @@ READERS: dict[str, tuple[str, Callable[[Path], object]]] = {
 def test_other_files_are_confined_too(place, name):
     text, read = READERS[name]
     Path("sub/file.yaml").write_text(text)
-
     diagnostic = refused(lambda: read(Path("sub/file.yaml")))
-
     assert "leads out of" in diagnostic.message or "is an absolute path" in diagnostic.message

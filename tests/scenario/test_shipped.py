@@ -40,7 +40,6 @@ def test_every_kind_of_stop_is_there(cases):
 )
 def test_a_file_is_named_after_its_scenario_and_explains_itself(path):
     first = load([path])[0].scenario
-
     assert path.read_text().startswith("# yaml-language-server: $schema=../schema/scenario.schema.json\n")
     assert first.name == path.stem
     assert first.title
@@ -50,7 +49,6 @@ def test_a_file_is_named_after_its_scenario_and_explains_itself(path):
 
 def test_the_two_tests_of_the_leaflet_start_at_120_in_position_r(cases):
     dry, slip = cases["dry-120"].scenario, cases["slip-120"].scenario
-
     for scenario in (dry, slip):
         assert scenario.initial_speed == pytest.approx(120 / 3.6)
         assert (scenario.brake.position, scenario.brake.command) == ("R", 1.0)
@@ -61,7 +59,6 @@ def test_the_two_tests_of_the_leaflet_start_at_120_in_position_r(cases):
 
 def test_the_slide_tests_differ_in_the_rig_alone(cases):
     one, four = cases["slide-80[compensation=full]"].scenario, cases["slide-80-four-caliper"].scenario
-
     assert (one.rig.topology, four.rig.topology) == ("one-caliper", "four-caliper")
     for part in ("vehicle", "brake", "rail", "controller", "initial_speed", "seed"):
         assert getattr(one, part) == getattr(four, part)
@@ -79,7 +76,6 @@ def test_only_three_scenarios_are_not_expected_to_pass(cases):
 
 def test_the_change_of_friction_is_sudden(cases):
     friction = cases["friction-step-120"].scenario.rail.friction
-
     assert isinstance(friction, FrictionProfile)
     assert friction.interpolation == "steps"
     assert min(point.friction for point in friction.points) < 0.1 < friction.points[0].friction
@@ -114,5 +110,4 @@ EMPTY_WAGON = """\
 @pytest.mark.parametrize("car", [TRAM, LOCOMOTIVE, EMPTY_WAGON], ids=["tram", "locomotive", "empty wagon"])
 def test_cars_from_trams_to_locomotives_are_plausible(loaded, head, car):
     (case,) = loaded(f"{head}vehicle:\n  extends: intercity-180\n{car}simulation: {{time_step: 1 ms}}\n")
-
     assert case.scenario.vehicle.total_mass > 10_000.0

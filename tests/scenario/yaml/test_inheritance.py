@@ -26,7 +26,6 @@ def child(write, more="", extends="parent.yaml"):
 
 def test_maps_merge_lists_replace_and_the_name_is_the_childs(write):
     cases = child(write, "tags: [c]\nbrake: {command: 80 %}\nmatrix: {seed: [7]}\n")
-
     scenario = cases[0].scenario
     assert [case.id for case in cases] == ["child[seed=7]"]
     assert scenario.tags == ("c",)
@@ -37,7 +36,6 @@ def test_maps_merge_lists_replace_and_the_name_is_the_childs(write):
 
 def test_null_takes_back_what_the_parent_says(write):
     cases = child(write, "matrix: null\nrail: {friction: null}\n")
-
     assert [case.id for case in cases] == ["child"]
     assert cases[0].scenario.rail.friction is None
 
@@ -53,7 +51,6 @@ CONDITIONS = [
 def test_a_new_rail_condition_does_not_keep_the_parents_friction(write, more):
     with pytest.raises(ScenarioErrors) as caught:
         child(write, more)
-
     (diagnostic,) = caught.value.diagnostics
     assert (diagnostic.file, diagnostic.line, diagnostic.key) == ("set/child.yaml", 4, "rail.condition")
     assert "rail.friction stays '0.2' (set/parent.yaml:6)" in diagnostic.message
@@ -64,7 +61,6 @@ def test_a_new_rail_condition_with_a_friction_or_none_is_accepted(write):
     same = child(write, "rail: {condition: wet, gradient: 5 permille}\n")[0].scenario.rail
     own = child(write, "rail: {condition: dry, friction: null}\n")[0].scenario.rail
     given = child(write, "rail: {condition: dry, friction: 0.2}\n")[0].scenario.rail
-
     assert (same.condition.name, same.friction) == ("wet", 0.2)
     assert (own.condition.name, own.highest_friction) == ("dry", 0.55)
     assert (given.condition.name, given.friction) == ("dry", 0.2)
@@ -73,9 +69,7 @@ def test_a_new_rail_condition_with_a_friction_or_none_is_accepted(write):
 def test_paths_start_at_the_file_that_says_them(write):
     write("cars/heavy.yaml", "schema: uictest/vehicle/1\nextends: intercity-180\nbody: {mass: 40 t}\n")
     write("base/base.yaml", PARENT + "vehicle: ../cars/heavy.yaml\n")
-
     cases = child(write, extends="../base/base.yaml")
-
     assert cases[0].scenario.vehicle.body.mass == 40_000.0
     assert "cars/heavy.yaml" in cases[0].inputs
 
@@ -84,10 +78,8 @@ def test_paths_start_at_the_file_that_says_them(write):
 def test_a_circle_is_told_at_the_reference_that_closes_it(write, loop):
     for name, after in zip(loop, [*loop[1:], loop[0]], strict=True):
         write(f"{name}.yaml", f"schema: uictest/scenario/1\nname: {name}\nextends: {after}.yaml\n")
-
     with pytest.raises(ScenarioErrors) as caught:
         load([Path("a.yaml")])
-
     (diagnostic,) = caught.value.diagnostics
     assert (diagnostic.file, diagnostic.line, diagnostic.column) == (f"{loop[-1]}.yaml", 3, 10)
     assert "circular 'extends': a.yaml -> " in diagnostic.message
@@ -95,10 +87,8 @@ def test_a_circle_is_told_at_the_reference_that_closes_it(write, loop):
 
 def test_an_error_in_a_parent_points_into_the_parent(write):
     write("base.yaml", PARENT.replace("120 km/h", "fast"))
-
     with pytest.raises(ScenarioErrors) as caught:
         child(write, extends="../base.yaml")
-
     (diagnostic,) = caught.value.diagnostics
     assert (diagnostic.file, diagnostic.line, diagnostic.column) == ("base.yaml", 3, 16)
 
@@ -106,7 +96,6 @@ def test_an_error_in_a_parent_points_into_the_parent(write):
 def test_a_missing_parent_is_told_at_the_reference_with_the_nearest_file(write):
     with pytest.raises(ScenarioErrors) as caught:
         child(write, extends="parnet.yaml")
-
     (diagnostic,) = caught.value.diagnostics
     assert (diagnostic.line, diagnostic.column, diagnostic.key) == (3, 10, "extends")
     assert "'parent.yaml'" in diagnostic.hint
@@ -114,7 +103,6 @@ def test_a_missing_parent_is_told_at_the_reference_with_the_nearest_file(write):
 
 def test_a_parent_must_be_a_scenario(write):
     write("car.yaml", "schema: uictest/vehicle/1\nname: car\n")
-
     with pytest.raises(ScenarioErrors, match="expected uictest/scenario/1, found 'uictest/vehicle/1'"):
         child(write, extends="../car.yaml")
 
@@ -122,6 +110,5 @@ def test_a_parent_must_be_a_scenario(write):
 def test_generations_are_bounded(write):
     for number in range(20):
         write(f"{number}.yaml", f"schema: uictest/scenario/1\nname: g\nextends: {number + 1}.yaml\n")
-
     with pytest.raises(ScenarioErrors, match="more than 16 generations"):
         load([Path("0.yaml")])

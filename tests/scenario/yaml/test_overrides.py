@@ -16,14 +16,12 @@ def texts(argument):
 
 def test_one_value_replaces_the_axis_of_its_key(loaded, head):
     cases = loaded(head + SWEPT, "rail.friction=0.15")
-
     assert [case.id for case in cases] == ["stop[seed=1]", "stop[seed=2]"]
     assert {case.scenario.rail.friction for case in cases} == {0.15}
 
 
 def test_several_values_become_an_axis(loaded, head):
     cases = loaded(head, "rail.friction=0.09,0.10", "brake.command=80 %, 100 %")
-
     assert [case.id for case in cases] == [
         "stop[friction=0.09,command=80]",
         "stop[friction=0.09,command=100]",
@@ -34,23 +32,19 @@ def test_several_values_become_an_axis(loaded, head):
 
 def test_an_override_outranks_every_section(loaded, head):
     sections = "zip: {seed: [1, 2], expect: [pass, fail]}\ninclude: [{seed: 3}, {seed: 4, expect: pass}]\n"
-
     cases = loaded(head + sections + "exclude: [{seed: 1}]\n", "seed=7")
-
     assert [case.id for case in cases] == ["stop[expect=pass]", "stop[expect=fail]"]
     assert {case.scenario.seed for case in cases} == {7}
 
 
 def test_a_part_can_be_changed_inside(loaded, head):
     (case,) = loaded(head, "vehicle.body.mass=40 t", "brake.system.tank.volume=3 L")
-
     assert case.scenario.vehicle.body.mass == 40_000.0
     assert case.scenario.brake.system.tank.volume == pytest.approx(0.003)
 
 
 def test_the_seed_option_replaces_every_seed(loaded, head):
     cases = loaded(head + "matrix: {seed: [1, 2]}\n", seed=5)
-
     assert [(case.id, case.scenario.seed) for case in cases] == [("stop", 5)]
 
 
@@ -74,7 +68,6 @@ def test_values_are_split_at_commas_outside_brackets(argument, values):
 @given(st.integers(-1000, 1000), st.integers(0, 50), st.integers(1, 100))
 def test_a_range_is_exact_and_includes_its_end(first, steps, step):
     values = texts(f"a=range({first / 100:.2f},{(first + steps * step) / 100:.2f},{step / 100:.2f})")
-
     assert values == [f"{(first + number * step) / 100:.2f}" for number in range(steps + 1)]
 
 
@@ -98,7 +91,6 @@ def test_a_range_is_exact_and_includes_its_end(first, steps, step):
 def test_a_malformed_option_is_refused_at_its_place(argument, column, message):
     with pytest.raises(ScenarioErrors) as caught:
         parse_overrides([argument], None)
-
     (diagnostic,) = caught.value.diagnostics
     assert (diagnostic.file, diagnostic.line, diagnostic.column) == ("--set", 1, column)
     assert message in diagnostic.message
@@ -116,7 +108,6 @@ def test_a_malformed_option_is_refused_at_its_place(argument, column, message):
 )
 def test_an_unknown_key_is_told_as_an_error_of_the_option(argument, key, hint, refused, head):
     (diagnostic,) = refused(head, argument)
-
     assert (diagnostic.file, diagnostic.key) == ("--set", key)
     assert hint in diagnostic.hint
 
@@ -139,16 +130,13 @@ WET_SWEPT = "rail: {condition: wet}\nmatrix: {rail.friction: [0.09, 0.1]}\n"
 )
 def test_another_rail_condition_does_not_keep_the_friction_of_the_file(refused, head, more, override):
     over_time = "rail.friction_over_time={points: [{time: 0 s, factor: 1}]}"
-
     (diagnostic,) = refused(head + more, override, over_time)
-
     assert (diagnostic.file, diagnostic.key) == ("--set", "rail.condition")
     assert "rail.friction stays '0.09'" in diagnostic.message or "stays '[0.09, 0.1]'" in diagnostic.message
 
 
 def test_a_matrix_of_rail_conditions_does_not_keep_one_friction(refused, head):
     (diagnostic,) = refused(head + WET + "matrix: {rail.condition: [wet, dry]}\n")
-
     assert (diagnostic.line, diagnostic.column, diagnostic.key) == (5, 32, "rail.condition")
 
 
@@ -156,14 +144,12 @@ def test_a_matrix_of_rail_conditions_does_not_keep_one_friction(refused, head):
 def test_another_rail_condition_is_accepted_with_a_friction_or_without_any(loaded, head, more):
     own = loaded(head + more, "rail.condition=dry", "rail.friction=null")
     given = loaded(head + more, "rail.condition=dry,wet", "rail.friction=0.2")
-
     assert [case.scenario.rail.highest_friction for case in own] == [0.55]
     assert [case.scenario.rail.friction for case in given] == [0.2, 0.2]
 
 
 def test_other_numbers_of_a_rail_condition_may_change_alone(loaded, head):
     rail = loaded(head + WET, "rail.condition=wet", "rail.condition.friction_decay=0.3 s/m")[0].scenario.rail
-
     assert (rail.friction, rail.condition.friction_decay) == (0.09, 0.3)
 
 
@@ -174,7 +160,6 @@ def test_the_cleaning_of_a_condition_is_changed_key_by_key_that_of_the_rail_as_a
     (whole,) = loaded(head + cleaned, f"rail.cleaning={own}", "rail.cleaning.reach=2 m")
     of_sweep = [case.scenario.rail.cleaning_in_force for case in swept]
     of_rail = whole.scenario.rail.cleaning_in_force
-
     assert [cleaning and (cleaning.energy, cleaning.reach) for cleaning in of_sweep] == [
         (4000.0, 0.5),
         (8000.0, 0.5),
@@ -191,6 +176,5 @@ def test_a_rail_that_cleaning_improves_is_long_enough_for_a_stop(loaded, refused
     """Whether a stop can end is asked of the best friction that a wheelset may meet."""
     slippery = "rail: {condition: wet, friction: 0.002}\nsimulation: {maximum_duration: 100 s}\n"
     own = "{energy: 8 kJ/m, recovered_friction: 0.3, reach: 1 m, carry_over: 0}"
-
     assert any("cannot end" in diagnostic.message for diagnostic in refused(head + slippery))
     assert loaded(head + slippery, f"rail.cleaning={own}")

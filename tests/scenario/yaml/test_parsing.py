@@ -22,7 +22,6 @@ def tree(text):
 def test_every_key_and_value_has_its_place(loader, monkeypatch):
     monkeypatch.setattr(parsing, "_LOADER", loader)
     root = tree("rail:\n  friction: 0.10\n  'gradient':  5 permille\ntags: [a, on]\n")
-
     assert isinstance(root, Map)
     rail = root.entries["rail"].node
     assert isinstance(rail, Map)
@@ -38,7 +37,6 @@ def test_every_key_and_value_has_its_place(loader, monkeypatch):
 @pytest.mark.parametrize("loader", LOADERS, ids=["python", "libyaml"])
 def test_quoted_numbers_and_blocks_are_texts(loader, monkeypatch):
     monkeypatch.setattr(parsing, "_LOADER", loader)
-
     assert plain(tree("a: '1'\nb: \"true\"\nc: |\n  1\nd: >-\n  2\n")) == {
         "a": "1",
         "b": "true",
@@ -53,10 +51,8 @@ def test_a_byte_order_mark_is_no_character_of_the_first_key():
 
 def test_a_piece_keeps_its_place_in_the_whole():
     document = Document("--set", Path(), "rail.friction=0.1,[")
-
     with pytest.raises(ScenarioErrors) as caught:
         parse(document, 1, 19, "[")
-
     assert caught.value.diagnostics[0].column >= 19
 
 

@@ -36,7 +36,6 @@ WITH_UNITS = [(kind.name, symbol) for kind in KINDS.values() for symbol in kind.
 )
 def test_a_quantity_is_read_in_si(text, kind, value):
     quantity = parse_quantity(text, kind)
-
     assert quantity == pytest.approx(value, rel=1e-15)
     assert quantity.text == text
     assert quantity.unit == KINDS[kind].canonical
@@ -53,9 +52,7 @@ def test_conversion_rounds_once():
 def test_what_a_quantity_says_reads_back_as_the_same_quantity(unit, number):
     kind, symbol = unit
     quantity = parse_quantity(f"{number:f} {symbol}", kind)
-
     again = parse_quantity(quantity.text, kind)
-
     assert again == quantity
     assert (again.text, again.unit) == (quantity.text, quantity.unit)
 
@@ -64,9 +61,7 @@ def test_what_a_quantity_says_reads_back_as_the_same_quantity(unit, number):
 def test_units_differ_by_their_factor_alone(unit, number):
     kind, symbol = unit
     accepted = KINDS[kind].units[symbol]
-
     value = parse_quantity(f"{number:f} {symbol}", kind)
-
     assert value == pytest.approx(
         float(accepted.factor) * float(str(number)) + float(accepted.offset), rel=1e-12
     )
@@ -107,13 +102,11 @@ def test_any_text_is_a_finite_quantity_or_refused(text):
 def test_the_hint_says_what_to_write(text, kind, hint):
     with pytest.raises(QuantityError) as caught:
         parse_quantity(text, kind)
-
     assert caught.value.hint.startswith(hint)
 
 
 def test_copies_keep_text_unit_and_source():
     quantity = parse_quantity("4 bar", "pressure", "maker")
-
     for twin in (copy.copy(quantity), copy.deepcopy(quantity)):
         assert isinstance(twin, Quantity)
         assert (twin, twin.text, twin.unit, twin.source) == (4e5, "4 bar", "Pa", "maker")

@@ -27,7 +27,6 @@ def test_bounds_are_told_as_written():
 
 def test_a_value_with_its_source_keeps_it():
     sample = Sample.model_validate({"pressure": {"value": "3 bar", "source": "maker"}})
-
     assert (sample.pressure, sample.pressure.source) == (3e5, "maker")
 
 
@@ -44,7 +43,5 @@ def test_a_quantity_of_another_kind_is_refused():
 
 def test_a_model_written_out_reads_back():
     sample = Sample.model_validate({"pressure": {"value": "3 bar", "source": "maker"}})
-
     again = Sample.model_validate(sample.model_dump())
-
     assert (again.pressure, again.pressure.text, again.pressure.source) == (3e5, "3 bar", "maker")
