@@ -1,5 +1,6 @@
 """Sweeps of one scenario in a folder of their own, and a rig whose stops are a formula."""
 
+import io
 import os
 import shutil
 import subprocess
@@ -7,6 +8,7 @@ from pathlib import Path
 from textwrap import indent
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 
 from uictest import rig
@@ -14,7 +16,7 @@ from uictest.controllers import HEADER
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.plans.sweeps import load_sweep
 from uictest.rig.model.friction_law import FRICTIONS
-from uictest.running.chunked import ChunkRunner
+from uictest.running.chunked import ChunkRunner, ChunkStore
 from uictest.running.chunked.case_blocks import BlockAssembler
 
 SCENARIO = """\
@@ -40,15 +42,31 @@ def vary(sections):
 
 @pytest.fixture
 def load(tmp_path, monkeypatch):
-    """The plan of a sweep whose file says the given text under `vary`."""
+    """The plan of a sweep whose file says the given text under `vary`; `stop` is what stop.yaml says."""
     monkeypatch.chdir(tmp_path)
     Path("stop.yaml").write_text(SCENARIO)
 
-    def write_and_load(text=MATRIX, *overrides, scenario="stop.yaml", **options):
+    def write_and_load(text=MATRIX, *overrides, scenario="stop.yaml", stop=SCENARIO, **options):
+        if stop != SCENARIO:
+            Path("stop.yaml").write_text(stop)
         Path("study.sweep.yaml").write_text(HEAD.replace("stop.yaml", scenario) + vary(text))
         return load_sweep(Path("study.sweep.yaml"), overrides, **options)
 
     return write_and_load
+
+
+def rows(content):
+    """The rows of a chunk."""
+    return pq.read_table(io.BytesIO(content)).to_pylist()
+
+
+def stored(selection, runner, folder):
+    """A store with all chunks of a selection."""
+    store = ChunkStore(folder)
+    store.open({}, restart=True)
+    for number in range(selection.chunks):
+        store.write(number, runner.run(selection.chunk(number)))
+    return store
 
 
 def formula(parameters, wheelset_parameters, rail):

@@ -1,5 +1,6 @@
-"""Places of keys and values, with either implementation of the parser."""
+"""Places of keys and values with either implementation of the parser, scalars of YAML 1.2, merged trees."""
 
+import math
 from pathlib import Path
 
 import pytest
@@ -8,8 +9,8 @@ from hypothesis import given, strategies as st
 
 from uictest.plans.scenario import ScenarioErrors
 from uictest.plans.scenario.yaml import parsing
-from uictest.plans.scenario.yaml.parsing import parse
-from uictest.plans.scenario.yaml.tree import Document, Map, Scalar, plain
+from uictest.plans.scenario.yaml.parsing import parse, scalar_value
+from uictest.plans.scenario.yaml.tree import Document, Map, Scalar, as_written, merge, plain
 
 LOADERS = [yaml.SafeLoader, getattr(yaml, "CSafeLoader", yaml.SafeLoader)]
 
@@ -73,3 +74,56 @@ def test_an_escaped_nul_is_refused_at_its_place(text):
     with pytest.raises(ScenarioErrors, match=r"text:1:\d+: character '\\x00' is not accepted") as caught:
         tree(text)
     assert caught.value.salvaged is None
+
+
+@pytest.mark.parametrize(
+    "text", ["on", "off", "yes", "no", "y", "12:30", "1_000", "0b11", "2026-01-01", "1e"]
+)
+def test_what_yaml_1_1_would_convert_is_a_text(text):
+    assert scalar_value(text) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1e3", 1000.0),
+        ("1", 1),
+        ("010", 10),
+        ("0o10", 8),
+        ("0xff", 255),
+        ("-.5", -0.5),
+        ("5.", 5.0),
+        ("true", True),
+        ("False", False),
+        ("~", None),
+        ("", None),
+        ("-.inf", -math.inf),
+    ],
+)
+def test_core_schema(text, value):
+    assert scalar_value(text) == value
+    assert type(scalar_value(text)) is type(value)
+
+
+def test_not_a_number_is_a_number():
+    assert math.isnan(float(str(scalar_value(".nan"))))
+
+
+def test_thousands_of_digits_are_no_integer():
+    assert scalar_value("9" * 10_000) == math.inf
+
+
+def test_maps_merge_and_lists_replace():
+    merged = merge(tree("{a: {b: 1, c: 2}, d: [1, 2], e: 1}"), tree("{a: {c: 3}, d: [4], f: 5}"))
+    assert plain(merged) == {"a": {"b": 1, "c": 3}, "d": (4,), "e": 1, "f": 5}
+
+
+def test_a_changed_number_does_not_keep_the_source_of_the_old_one():
+    merged = merge(tree("{mass: {value: 30 t, source: maker}}"), tree("{mass: 31 t}"))
+    marked = merge(tree("{mass: {value: 30 t, source: maker}}"), tree("{mass: {value: 31 t}}"))
+    assert plain(merged) == {"mass": "31 t"}
+    assert plain(marked) == {"mass": {"value": "31 t"}}
+
+
+def test_a_node_is_written_as_one_line():
+    assert as_written(tree("a:\n  - 0.10\n  - {b: 5 bar}\n")) == "{a: [0.10, {b: 5 bar}]}"

@@ -1,13 +1,26 @@
-"""Quantities: exact factors, nothing guessed, and the text kept."""
+"""Quantities: exact factors, nothing guessed, the text kept; fields of them; decimals with a unit."""
 
 import copy
 import math
+from decimal import Decimal
+from typing import Annotated
 
 import pytest
 from hypothesis import given, strategies as st
+from pydantic import BaseModel, ValidationError
 
 from uictest.core.units import KINDS
-from uictest.plans.scenario.yaml.quantities import Quantity, QuantityError, parse_quantity
+from uictest.plans.scenario.yaml.quantities import (
+    DecimalQuantity,
+    Quantity,
+    QuantityError,
+    evenly_spaced,
+    parse_decimal_quantity,
+    parse_quantity,
+    rounded_decimal,
+    spaced_by_step,
+)
+from uictest.plans.scenario.yaml.quantity_field import of_kind
 
 WITH_UNITS = [(kind.name, symbol) for kind in KINDS.values() for symbol in kind.units]
 
@@ -110,3 +123,77 @@ def test_copies_keep_text_unit_and_source():
     for twin in (copy.copy(quantity), copy.deepcopy(quantity)):
         assert isinstance(twin, Quantity)
         assert (twin, twin.text, twin.unit, twin.source) == (4e5, "4 bar", "Pa", "maker")
+
+
+class Sample(BaseModel):
+    pressure: Annotated[Quantity, of_kind("pressure", above="0 bar", at_most="8 bar")]
+
+
+def message(value):
+    with pytest.raises(ValidationError) as caught:
+        Sample.model_validate({"pressure": value})
+    return caught.value.errors()[0]["msg"]
+
+
+def test_bounds_are_told_as_written():
+    assert message("0 bar") == "0 bar is out of range: it must be above 0 bar"
+    assert message("900 kPa") == "900 kPa is out of range: it must be at most 8 bar"
+    assert Sample.model_validate({"pressure": "800 kPa"}).pressure == 8e5
+
+
+def test_a_value_with_its_source_keeps_it():
+    sample = Sample.model_validate({"pressure": {"value": "3 bar", "source": "maker"}})
+    assert (sample.pressure, sample.pressure.source) == (3e5, "maker")
+
+
+@pytest.mark.parametrize(
+    "value", [{"value": "3 bar"}, {"value": "3 bar", "source": 1}, {"x": 1}, True, None, ()]
+)
+def test_anything_else_is_refused(value):
+    assert message(value).startswith("expected a pressure")
+
+
+def test_a_quantity_of_another_kind_is_refused():
+    assert message(Quantity(3.0, "3 m", "m")) == "'3 m' is not a pressure"
+
+
+def test_a_model_written_out_reads_back():
+    sample = Sample.model_validate({"pressure": {"value": "3 bar", "source": "maker"}})
+    again = Sample.model_validate(sample.model_dump())
+    assert (again.pressure, again.pressure.text, again.pressure.source) == (3e5, "3 bar", "maker")
+
+
+def test_number_and_unit():
+    assert parse_decimal_quantity(" 1.1e-8 m3/(s  Pa) ") == DecimalQuantity(Decimal("1.1e-8"), "m3/(s Pa)")
+    assert str(parse_decimal_quantity("1.1e-8 m3/(s Pa)")) == "0.000000011 m3/(s Pa)"
+    assert str(parse_decimal_quantity("0.10")) == "0.10"
+
+
+@pytest.mark.parametrize("text", ["", "km/h", "nan", "1..2", "--1"])
+def test_what_is_no_amount(text):
+    with pytest.raises(ValueError, match="is not a number with its unit"):
+        parse_decimal_quantity(text)
+
+
+def test_a_step_reaches_the_last_number_where_it_lands_on_it():
+    assert [str(n) for n in spaced_by_step(Decimal("0.1"), Decimal("0.3"), Decimal("0.1"))] == [
+        "0.1",
+        "0.2",
+        "0.3",
+    ]
+    assert [str(n) for n in spaced_by_step(Decimal(3), Decimal(0), Decimal(-2))] == ["3", "1"]
+
+
+@given(st.integers(-1000, 1000), st.integers(-1000, 1000), st.integers(2, 50))
+def test_even_numbers_keep_both_ends(first, last, count):
+    numbers = evenly_spaced(Decimal(first) / 7, Decimal(last) / 7, count)
+    assert len(numbers) == count
+    assert float(numbers[0]) == pytest.approx(first / 7, abs=1e-7)
+    assert float(numbers[-1]) == pytest.approx(last / 7, abs=1e-7)
+
+
+@given(st.floats(1e-12, 1e12))
+def test_a_computed_number_is_written_without_an_exponent(number):
+    text = f"{rounded_decimal(number):f}"
+    assert "e" not in text.lower()
+    assert float(text) == pytest.approx(number, rel=1e-9)

@@ -27,10 +27,9 @@ Write = Callable[..., Plan]
 
 
 @pytest.fixture
-def write(tmp_path, monkeypatch):
+def write(load):
     """The plan of a sweep file with the given text."""
-    monkeypatch.chdir(tmp_path)
-    Path("stop.yaml").write_text(SCENARIO)
+    load()
 
     def to(text, *overrides):
         Path("study.sweep.yaml").write_text(text)

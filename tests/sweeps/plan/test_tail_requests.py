@@ -8,24 +8,15 @@ from uictest.plans.scenario import ScenarioErrors
 from uictest.plans.scenario.parts.tail_requests import QuantileRequest
 from uictest.plans.sweeps import load_sweep
 
-from ..conftest import HEAD, vary
-
 SAMPLE = "sample: {method: %s, size: 4, parameters: {vehicle.body.mass: {uniform: [30 t, 34 t]}}}\n"
 DRAWN = SAMPLE % "random"
 
 
 @pytest.fixture
-def load_on(tmp_path, monkeypatch):
-    """The plan of a sweep on a rail of this condition, whose file says the given text after its head."""
-    monkeypatch.chdir(tmp_path)
-
-    def write_and_load(condition, text):
-        stop = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 30 km/h\n"
-        Path("stop.yaml").write_text(f"{stop}rail: {{condition: {condition}}}\n")
-        Path("study.sweep.yaml").write_text(HEAD + vary(text))
-        return load_sweep(Path("study.sweep.yaml"))
-
-    return write_and_load
+def load_on(load):
+    """The plan of a sweep on a rail of this condition, whose file says the given text under `vary`."""
+    stop = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 30 km/h\nrail: {condition: %s}\n"
+    return lambda condition, text: load(text, stop=stop % condition)
 
 
 def test_one_request_or_a_list_of_them_and_k_dry_needs_nothing_but_a_sample(load_on):

@@ -1,22 +1,16 @@
 """A chunk holds the results of its cases run one by one, and every case has a row."""
 
-import io
 import math
 from dataclasses import replace
 
 import numpy as np
-import pyarrow.parquet as pq
 import pytest
 
 from uictest.judging.evaluation import evaluate
 from uictest.running.chunked import CaseSelection, run_on_threads
 
-from ..conftest import formula
+from ..conftest import formula, rows
 from .test_case_blocks import written_out
-
-
-def rows(content):
-    return pq.read_table(io.BytesIO(content)).to_pylist()
 
 
 def test_rows_are_the_results_of_the_cases(load, made_up):

@@ -1,10 +1,8 @@
 """Controllers from outside in sweeps: lane by lane or one by one, with the bits of a stop alone."""
 
-import io
 import pickle
 
 import numpy as np
-import pyarrow.parquet as pq
 import pytest
 
 from uictest import rig
@@ -15,14 +13,14 @@ from uictest.running.campaign import RecordingRequest, Stop, run_stop
 from uictest.running.chunked import chunk_runner, cluster
 from uictest.running.chunked.store import program_digest
 
+from ..conftest import rows
 from .test_case_blocks import written_out
 
 FRICTIONS = "  rail.friction: [0.06, 0.08, 0.10]\n"
 
 
-def rows(plan):
-    content = chunk_runner(plan, rig.run_block).run(np.arange(plan.size))
-    return pq.read_table(io.BytesIO(content)).to_pylist()
+def rows_of(plan):
+    return rows(chunk_runner(plan, rig.run_block).run(np.arange(plan.size)))
 
 
 def without_names(row):
@@ -35,7 +33,7 @@ def with_common_noise(found, of):
 
 def test_one_block_runs_controllers_of_all_kinds_with_the_same_bits(load, library, python_file):
     kinds = f"[slip-band, {{library: {library}}}, threshold, {{python: {python_file}}}]"
-    found = rows(load(f"matrix:\n  controller: {kinds}\n{FRICTIONS}"))
+    found = rows_of(load(f"matrix:\n  controller: {kinds}\n{FRICTIONS}"))
     built_in = with_common_noise(found, "slip-band")
     assert [row["outcome"] for row in built_in].count("error") == 0
     assert with_common_noise(found, "{library") == built_in
@@ -50,7 +48,7 @@ def test_a_controller_that_fails_is_a_row_and_the_others_keep_their_bits(load, k
     swept = "matrix:\n  controller.parameters.fails_at: [-1, 0, 150]\n" + FRICTIONS
     controller = f"controller={{{kind}: {written}, parameters: {{}}}}"
     plan = load(swept, controller)
-    found = rows(plan)
+    found = rows_of(plan)
     place = " (slip_band.py, line 20)" if kind == "python" else ""
     error = "ValueError: told to" if kind == "python" else "told to"
     for index, row in enumerate(found):
@@ -80,10 +78,10 @@ def test_a_controller_that_fails_is_a_row_and_the_others_keep_their_bits(load, k
             ["0.3", "0.3"],
         ),
     ],
-    ids=["grid", "ranges", "zip", "choice"],
+    ids=["matrix", "ranges", "zip", "choice"],
 )
 def test_parameters_of_a_controller_are_swept(load, python_file, text, texts):
-    found = rows(load(text, f"controller={{python: {python_file}}}"))
+    found = rows_of(load(text, f"controller={{python: {python_file}}}"))
     assert [row["parameters.controller.parameters.upper_slide"] for row in found] == texts
     assert [row["values.controller.parameters.upper_slide"] for row in found] == [
         float(each) for each in texts
@@ -108,7 +106,7 @@ def test_parameters_of_a_controller_are_drawn_as_bare_numbers(load, python_file,
     values = plan.settings(np.arange(4))[key]
     assert all(type(value.content) is float and 0.1 <= value.content <= 0.3 for value in values)
     assert len({value.text for value in values}) == 4
-    assert {row["outcome"] for row in rows(plan)} <= {"pass", "fail", "invalid"}
+    assert {row["outcome"] for row in rows_of(plan)} <= {"pass", "fail", "invalid"}
 
 
 def test_a_plan_is_the_same_on_another_machine(load, python_file):

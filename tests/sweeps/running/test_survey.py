@@ -1,11 +1,9 @@
 """Sweeps in survey steps: fast where the verdict is clear, in regular steps where a bias could decide it."""
 
-import io
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import pyarrow.parquet as pq
 import pytest
 
 from uictest import rig
@@ -18,15 +16,11 @@ from uictest.running.chunked.case_blocks import BlockAssembler
 from uictest.running.chunked.store import program_digest
 from uictest.running.chunked.table import biases_by_measure, survey_biases, survey_step
 
-from ..conftest import MATRIX, SCENARIO, formula
+from ..conftest import MATRIX, SCENARIO, formula, rows
 
 SURVEY = "simulation.time_step=survey"
 IN_FILE = "simulation.time_step: [survey]\n"
 NO_BIAS = dict.fromkeys(biases_by_measure(), 0.0)
-
-
-def rows(content):
-    return pq.read_table(io.BytesIO(content)).to_pylist()
 
 
 @pytest.fixture

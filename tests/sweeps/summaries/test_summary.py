@@ -10,15 +10,13 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from uictest import rig
 from uictest.analysis.summaries import summarize
 from uictest.analysis.summaries.trends import MOST_VALUES
 from uictest.report import map_lines, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document, sweep_document
-from uictest.running.chunked import CaseSelection, ChunkRunner, ChunkStore
-from uictest.running.chunked.case_blocks import BlockAssembler
+from uictest.running.chunked import CaseSelection
 
-from ..conftest import MATRIX, SCENARIO, formula
+from ..conftest import MATRIX, SCENARIO, formula, stored
 
 
 @pytest.fixture
@@ -27,11 +25,7 @@ def finished(load, made_up, tmp_path):
 
     def finish(text=MATRIX, scenario="stop.yaml"):
         selection = CaseSelection(load(text, scenario=scenario))
-        store = ChunkStore(tmp_path / "out")
-        store.open({}, restart=True)
-        runner = made_up(selection.plan)
-        for number in range(selection.chunks):
-            store.write(number, runner.run(selection.chunk(number)))
+        store = stored(selection, made_up(selection.plan), tmp_path / "out")
         keys = selection.plan.keys
         result = summarize(selection, store, (keys[0], keys[1]), ["braking_distance_m"]).result
         write_sweep_result(store.folder, result, selection.plan.file)
@@ -50,13 +44,10 @@ def unstopped(parameters, own, rail):
     return measures, wheelsets
 
 
-def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(load, tmp_path):
+def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(load, made_up, tmp_path):
     selection = CaseSelection(load(MATRIX.replace("100 %]", "100 %]\n  simulation.maximum_duration: [60 s]")))
-    store = ChunkStore(tmp_path / "out")
-    store.open({}, restart=True)
-    runner = ChunkRunner(BlockAssembler(selection.plan), unstopped, selection.plan, rig.run_block)
-    for number in range(selection.chunks):
-        store.write(number, runner.run(selection.chunk(number)))
+    runner = replace(made_up(selection.plan), simulate=unstopped)
+    store = stored(selection, runner, tmp_path / "out")
     result = summarize(selection, store, None, ["braking_distance_m"]).result
     write_sweep_result(store.folder, result, selection.plan.file)
     assert result.outcomes["inconclusive"] == 2

@@ -11,15 +11,14 @@ import yaml
 
 from uictest import rig
 from uictest.analysis.summaries import summarize
-from uictest.plans.sweeps import load_sweep
 from uictest.plans.sweeps.nominal import drawn_ranges, nominal_plan
 from uictest.report import titled_lines, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document
 from uictest.report.sweep.tail_tables import tail_tables
-from uictest.running.chunked import CaseSelection, ChunkRunner, ChunkStore, select_cases
+from uictest.running.chunked import CaseSelection, ChunkRunner, select_cases
 from uictest.running.chunked.case_blocks import BlockAssembler
 
-from ..conftest import HEAD, formula, vary
+from ..conftest import formula, stored
 
 DRY = (
     "schema: uictest/scenario/1\nname: stop\ninitial_speed: 30 km/h\nrail: {condition: dry, friction: 0.12}\n"
@@ -30,16 +29,9 @@ FINENESS = 1e-12
 
 
 @pytest.fixture
-def load_dry(tmp_path, monkeypatch):
-    """The plan of a sweep on dry rail whose file says the given text after its head."""
-    monkeypatch.chdir(tmp_path)
-    Path("stop.yaml").write_text(DRY)
-
-    def write_and_load(text):
-        Path("study.sweep.yaml").write_text(HEAD + vary(text))
-        return load_sweep(Path("study.sweep.yaml"))
-
-    return write_and_load
+def load_dry(load):
+    """The plan of a sweep on dry rail whose file says the given text under `vary`."""
+    return lambda text: load(text, stop=DRY)
 
 
 def slippery_stops_unfinished(parameters, own, rail):
@@ -53,11 +45,8 @@ def slippery_stops_unfinished(parameters, own, rail):
 
 def finish(plan, simulate=formula, only=None):
     selection = select_cases(plan, only) if only else CaseSelection(plan)
-    store = ChunkStore(Path("out"))
-    store.open({}, restart=True)
     runner = ChunkRunner(BlockAssembler(plan), simulate, plan, rig.run_block)
-    for number in range(selection.chunks):
-        store.write(number, runner.run(selection.chunk(number)))
+    store = stored(selection, runner, Path("out"))
     result = summarize(selection, store, None, ["braking_distance_m"]).result
     write_sweep_result(store.folder, result, plan.file)
     return result, store.folder

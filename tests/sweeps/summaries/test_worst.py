@@ -1,10 +1,7 @@
 """Which cases of a sweep are worth looking at, and that they are the cases of its rows."""
 
-import io
-
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 from hypothesis import given, strategies as st
 
@@ -12,6 +9,8 @@ from uictest import rig
 from uictest.analysis.summaries.worst import MOST, WorstCases, full_cases
 from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
 from uictest.running.chunked.chunk import chunk_runner
+
+from ..conftest import rows as chunk_rows
 
 margins = st.one_of(st.none(), st.floats(-2.0, 2.0))
 rows = st.lists(
@@ -62,5 +61,5 @@ def test_a_case_examined_alone_has_the_figures_of_its_row(load):
 
 @pytest.mark.parametrize("column", ["narrowest_margin", "narrowest_criterion"])
 def test_rows_name_the_narrowest_margin(load, column):
-    rows = pq.read_table(io.BytesIO(chunk_runner(load(), rig.run_block).run(np.arange(2))))
-    assert all(value is not None for value in rows.column(column).to_pylist())
+    found = chunk_rows(chunk_runner(load(), rig.run_block).run(np.arange(2)))
+    assert all(row[column] is not None for row in found)
