@@ -95,16 +95,16 @@ def evaluate(
         "-o": output,
     }
     words = command_words(["evaluate", *paths, *(["--strict"] if strict else [])], options)
-    if any(map(runs.is_series, paths)):
-        said = (scenario, select, *statements, trigger)
-        planned, stops = runs.read_recorded_series(paths, overrides, folders, said, "set")
-        batch = runs.recorded_batch(stops, words, planned=planned, strict=strict)
-    else:
+
+    def conditions() -> runs.Conditions:
         case_of = _case_of(scenario, select, [*statements, *overrides], folders)
         mapped, inputs = runs.named_map(str(channel_map), folders)
-        stops = runs.read_files(paths, runs.triggered_map(mapped, trigger))
-        cases = [stop.case(case_of, inputs) for stop in stops]
-        batch = runs.recorded_batch(stops, words, cases=cases, strict=strict)
+        return runs.Conditions(runs.triggered_map(mapped, trigger), inputs, case_of)
+
+    said = (scenario, select, *statements, trigger)
+    batch, _ = runs.recorded_batch(
+        paths, words, conditions, overrides, folders, stated=said, option="set", strict=strict
+    )
     content, recordings = runs.judge_recordings(batch)
     if output is None:
         return Results(content, recordings=recordings)
@@ -123,18 +123,17 @@ def _case_of(
     if isinstance(scenario, scenarios.Case):
         if statements or select is not None:
             raise ValueError("a case is judged as it is: state its conditions in uictest.load")
-        return runs.case_of_stop(scenario, (), trusted)
+        return lambda name, speed: scenario
     case = None
     if scenario is not None:
         with expression_of("select", select):
             case = runs.only_case(Path(scenario), select, statements, trusted, "choose with select=")
-    try:
-        return runs.case_of_stop(case, statements, trusted)
-    except runs.MissingStatementsError as error:
-        names = ", ".join(f"{_ARGUMENTS[key]}=" for key in error.keys)
-        raise ValueError(
-            f"a recording does not say what was tested: state it with scenario=, or with {names}"
-        ) from None
+    return runs.case_of_stop(
+        case,
+        statements,
+        trusted,
+        lambda keys: f"scenario=, or with {', '.join(f'{_ARGUMENTS[key]}=' for key in keys)}",
+    )
 
 
 def _statements(

@@ -15,7 +15,7 @@ from .publishing import (
     publish_run as publish_run,
 )
 from .recorded import (
-    MissingStatementsError as MissingStatementsError,
+    Conditions as Conditions,
     case_of_stop as case_of_stop,
     judge_recordings as judge_recordings,
     recorded_batch as recorded_batch,

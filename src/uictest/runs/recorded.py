@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from uictest import report
 from uictest.core import recording
@@ -12,45 +13,63 @@ from uictest.recorded import field_data
 from uictest.running import campaign
 from uictest.runs.batch import Batch, all_cases, run_batch
 from uictest.runs.observer import Observer
-from uictest.runs.recorded_files import CaseOfStop, RecordedFile
+from uictest.runs.recorded_files import CaseOfStop, RecordedFile, read_files, read_recorded_series
+from uictest.runs.scenario_files import InvalidInputError, is_series
 
 
-class MissingStatementsError(Exception):
-    """A recording does not say what was tested, and nobody else does; `keys` are those to state."""
+class Conditions(NamedTuple):
+    """The map that recordings are read through, the files read for it, and the cases they are judged as."""
 
-    def __init__(self, keys: Sequence[str]) -> None:
-        self.keys = tuple(keys)
-        super().__init__(*keys)
+    channel_map: field_data.ChannelMap
+    inputs: dict[str, str]
+    case_of: CaseOfStop
 
 
 def case_of_stop(
-    case: scenarios.Case | None, statements: Sequence[str], trusted: Sequence[Path] | None
+    case: scenarios.Case | None,
+    statements: Sequence[str],
+    trusted: Sequence[Path] | None,
+    how: Callable[[Sequence[str]], str],
 ) -> CaseOfStop:
     """Return the function that makes the case of a recording: as `case` states, or the statements alone.
 
-    Raises MissingStatementsError if there is neither a case nor every statement that is needed.
+    Raises InvalidInputError if there is neither a case nor every statement that is needed; `how` says by what
+    the missing keys are stated.
     """
     if case is not None:
         return lambda name, speed: case
     keys = {statement.partition("=")[0].strip() for statement in statements}
     missing = [key for key in field_data.REQUIRED_STATEMENTS if key not in keys]
     if missing:
-        raise MissingStatementsError(missing)
+        raise InvalidInputError(f"a recording does not say what was tested: state it with {how(missing)}")
     return lambda name, speed: field_data.stated_case(name, speed, statements, trusted or ())
 
 
 def recorded_batch(
-    files: Sequence[RecordedFile],
+    paths: Sequence[Path],
     arguments: Sequence[str],
+    conditions: Callable[[], Conditions],
+    overrides: Sequence[str] | None,
+    trusted: Sequence[Path] | None,
     *,
-    cases: Sequence[scenarios.Case] = (),
-    planned: Sequence[series.Series] = (),
-    strict: bool = False,
-) -> Batch:
-    """Return the batch of recorded stops: of cases, or of the stops of series, in the order of the files.
+    stated: Iterable[object],
+    option: str,
+    strict: bool,
+) -> tuple[Batch, list[RecordedFile]]:
+    """Return the batch of recorded stops, and the files that were read for it in the order of its cases.
 
-    `arguments` are those of the command line; `strict` as for :class:`campaign.RunSettings`.
+    `paths` are recordings, judged under `conditions`, or series, which say themselves what their stops are
+    judged under: see :func:`read_recorded_series`. `arguments` are those of the command line; `strict` as for
+    :class:`campaign.RunSettings`. Raises InvalidInputError, ScenarioErrors.
     """
+    planned: Sequence[series.Series] = ()
+    cases: Sequence[scenarios.Case] = ()
+    if any(map(is_series, paths)):
+        planned, files = read_recorded_series(paths, overrides, trusted, stated, option)
+    else:
+        of_all = conditions()
+        files = read_files(paths, of_all.channel_map)
+        cases = [file.case(of_all.case_of, of_all.inputs) for file in files]
     everything = all_cases(cases, planned)
     stops = {case.id: file for file, case in zip(files, everything, strict=True)}
     parts = campaign.parts_of_recorded(everything)
@@ -62,7 +81,7 @@ def recorded_batch(
             return campaign.CaseRun(field_data.unusable_result(case, file.defects))
         return campaign.CaseRun(*field_data.judge_recording(case, file.stop))
 
-    return Batch(
+    batch = Batch(
         cases,
         planned,
         report.run_manifest(arguments, None, inputs, len(everything), parts.values()),
@@ -70,6 +89,7 @@ def recorded_batch(
         campaign.RunSettings(recording=campaign.RecordingRequest("all"), strict=strict, parts=parts),
         judge=judge,
     )
+    return batch, files
 
 
 def judge_recordings(batch: Batch) -> tuple[report.RunContent, dict[str, recording.Recording]]:

@@ -55,18 +55,19 @@ def evaluate(
     named = named_paths(*files, scenario, junit)
     request = campaign.RecordingRequest(recorded.value)
     display = running.chosen_display(shown, quiet=quiet, verbose=verbose)
-    if any(map(runs.is_series, files)):
-        stated = (listing, scenario, expression, trigger)
-        planned, stops = runs.read_recorded_series(files, overrides, trusted, stated, "--set")
-        batch = runs.recorded_batch(stops, context.obj.arguments, planned=planned, strict=strict)
-    else:
+    if listing and not any(map(runs.is_series, files)):
+        mapped, _ = recordings.channel_map(map_name, trusted, trigger)
+        return _list(files, mapped)
+
+    def conditions() -> runs.Conditions:
         mapped, inputs = recordings.channel_map(map_name, trusted, trigger)
-        if listing:
-            return _list(files, mapped)
-        case_of = _case_of_stop(scenario, expression, overrides or (), trusted)
-        stops = runs.read_files(files, mapped)
-        cases = [stop.case(case_of, inputs) for stop in stops]
-        batch = runs.recorded_batch(stops, context.obj.arguments, cases=cases, strict=strict)
+        return runs.Conditions(mapped, inputs, _case_of_stop(scenario, expression, overrides or (), trusted))
+
+    stated = (listing, scenario, expression, trigger)
+    arguments = context.obj.arguments
+    batch, stops = runs.recorded_batch(
+        files, arguments, conditions, overrides, trusted, stated=stated, option="--set", strict=strict
+    )
     published = running.judge_and_show(batch, request, output, junit, display)
     if not quiet:
         running.write_preparation(stops)
@@ -80,20 +81,16 @@ def _case_of_stop(
     statements: Sequence[str],
     trusted: Sequence[Path] | None,
 ) -> runs.CaseOfStop:
-    """Return the function that makes the case of a recording.
-
-    Raises InvalidInputError if statements are missing.
-    """
+    """Return the function that makes the case of a recording. Raises InvalidInputError."""
     case = None if scenario is None else recordings.one_case(scenario, expression, statements, trusted)
     if case is not None and case.scenario.repeat > 1:
         message(f"note: {case.id}: `repeat` plays no part: a recording is one stop")
-    try:
-        return runs.case_of_stop(case, statements, trusted)
-    except runs.MissingStatementsError as error:
-        raise runs.InvalidInputError(
-            "a recording does not say what was tested: state it with --scenario FILE, or with"
-            f" {' '.join(f'--set {key}=...' for key in error.keys)}"
-        ) from None
+    return runs.case_of_stop(
+        case,
+        statements,
+        trusted,
+        lambda keys: f"--scenario FILE, or with {' '.join(f'--set {key}=...' for key in keys)}",
+    )
 
 
 def _list(files: Sequence[Path], mapped: field_data.ChannelMap) -> ExitCode:
