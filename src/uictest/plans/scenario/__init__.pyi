@@ -1,6 +1,5 @@
 from .applicability import (
     TestConditions as TestConditions,
-    UnmetCondition as UnmetCondition,
     applies_to as applies_to,
     test_conditions_of as test_conditions_of,
     unmet_conditions as unmet_conditions,
@@ -19,7 +18,6 @@ from .expansion import (
     EXPANSION_KEYS as EXPANSION_KEYS,
     Setting as Setting,
     Variant as Variant,
-    distinct as distinct,
     expand as expand,
 )
 from .files import (
@@ -40,12 +38,8 @@ from .identifiers import (
 )
 from .json_schema import (
     PART_MODELS as PART_MODELS,
-    SCHEMA_DRAFT as SCHEMA_DRAFT,
-    SchemaGenerator as SchemaGenerator,
-    as_draft_07 as as_draft_07,
     json_schema as json_schema,
     part_schema as part_schema,
-    quantity_definitions as quantity_definitions,
     schema_of as schema_of,
 )
 from .loading import (
@@ -74,10 +68,7 @@ from .parts.measures import MeasureDefinitions as MeasureDefinitions
 from .parts.named_file import (
     DescribedFile as DescribedFile,
     NamedFile as NamedFile,
-    RequirementId as RequirementId,
-    RequirementIds as RequirementIds,
     ShareOfStops as ShareOfStops,
-    Slug as Slug,
     TestFile as TestFile,
 )
 from .parts.pad import PadLaw as PadLaw

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any, Final
 
-from pydantic import BaseModel, TypeAdapter
+from pydantic import TypeAdapter
 from pydantic.json_schema import GenerateJsonSchema
 
 from uictest.core.units import KINDS
@@ -31,8 +31,8 @@ def json_schema() -> dict[str, Any]:
 
     It allows what the loader fills in: parts by default, and everything that a parent may give.
     """
-    schema = _schema_2020_of(TypeAdapter(Scenario), "uictest scenario")
-    vary = _schema_2020_of(TypeAdapter(Vary), "Vary")
+    schema = _schema_2020_of(Scenario, "uictest scenario")
+    vary = _schema_2020_of(Vary, "Vary")
     schema["definitions"] |= {**vary.pop("definitions"), "Vary": vary}
     described = schema["properties"]["vary"]["description"]
     schema["properties"]["vary"] = {"$ref": f"{_DEFINITIONS}Vary", "description": described}
@@ -50,18 +50,14 @@ def json_schema() -> dict[str, Any]:
     return draft
 
 
-def schema_of(model: type[BaseModel], title: str) -> dict[str, Any]:
-    """The schema of another kind of file that holds quantities and parts."""
-    return schema_of_type(TypeAdapter(model), title)
-
-
-def schema_of_type(adapter: TypeAdapter[Any], title: str) -> dict[str, Any]:
-    """The schema of a kind of file that is one of several models."""
-    draft: dict[str, Any] = as_draft_07(_schema_2020_of(adapter, title))
+def schema_of(model: Any, title: str) -> dict[str, Any]:
+    """The schema of another kind of file that holds quantities and parts: a model, or one of several."""
+    draft: dict[str, Any] = as_draft_07(_schema_2020_of(model, title))
     return draft
 
 
-def _schema_2020_of(adapter: TypeAdapter[Any], title: str) -> dict[str, Any]:
+def _schema_2020_of(model: Any, title: str) -> dict[str, Any]:
+    adapter = TypeAdapter[Any](model)
     schema = adapter.json_schema(ref_template=_DEFINITIONS + "{model}", schema_generator=SchemaGenerator)
     definitions = {**schema.pop("$defs", {}), **quantity_definitions(KINDS)}
     return {"$schema": SCHEMA_DRAFT, **schema, "title": title, "definitions": definitions}
@@ -117,7 +113,7 @@ def part_schema(kind: str) -> dict[str, Any]:
     A part may extend another and state what differs: of its keys only `schema` and `name` are required. What
     is missing in all, the loader says.
     """
-    schema: dict[str, Any] = schema_of_type(TypeAdapter(PART_MODELS[kind]), f"uictest {kind}")
+    schema: dict[str, Any] = schema_of(PART_MODELS[kind], f"uictest {kind}")
     for described in _alternatives(schema):
         own = {"schema": {"const": f"uictest/{kind}/1"}, "extends": {"type": "string"}}
         of_files = {key: {"description": _OF_FILES[key], **form} for key, form in own.items()}

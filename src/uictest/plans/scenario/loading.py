@@ -72,10 +72,10 @@ def load(
     files.
     """
     parsed = parse_overrides(overrides, seed)
-    loader = _Loader(Files(Roots.of(paths, trusted)), parsed)
+    loader = _Loader(Parts(Files(Roots.of(paths, trusted))), parsed)
     cases = [
         loaded.case
-        for path, tree in scenario_trees(paths, loader.files, loader.diagnostics)
+        for path, tree in scenario_trees(paths, loader.parts.files, loader.diagnostics)
         for loaded in loader.loaded(path, tree)
     ]
     if loader.diagnostics:
@@ -96,7 +96,7 @@ def load_with_trees(
     With `varied`, the file says under `vary` what a sweep varies: it has one case, and lists of cases that it
     inherits do not count.
     """
-    loader = _Loader(parts.files, tuple(overrides), parts, varied=varied)
+    loader = _Loader(parts, tuple(overrides), varied=varied)
     loaded = list(loader.loaded(path, parts.files.at(path)))
     if loader.diagnostics:
         raise ScenarioErrors(in_reading_order(loader.diagnostics))
@@ -119,16 +119,8 @@ class _ScenarioFile:
 class _Loader:
     """Loads one scenario after another and collects the errors of all."""
 
-    def __init__(
-        self,
-        files: Files,
-        overrides: tuple[Override, ...],
-        parts: Parts | None = None,
-        *,
-        varied: bool = False,
-    ) -> None:
-        self.files = files
-        self.parts = parts or Parts(files)
+    def __init__(self, parts: Parts, overrides: tuple[Override, ...], *, varied: bool = False) -> None:
+        self.parts = parts
         self.overrides = overrides
         self.varied = varied
         self.diagnostics: list[Diagnostic] = []
@@ -189,7 +181,7 @@ class _Loader:
         return merged.without("vary", *EXPANSION_KEYS), vary
 
     def _parent(self, reference: Scalar) -> Map:
-        tree = self.files.beside(reference, "extends")
+        tree = self.parts.files.beside(reference, "extends")
         require_schema(tree, SCENARIO_SCHEMA)
         return tree
 

@@ -3,11 +3,8 @@ from .definition import (
 )
 from .model import (
     PlannedStop as PlannedStop,
-    Recorded as Recorded,
     Role as Role,
     Series as Series,
-    SeriesFile as SeriesFile,
-    Stops as Stops,
     series_schema as series_schema,
 )
 from .validation import (
