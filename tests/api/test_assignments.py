@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.api.arguments import override_texts
-from uictest.plans.scenario.yaml import parse_overrides, plain
+from uictest.plans.scenario import parse_overrides
+from uictest.plans.scenario.yaml import plain
 
 
 def read(assignments):

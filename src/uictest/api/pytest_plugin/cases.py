@@ -105,7 +105,7 @@ class Changes:
         overrides = (*config.getoption("uictest_set"), *([] if repeat is None else [f"repeat={repeat}"]))
         seed: int | None = config.getoption("uictest_seed")
         try:
-            yaml.parse_overrides(overrides, seed)
+            scenario.parse_overrides(overrides, seed)
         except yaml.ScenarioErrors as errors:
             raise pytest.UsageError(str(errors)) from errors
         files = scenario.Files(scenario.Roots.of((), [config.rootpath]))
@@ -113,7 +113,7 @@ class Changes:
 
     def cases_of(self, path: Path) -> Sequence[scenario.Case]:
         """Return the cases of a scenario file. Raises ScenarioErrors."""
-        return scenario.load_file(path, yaml.parse_overrides(self.overrides, self.seed), self.files)
+        return scenario.load_file(path, scenario.parse_overrides(self.overrides, self.seed), self.files)
 
     def series_of(self, path: Path) -> Sequence[series.Series]:
         """Return the series of a file. Raises ScenarioErrors."""

@@ -50,6 +50,14 @@ from .loading import (
     load_with_trees as load_with_trees,
 )
 from .model import Case as Case, Scenario as Scenario
+from .overrides import (
+    FIXED as FIXED,
+    Override as Override,
+    apply_overrides as apply_overrides,
+    parse_overrides as parse_overrides,
+    with_value as with_value,
+    without_axis as without_axis,
+)
 from .part_loading import (
     load_controller as load_controller,
     load_part as load_part,

@@ -16,35 +16,30 @@ from uictest.plans.scenario.identifiers import (
     short_keys,
 )
 from uictest.plans.scenario.model import Case
+from uictest.plans.scenario.overrides import Override, apply_overrides, parse_overrides, with_value
 from uictest.plans.scenario.rail_friction import changed_alone, overridden_alone
 from uictest.plans.scenario.references import Parts
-from uictest.plans.scenario.resolution import PART_KEYS, resolve, with_default_parts
+from uictest.plans.scenario.resolution import resolve, with_default_parts
 from uictest.plans.scenario.yaml import (
     SCENARIO_SCHEMA,
     Diagnostic,
     Document,
     Entry,
     Map,
-    Override,
     Scalar,
     ScenarioErrors,
-    apply_overrides,
     as_written,
     collecting,
     display_name,
-    dotted,
     in_reading_order,
     inherit,
-    parse_overrides,
     quoted,
     require_schema,
     single_error,
     suggestion,
     whole_file,
-    with_value,
 )
 
-_DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
 _SECTIONS_OF_SWEEPS: Final = ("grid", "ranges", "sample", "quantiles", "k_dry")
 """Keys that a scenario has only under `vary`, and `grid`, which 0.2 had for `matrix`."""
 
@@ -148,8 +143,8 @@ class _Loader:
         merged = merged.without("name") if own_name is None else merged.with_entry("name", own_name)
         merged, vary = self._without_vary(tree, merged)
         merged = with_default_parts(merged)
-        self.diagnostics.extend(overridden_alone(merged, self.overrides, _DOTTED_PART_KEYS))
-        merged = apply_overrides(merged, self.overrides, _DOTTED_PART_KEYS)
+        self.diagnostics.extend(overridden_alone(merged, self.overrides))
+        merged = apply_overrides(merged, self.overrides)
         base = merged.without(*EXPANSION_KEYS)
         # Errors of the sweep do not hide those of its values: valid ones are checked nevertheless.
         variants = expand_valid(merged, self.diagnostics)
@@ -203,7 +198,7 @@ class _Loader:
         # From the outside in, so that a part is named before something inside it is changed.
         for setting in sorted(variant, key=lambda setting: setting.key.count(".")):
             try:
-                tree = with_value(tree, setting.key, setting.value, _DOTTED_PART_KEYS)
+                tree = with_value(tree, setting.key, setting.value)
             except ScenarioErrors as errors:
                 self.diagnostics.extend(errors.diagnostics)
         self.diagnostics.extend(changed_alone(base, tree))

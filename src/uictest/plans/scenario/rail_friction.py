@@ -5,6 +5,7 @@ from contextlib import suppress
 from typing import Final
 
 from uictest.plans.scenario.expansion import EXPANSION_KEYS
+from uictest.plans.scenario.overrides import Override, with_value
 from uictest.plans.scenario.resolution import PART_KEYS
 from uictest.plans.scenario.yaml import (
     COMMAND_LINE,
@@ -12,7 +13,6 @@ from uictest.plans.scenario.yaml import (
     Entry,
     Map,
     Node,
-    Override,
     Scalar,
     ScenarioErrors,
     Sequence as List,
@@ -20,7 +20,6 @@ from uictest.plans.scenario.yaml import (
     diagnose,
     quoted,
     visible,
-    with_value,
 )
 
 FRICTION: Final = "rail.friction"
@@ -44,9 +43,7 @@ def changed_alone(before: Map, after: Map) -> Iterator[Diagnostic]:
         yield from _conflict(before, after, friction)
 
 
-def overridden_alone(
-    tree: Map, overrides: Sequence[Override], part_keys: frozenset[str]
-) -> Iterator[Diagnostic]:
+def overridden_alone(tree: Map, overrides: Sequence[Override]) -> Iterator[Diagnostic]:
     """Yield the overrides of the condition that leave a friction of the file in force, swept or not."""
     if any(sets_friction(override.key) for override in overrides):
         return
@@ -56,7 +53,7 @@ def overridden_alone(
         if override.key.startswith(CONDITION):
             for value in override.values:
                 with suppress(ScenarioErrors):  # reported where it is applied
-                    changed = with_value(tree, override.key, Entry(override.place, value), part_keys)
+                    changed = with_value(tree, override.key, Entry(override.place, value))
                     yield from _conflict(tree, changed, friction)
 
 

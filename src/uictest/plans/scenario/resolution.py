@@ -49,6 +49,9 @@ def _references(model: Any, above: Key = ()) -> Iterator[tuple[Key, PartReferenc
 PART_KEYS: Final = dict(_references(Scenario))
 """Every key that refers to a part (or, for criteria, to several)."""
 
+DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
+"""The same, as a file of a sweep or an option writes them."""
+
 PART_KINDS: Final = {key: library.FOLDERS[folder_of(reference.model)] for key, reference in PART_KEYS.items()}
 """The kind of part that each of these keys refers to, such as `brake`."""
 

@@ -9,13 +9,17 @@ from typing import Final
 from uictest.plans.scenario import (
     Criteria,
     Files,
+    Override,
     Parts,
     Roots,
     Variant,
+    apply_overrides,
     case_id,
     controller_labels,
     expand,
+    parse_overrides,
     short_keys,
+    without_axis,
 )
 from uictest.plans.scenario.yaml import (
     SCENARIO_SCHEMA,
@@ -23,18 +27,14 @@ from uictest.plans.scenario.yaml import (
     Document,
     Map,
     Node,
-    Override,
     Scalar,
     Sequence as List,
-    apply_overrides,
     as_written,
     display_name,
-    parse_overrides,
     plain,
     read_file,
     require_schema,
     validated,
-    without_axis,
 )
 from uictest.plans.series.model import DEFAULT_CRITERIA, Series, SeriesFile
 from uictest.plans.series.stops import StopReader, values_set_by
@@ -100,4 +100,4 @@ def _variants(tree: Map, of_command_line: Sequence[Override]) -> list[Variant]:
         if len(each.values) == 1:
             tree = without_axis(tree, each.key)
     varied = [each for each in of_command_line if len(each.values) > 1]
-    return expand(apply_overrides(tree, varied, frozenset()))
+    return expand(apply_overrides(tree, varied))

@@ -9,13 +9,12 @@ from typing import Final
 
 from uictest.core.series_measures import Rail
 from uictest.plans import scenario as scenarios
-from uictest.plans.scenario import LONGEST, Case, Criteria, Files, Scenario, is_path, load_file
+from uictest.plans.scenario import LONGEST, Case, Criteria, Files, Override, Scenario, is_path, load_file
 from uictest.plans.scenario.yaml import (
     Diagnostic,
     Entry,
     Map,
     Node,
-    Override,
     Scalar,
     ScenarioErrors,
     Sequence as List,

@@ -9,14 +9,13 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from uictest.plans.scenario import Case, Files, NamedFile, Roots
+from uictest.plans.scenario import Case, Files, NamedFile, Override, Roots, parse_overrides
 from uictest.plans.scenario.yaml import (
     VALIDATION_SCHEMA,
     Diagnostic,
     Inconsistency,
     Map,
     Model,
-    Override,
     Quantity,
     ScenarioErrors,
     Sequence as List,
@@ -24,7 +23,6 @@ from uictest.plans.scenario.yaml import (
     display_name,
     in_reading_order,
     of_kind,
-    parse_overrides,
     plain,
     read_file,
     require_schema,

@@ -6,7 +6,17 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
-from uictest.plans.scenario import CONDITION, PART_KEYS, SURVEY, Case, Parts, Scenario, changed_alone, resolve
+from uictest.plans.scenario import (
+    CONDITION,
+    SURVEY,
+    Case,
+    Override,
+    Parts,
+    Scenario,
+    changed_alone,
+    resolve,
+    with_value,
+)
 from uictest.plans.scenario.yaml import (
     Diagnostic,
     Document,
@@ -15,17 +25,14 @@ from uictest.plans.scenario.yaml import (
     Map,
     Model,
     Node,
-    Override,
     Place,
     Quantity,
     Scalar,
     Sequence as List,
     default,
-    dotted,
     parse_quantity,
     quoted,
     single_error,
-    with_value,
 )
 
 
@@ -94,8 +101,6 @@ def _inner(value: Any, element: str) -> Any:
     raise KeyError(element)
 
 
-DOTTED_PART_KEYS: Final = frozenset(map(dotted, PART_KEYS))
-
 REPEAT_KEYS: Final = ("repeat", "outcome_of_repeats")
 SEEDS_IN_SWEEPS: Final = "list or sample `seed`, as in `matrix: {seed: [0, 1, 2]}`"
 
@@ -126,7 +131,7 @@ class BaseCase:
     def _tree_with(self, settings: Mapping[str, Entry]) -> Map:
         tree = self.tree
         for key in outermost_first(settings):
-            tree = with_value(tree, key, settings[key], DOTTED_PART_KEYS)
+            tree = with_value(tree, key, settings[key])
         return tree
 
 

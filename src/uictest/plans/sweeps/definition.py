@@ -7,19 +7,27 @@ from math import prod
 from pathlib import Path
 from typing import Final
 
-from uictest.plans.scenario import CONDITION, LONGEST, Files, Parts, Roots, sets_friction, short_keys
-from uictest.plans.scenario.yaml import (
+from uictest.plans.scenario import (
+    CONDITION,
     FIXED,
+    LONGEST,
+    Files,
+    Override,
+    Parts,
+    Roots,
+    parse_overrides,
+    sets_friction,
+    short_keys,
+)
+from uictest.plans.scenario.yaml import (
     Diagnostic,
     Entry,
     Map,
-    Override,
     ScenarioErrors,
     Sequence as List,
     diagnose,
     display_name,
     in_reading_order,
-    parse_overrides,
     quoted,
     single_error,
 )

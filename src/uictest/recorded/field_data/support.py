@@ -15,11 +15,12 @@ from uictest.core.recording import TIME
 from uictest.judging.evaluation import Coverage, MissingData
 from uictest.plans.scenario import (
     EXPANSION_KEYS,
-    PART_KEYS,
     Case,
     Files,
     Parts,
     Roots,
+    apply_overrides,
+    parse_overrides,
     resolve,
     with_default_parts,
 )
@@ -27,10 +28,7 @@ from uictest.plans.scenario.yaml import (
     SCENARIO_SCHEMA,
     Document,
     Map,
-    apply_overrides,
-    dotted,
     parse,
-    parse_overrides,
     single_error,
 )
 from uictest.recorded.field_data.channels import WHEELSETS
@@ -159,8 +157,7 @@ def stated_case(
     document = Document("what is stated about the stop", Path(), json.dumps(begin))
     tree = parse(document)
     assert isinstance(tree, Map)
-    keys = frozenset(map(dotted, PART_KEYS))
-    tree = apply_overrides(with_default_parts(tree), parse_overrides(statements, None), keys)
+    tree = apply_overrides(with_default_parts(tree), parse_overrides(statements, None))
     for section in EXPANSION_KEYS:
         if (entry := tree.entries.get(section)) is not None:
             raise single_error(entry.key, "a recording is one stop: several values make no sense", section)

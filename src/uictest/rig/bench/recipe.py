@@ -10,12 +10,13 @@ from pydantic import Field
 from uictest.plans import library
 from uictest.plans.scenario import (
     EXPANSION_KEYS,
-    PART_KEYS,
     Case,
     Files,
     Parts,
     Roots,
     Scenario,
+    apply_overrides,
+    parse_overrides,
     resolve,
     with_default_parts,
 )
@@ -28,11 +29,9 @@ from uictest.plans.scenario.yaml import (
     Quantity,
     Scalar,
     Section,
-    apply_overrides,
     dotted,
     entry_at,
     of_kind,
-    parse_overrides,
     plain,
     read_file,
     require_schema,
@@ -217,7 +216,7 @@ def _scenario_tree(tree: Map, recipe: BenchRecipe, overrides: Sequence[str], see
     texts = {"schema": SCENARIO_SCHEMA, "name": recipe.name, "initial_speed": "80 km/h"}
     required = {key: Entry(stop.place, Scalar(text, text, stop.place)) for key, text in texts.items()}
     whole = with_default_parts(replace(stop, entries={**required, **stop.entries}))
-    changed = apply_overrides(whole, parse_overrides(overrides, seed), frozenset(map(dotted, PART_KEYS)))
+    changed = apply_overrides(whole, parse_overrides(overrides, seed))
     for key in EXPANSION_KEYS:
         if (entry := changed.entries.get(key)) is not None:
             raise single_error(

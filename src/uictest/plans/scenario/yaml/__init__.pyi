@@ -19,14 +19,6 @@ from .model import (
     models_in as models_in,
     quantities_in as quantities_in,
 )
-from .overrides import (
-    FIXED as FIXED,
-    Override as Override,
-    apply_overrides as apply_overrides,
-    parse_overrides as parse_overrides,
-    with_value as with_value,
-    without_axis as without_axis,
-)
 from .parsing import parse as parse, scalar_value as scalar_value
 from .quantities import (
     DEFAULT_SOURCE as DEFAULT_SOURCE,

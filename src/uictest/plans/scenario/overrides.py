@@ -6,35 +6,36 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from uictest.plans.scenario.yaml.diagnostics import Diagnostic, ScenarioErrors, single_error
-from uictest.plans.scenario.yaml.parsing import parse
-from uictest.plans.scenario.yaml.quantities import (
-    common_unit,
-    parse_decimal_quantity,
-    quantity_text,
-    spaced_by_step,
-)
-from uictest.plans.scenario.yaml.tree import (
+from uictest.plans.scenario.resolution import DOTTED_PART_KEYS
+from uictest.plans.scenario.yaml import (
     COMMAND_LINE,
+    Diagnostic,
     Document,
     Entry,
     Map,
     Node,
     Place,
     Scalar,
+    ScenarioErrors,
     Sequence as List,
+    common_unit,
     describe,
+    parse,
+    parse_decimal_quantity,
+    quantity_text,
     quoted,
+    single_error,
+    spaced_by_step,
 )
 
 FIXED: Final = frozenset({"schema", "name", "extends", "matrix", "zip", "include", "exclude", "vary"})
 """Keys that belong to the file and not to a case."""
 
 
-def with_value(tree: Map, key: str, value: Entry, part_keys: frozenset[str]) -> Map:
+def with_value(tree: Map, key: str, value: Entry) -> Map:
     """A copy of ``tree`` in which the dotted ``key`` has another value; a number names an entry of a list.
 
-    A reference to a part on the way (one of ``part_keys``) becomes a mapping that extends what it named.
+    A reference to a part on the way becomes a mapping that extends what it named.
     Raises ScenarioErrors at the key of ``value``.
     """
     elements = key.split(".")
@@ -46,24 +47,22 @@ def with_value(tree: Map, key: str, value: Entry, part_keys: frozenset[str]) -> 
         raise single_error(
             value.key, f"{quoted(elements[0])} belongs to the file and cannot vary from case to case", key
         )
-    return _assigned(tree, elements, value, "", part_keys)
+    return _assigned(tree, elements, value, "")
 
 
-def _assigned(tree: Map, elements: list[str], value: Entry, above: str, part_keys: frozenset[str]) -> Map:
+def _assigned(tree: Map, elements: list[str], value: Entry, above: str) -> Map:
     first, rest = elements[0], elements[1:]
     if not rest:
         return tree.with_entry(first, value)
     key, node = f"{above}{first}", tree.get(first)
     place = tree.entries[first].key if first in tree.entries else value.key
     if isinstance(node, List):
-        return tree.with_entry(first, Entry(place, _assigned_in(node, rest, value, key, part_keys)))
-    inner = _mapping(node, key, value.key, part_keys)
-    return tree.with_entry(first, Entry(place, _assigned(inner, rest, value, f"{key}.", part_keys)))
+        return tree.with_entry(first, Entry(place, _assigned_in(node, rest, value, key)))
+    inner = _mapping(node, key, value.key)
+    return tree.with_entry(first, Entry(place, _assigned(inner, rest, value, f"{key}.")))
 
 
-def _assigned_in(
-    listed: List, elements: list[str], value: Entry, key: str, part_keys: frozenset[str]
-) -> List:
+def _assigned_in(listed: List, elements: list[str], value: Entry, key: str) -> List:
     """A copy of a list in which the entry that ``elements`` begins with has another value."""
     first, rest = elements[0], elements[1:]
     count = len(listed.items)
@@ -73,20 +72,20 @@ def _assigned_in(
     number, below = int(first), f"{key}.{first}"
     node = listed.items[number]
     if rest and isinstance(node, List):
-        node = _assigned_in(node, rest, value, below, part_keys)
+        node = _assigned_in(node, rest, value, below)
     elif rest:
-        node = _assigned(_mapping(node, below, value.key, part_keys), rest, value, f"{below}.", part_keys)
+        node = _assigned(_mapping(node, below, value.key), rest, value, f"{below}.")
     else:
         node = value.node
     return List((*listed.items[:number], node, *listed.items[number + 1 :]), listed.place)
 
 
-def _mapping(node: Node | None, key: str, place: Place, part_keys: frozenset[str]) -> Map:
+def _mapping(node: Node | None, key: str, place: Place) -> Map:
     if node is None:
         return Map({}, place)
     if isinstance(node, Map):
         return node
-    if isinstance(node, Scalar) and key in part_keys:
+    if isinstance(node, Scalar) and key in DOTTED_PART_KEYS:
         return Map({"extends": Entry(node.place, node)}, place)
     raise single_error(place, f"{quoted(key)} is {describe(node)} and has no keys of its own", key)
 
@@ -187,12 +186,12 @@ def _range(arguments: str, place: Place) -> list[str]:
     return [quantity_text(number, first.unit) for number in numbers]
 
 
-def apply_overrides(tree: Map, overrides: Sequence[Override], part_keys: frozenset[str]) -> Map:
+def apply_overrides(tree: Map, overrides: Sequence[Override]) -> Map:
     """The scenario's tree with the values of the command line in place of its own."""
     for override in overrides:
         tree = without_axis(tree, override.key)
         if len(override.values) == 1 and not override.swept:
-            tree = with_value(tree, override.key, Entry(override.place, override.values[0]), part_keys)
+            tree = with_value(tree, override.key, Entry(override.place, override.values[0]))
         else:
             tree = _with_axis(tree, override)
     return tree

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.plans.scenario import ScenarioErrors
-from uictest.plans.scenario.yaml.overrides import parse_overrides
+from uictest.plans.scenario.overrides import parse_overrides
 from uictest.plans.scenario.yaml.tree import as_written
 
 SWEPT = "rail: {condition: wet}\nmatrix: {rail.friction: [0.1, 0.2], seed: [1, 2]}\n"
