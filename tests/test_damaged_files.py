@@ -245,6 +245,7 @@ def command(line, reasons=()):
             code = execute([argument.replace("{}", str(path)) for argument in line.split()])
         explained = any(f"{reason}: " in shown.getvalue() for reason in reasons)
         assert code is not ExitCode.ERROR or explained, shown.getvalue()
+        assert "No such option" not in shown.getvalue()
 
     return read
 
@@ -324,7 +325,7 @@ KINDS = (
             f"{name} part",
             "part.yaml",
             f"src/uictest/plans/library/{folder}/*.yaml",
-            command(f"check -v uses-{name}.yaml"),
+            command(f"check uses-{name}.yaml"),
         )
         for name, (folder, _) in PARTS.items()
     ),
