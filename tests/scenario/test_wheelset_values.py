@@ -79,9 +79,11 @@ def test_a_small_wheel_must_be_able_to_have_the_inertia(case):
         case("vehicle.wheelsets.1.wheel_radius=0.2 m")
 
 
-def test_a_brake_may_be_too_strong_on_single_wheelsets(case):
+def test_a_brake_may_be_too_strong_by_its_lever_or_on_single_wheelsets(case):
     strong = [f"vehicle.wheelsets.{number}.brake_force=300 %" for number in (1, 2, 3, 4)]
     assert case(strong[0])
+    with pytest.raises(ScenarioErrors, match="the brake would slow this car"):
+        case("rig.caliper.lever_ratio=20", "rig.topology=four-caliper")
     with pytest.raises(ScenarioErrors, match="the brake would slow this car"):
         case(*strong, *(f"vehicle.wheelsets.{number}.pad_friction=1" for number in (1, 2, 3, 4)))
 

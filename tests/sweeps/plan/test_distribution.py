@@ -16,7 +16,7 @@ SHARES = np.linspace(0.0, 0.999, 50)
     [
         ({"uniform": ["2 m", "6 m"]}, stats.uniform(2, 4).ppf),
         ({"log-uniform": [0.1, 10]}, stats.loguniform(0.1, 10).ppf),
-        ({"triangular": [0, 1, 4]}, stats.triang(0.25, 0, 4).ppf),
+        ({"triangular": [1, 2, 5]}, stats.triang(0.25, 1, 4).ppf),
         ({"triangular": [0, 4, 4]}, stats.triang(1.0, 0, 4).ppf),
         (
             {"normal": {"mean": 1, "deviation": 2, "lower": 0, "upper": 4}},
