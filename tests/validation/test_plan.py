@@ -72,6 +72,13 @@ def test_what_cannot_be_compared_is_refused_at_its_place(write, stops, message):
     assert "v.yaml:" in str(errors.value)
 
 
+def test_all_recordings_that_are_named_twice_are_told_at_once(write):
+    entry = "  - {scenario: dry.yaml, recordings: [one.csv, two.csv]}\n"
+    with pytest.raises(ScenarioErrors) as errors:
+        load_validation(write("v.yaml", BEGIN + 2 * entry))
+    assert [each.line for each in errors.value.diagnostics] == [5, 5]
+
+
 @pytest.mark.parametrize(
     ("schema", "hint"),
     [
