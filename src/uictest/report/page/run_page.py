@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import islice
 from typing import Any
 
@@ -16,10 +16,18 @@ from uictest.report.difference import (
     not_compared_sentences,
 )
 from uictest.report.page.case_view import CaseView, case_view, plots_json
+from uictest.report.page.findings import (
+    MOST_FINDINGS,
+    closest_of,
+    findings_of,
+    margins_of_all,
+    matrix_of,
+)
 from uictest.report.page.links import case_anchor, rerun_commands
 from uictest.report.page.overview import maps_of, shown_parts
 from uictest.report.page.rendering import render
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
+from uictest.report.page.stop.margins import NARROW
 from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
 from uictest.report.verdict_sentences import (
     CASE_WORDS,
@@ -29,7 +37,9 @@ from uictest.report.verdict_sentences import (
 
 def page_html(content: RunContent) -> str:
     """Return the page: one document that loads nothing, and can be read without JavaScript."""
-    drawn = _drawn(content)
+    commands = rerun_commands(content)
+    drawn = _drawn(content, commands)
+    margins = margins_of_all(content, drawn)
     words = [content.word(result) for result in content.results]
     baseline = content.baseline
     keys = {view.result.id: view.fragment for view in drawn}
@@ -40,6 +50,11 @@ def page_html(content: RunContent) -> str:
         drawn=drawn,
         keys=keys,
         case_anchor=case_anchor,
+        findings=findings_of(content, margins, commands),
+        most_findings=MOST_FINDINGS,
+        closest=closest_of(content, margins),
+        matrix=matrix_of(margins),
+        narrow=NARROW,
         **_of_series(content),
         maps=maps_of(content.results),
         requirements=verified_requirements(content.results, content.series),
@@ -79,14 +94,13 @@ def _of_series(content: RunContent) -> dict[str, Any]:
     }
 
 
-def _drawn(content: RunContent) -> list[CaseView]:
+def _drawn(content: RunContent, commands: Mapping[str, str]) -> list[CaseView]:
     traced = [
         result
         for result in sorted(worst_first(content.all_results), key=content.passes)
         if result.id in content.traces
     ]
     shown = {result.id for result in drawn_cases(traced, content.drawn_first)}
-    commands = rerun_commands(content)
     return [
         case_view(
             result,

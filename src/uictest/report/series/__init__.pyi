@@ -1,4 +1,8 @@
 from .junit import series_suite as series_suite
 from .rows import series_sheets as series_sheets, series_tables as series_tables
-from .series_sentences import series_tally as series_tally, series_word as series_word
+from .series_sentences import (
+    series_explanation as series_explanation,
+    series_tally as series_tally,
+    series_word as series_word,
+)
 from .tables import series_sections as series_sections

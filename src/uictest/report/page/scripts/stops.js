@@ -28,8 +28,13 @@ const placesIn = (stop, apart) => (key, wheelset) => {
   return { x: axisName("x", column), y: axisName("y", row * (apart() ? ROWS.length : 1) + column) };
 };
 
-const draw = async (plots) => {
-  if (plots.dataset.drawn) return;
+const drawn = new WeakMap();
+const draw = (plots) => {
+  if (!drawn.has(plots)) drawn.set(plots, drawOnce(plots));
+  return drawn.get(plots);
+};
+
+const drawOnce = async (plots) => {
   plots.dataset.drawn = "yes";
   const Plotly = await plotly();
   const stop = await stopOf(plots.nextElementSibling);
@@ -66,6 +71,20 @@ if (canPlot) {
   }, { rootMargin: "50% 0px" });
   for (const plots of all("details.stop .plots")) near.observe(plots);
 }
+
+/* From what stands first on the page to the instant in the plots of the stop. */
+for (const link of all("a[data-criterion]"))
+  link.addEventListener("click", async (event) => {
+    const stop = target(link.hash);
+    if (!canPlot || !stop) return;
+    event.preventDefault();
+    history.pushState(null, "", link.hash);
+    stop.open = true;
+    stop.scrollIntoView({ behavior: "instant" });
+    await draw(first(".plots", stop));
+    const button = all("button.moment", stop).find((each) => each.dataset.criterion === link.dataset.criterion);
+    if (button.getAttribute("aria-pressed") !== "true") button.click();
+  });
 
 /* Labels keep apart in pixels: another width needs other rows of them. */
 let resized;

@@ -21,6 +21,8 @@ from uictest.report.verdict_sentences import (
 
 _WORDS: Final = {"pass": "met", "fail": "missed"}
 """Status of a criterion that was judged -> what stands for a margin that is no share."""
+NARROW: Final = 10.0
+"""Per cent of the limit: a criterion met with less to spare is marked as narrow; chosen."""
 _TITLES: Mapping[str, str] = {plot.key: plot.title for plot in (*PANELS, *LOOPS, *STRIPS)}
 
 
@@ -44,6 +46,17 @@ class Margin:
     def judged(self) -> bool:
         """Whether the criterion came to a verdict."""
         return self.verdict.status in _WORDS
+
+    @property
+    def kind(self) -> str:
+        """What a cell of the matrix is coloured and shaped by."""
+        if not self.judged:
+            return "not-judged" if self.verdict.status == "not_applicable" else "inconclusive"
+        if self.verdict.status == "fail":
+            return "fail"
+        if not self.verdict.firm:
+            return "turns"
+        return "pass" if self.share is None or self.share >= NARROW else "narrow"
 
     @property
     def bar(self) -> tuple[float, float]:
@@ -108,19 +121,25 @@ class Margins:
 
 
 def margins_of(
-    verdicts: Sequence[evaluation.Verdict], drawn: Iterable[evaluation.Verdict], trace: PlotTrace
+    verdicts: Sequence[evaluation.Verdict],
+    drawn: Iterable[evaluation.Verdict] = (),
+    trace: PlotTrace | None = None,
 ) -> Margins:
     """Return the margins of a case.
 
     Args:
         verdicts: of the case.
         drawn: of the stop that is drawn: of a repeated case this is one of several.
-        trace: of the stop that is drawn.
+        trace: of the stop that is drawn; None where none is.
 
     """
     of_stop = {verdict.id: verdict for verdict in drawn}
     criteria = [
-        Margin(verdict, margin_share(verdict), taken_at(of_stop.get(verdict.id, verdict), trace))
+        Margin(
+            verdict,
+            margin_share(verdict),
+            taken_at(of_stop.get(verdict.id, verdict), trace) if trace else None,
+        )
         if verdict.status in _WORDS
         else Margin(verdict, None, None)
         for verdict in without_rig_that_holds(verdicts)

@@ -1,0 +1,103 @@
+"""What a page answers first: what is not as expected, by how much and where."""
+
+from __future__ import annotations
+
+import re
+
+from uictest.judging.evaluation import CaseResult, Verdict
+from uictest.report.page.run_page import page_html
+from uictest.report.page.stop.margins import NARROW, margins_of
+
+from ..builders import make_content, make_result, make_verdict
+
+_LOCKED = make_verdict(
+    id="locked-wheels",
+    layer="requirement",
+    value=3.5,
+    unit="s",
+    lower=None,
+    upper=1.0,
+    margin=-2.5,
+    status="fail",
+    measure="longest_locked_time",
+)
+
+
+def _failing(case_id: str, *verdicts: Verdict, **changes: object) -> CaseResult:
+    return make_result(id=case_id, outcome="fail", criteria=verdicts or (_LOCKED,), **changes)
+
+
+def _text(html: str) -> str:
+    return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", html))
+
+
+def _first(html: str) -> str:
+    """Return what stands above the table of cases."""
+    return _text(html[html.index("<main") : html.index('id="verdicts"')])
+
+
+def test_what_failed_stands_first_with_value_limit_and_margin() -> None:
+    html = page_html(make_content(make_result(id="fine"), _failing("slides")))
+    said = _first(html)
+    assert "Not as expected" in said
+    assert "locked-wheels 3.5 s, upper limit 1 s, margin -2.5 s (-250 %)" in said
+    assert 'href="#case-slides"' in html[: html.index('id="verdicts"')]
+    assert "fine" not in said
+
+
+def test_a_criterion_that_passes_is_no_reason_for_a_failure() -> None:
+    said = _first(page_html(make_content(_failing("slides", _LOCKED, make_verdict()))))
+    assert "braking-distance" not in said
+
+
+def test_a_case_that_fails_as_expected_is_no_finding() -> None:
+    said = _first(page_html(make_content(_failing("slides", expect="fail"))))
+    assert "All as expected" in said
+    assert "locked-wheels" not in said
+
+
+def test_an_unexpected_pass_says_what_was_expected() -> None:
+    said = _first(page_html(make_content(make_result(expect="fail"))))
+    assert "unexpected pass" in said
+    assert "Expected: fail" in said
+
+
+def test_an_error_shows_its_reason() -> None:
+    broken = make_result(outcome="error", criteria=(), measures=None, wheelsets=(), reason="the FMU stopped")
+    assert "the FMU stopped" in _first(page_html(make_content(broken)))
+
+
+def test_where_all_is_well_the_criterion_with_the_least_to_spare_is_named() -> None:
+    close = make_verdict(value=441.0, margin=1.0)
+    said = _first(page_html(make_content(make_result(id="wide"), make_result(id="close", criteria=(close,)))))
+    assert "All as expected. Least to spare: close" in said
+    assert "441 m, 440 .. 490 m, margin 1 m (+0.204 %)" in said
+
+
+def test_many_findings_are_counted_and_none_is_lost() -> None:
+    html = page_html(make_content(*(_failing(f"case-{n:02}") for n in range(15))))
+    assert "3 more stand below" in _first(html)
+    assert len(re.findall(r"<tr [^>]*data-word=\"fail\"", html)) == 15
+
+
+def test_a_cell_of_the_matrix_is_shaped_by_its_margin() -> None:
+    def kind(**changes: object) -> str:
+        own = margins_of([make_verdict(**changes)])
+        return (*own.judged, *own.not_applicable)[0].kind
+
+    assert kind(margin=490.0 * NARROW / 100 - 0.1) == "narrow"
+    assert kind(margin=490.0 * NARROW / 100 + 0.1) == "pass"
+    assert kind(margin=-1.0, status="fail") == "fail"
+    assert kind(status="inconclusive", value=None, margin=None) == "inconclusive"
+    assert kind(status="not_applicable", value=None, margin=None) == "not-judged"
+
+
+def test_every_case_has_a_cell_for_every_criterion_and_what_has_no_room_is_counted() -> None:
+    many = [make_verdict(id=f"criterion-{n:02}") for n in range(12)]
+    missed = make_verdict(id="zz-missed", margin=-5.0, status="fail")
+    html = page_html(make_content(_failing("a", *many, missed), make_result(id="b", criteria=(many[0],))))
+    table = html[html.index('<table class="verdicts') :]
+    assert "3 more criteria in criteria.csv" in _text(table)
+    assert "zz-missed" in table[: table.index("</thead>")]
+    rows = re.findall(r"<tr [^>]*data-word.*?</tr>", table, re.S)
+    assert [row.count("number criterion") for row in rows] == [10, 10]
