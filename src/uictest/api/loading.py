@@ -53,7 +53,7 @@ def load(
 
     """
     texts, folders = override_texts(set), as_paths(trust)
-    places = as_paths(paths) or runs.scenario_paths(None)
+    places = runs.scenario_paths(as_paths(paths))
     for path in places:
         if runs.is_series(path):
             raise ValueError(f"{path} is a series: uictest.run judges its stops together")

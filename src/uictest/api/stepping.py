@@ -11,7 +11,7 @@ from typing import Any, Final
 from uictest.controllers import ControllerError, Inputs, Outputs, read_inputs, write_outputs
 from uictest.core.recording import Recording
 from uictest.judging import evaluation
-from uictest.plans import scenario
+from uictest.plans import library, scenario
 from uictest.rig import SteppedStop, assemble, bench, noise_key_text, recording_of_stop
 
 FourValues = tuple[float, float, float, float]
@@ -97,7 +97,7 @@ class Rig:
         """Read a scenario; no stop is simulated yet.
 
         Args:
-            path: scenario file.
+            path: scenario file, or the name of one that ships.
             case: id of the case, where the file has several.
             trust: folders that the scenario may refer to, besides its own and the working folder.
             record: samples per second for :meth:`recording`; None: no recording.
@@ -108,7 +108,8 @@ class Rig:
         """
         if record is not None and not 0.0 < record < math.inf:
             raise ValueError(f"record is {record!r}, expected samples per second or None")
-        cases = scenario.load([Path(path)], trusted=[Path(folder) for folder in trust])
+        place = library.named_scenario(Path(path))
+        cases = scenario.load([place], trusted=[Path(folder) for folder in trust])
         self.case = bench.identified(scenario.chosen_case(cases, case))
         self._record = record
         self._stop: SteppedStop | None = None

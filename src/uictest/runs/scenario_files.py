@@ -7,7 +7,7 @@ from pathlib import Path
 
 from uictest import report
 from uictest.analysis import validation
-from uictest.plans import scenario, series
+from uictest.plans import library, scenario, series
 from uictest.plans.scenario import yaml
 from uictest.running import campaign
 
@@ -33,12 +33,16 @@ DEFAULT_FOLDER = Path("scenarios")
 
 
 def scenario_paths(paths: Sequence[Path] | None) -> list[Path]:
-    """Return the given paths, else the default folder. Raises InvalidInputError where that is missing."""
+    """Return the given paths, names of shipped scenarios turned into paths; else the default folder.
+
+    Raises InvalidInputError where that is missing.
+    """
     if paths:
-        return list(paths)
+        return [library.named_scenario(path) for path in paths]
     if not DEFAULT_FOLDER.is_dir():
         raise InvalidInputError(
-            f"there is no folder {DEFAULT_FOLDER}/ here: name scenario files or folders, "
+            f"there is no folder {DEFAULT_FOLDER}/ here: name scenario files or folders, or a scenario that "
+            "ships with uictest, such as slip-120 ('uictest init --scenarios' copies all), "
             "or make a first scenario with 'uictest init'"
         )
     return [DEFAULT_FOLDER]

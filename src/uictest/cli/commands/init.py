@@ -13,7 +13,7 @@ from uictest.cli.commands.schema import schema_text
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.output import message
 from uictest.core import files
-from uictest.plans import templates
+from uictest.plans import library, templates
 
 SCENARIO = Path("scenarios", "first-stop.yaml")
 SCHEMA = Path("schema", "scenario.schema.json")
@@ -54,6 +54,9 @@ PythonFolder = Annotated[
     Path | None,
     typer.Option("--python", metavar="DIR", help="Write a first WSP controller in Python to DIR."),
 ]
+Shipped = Annotated[
+    bool, typer.Option("--scenarios", help="Copy the scenarios, sweeps and series that ship with uictest.")
+]
 CFolder = Annotated[
     Path | None, typer.Option("--c", metavar="DIR", help="Write a first WSP controller in C to DIR.")
 ]
@@ -63,17 +66,27 @@ def init(
     what: What = Path(),
     python: PythonFolder = None,
     c: CFolder = None,
+    shipped: Shipped = False,
 ) -> ExitCode:
     """Write a first scenario, and the schema with which editors complete it. Overwrites nothing.
 
-    With the word controller: write a first WSP controller, its part and a scenario that runs it.
+    With --scenarios, copies of those that ship stand in place of it. With the word controller: write a first
+    WSP controller, its part and a scenario that runs it.
     """
     if what != Path(CONTROLLER):
         if python is not None or c is not None:
             raise typer.BadParameter("write `uictest init controller` with --python or --c")
+        if shipped:
+            paths = library.scenarios().values()
+            copies = {what / "scenarios" / path.name: path.read_text("utf-8") for path in paths}
+            _write_new({**copies, what / SCHEMA: schema_text()})
+            message(f"Run them with 'uictest run {report.argument(str(what / 'scenarios'))}'.")
+            return ExitCode.MET
         _write_new({what / SCENARIO: _FIRST_STOP, what / SCHEMA: schema_text()})
         message(f"Run it with 'uictest run {report.argument(str(what / SCENARIO))}'.")
         return ExitCode.MET
+    if shipped:
+        raise typer.BadParameter("write `uictest init --scenarios` without the word controller")
     if python is not None and c is None:
         _write_controller(python, "python")
     elif c is not None and python is None:

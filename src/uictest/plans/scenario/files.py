@@ -83,6 +83,16 @@ class Files:
             raise single_error(reference.place, f"no such file: {quoted(reference.text)}", key, hint)
         return self.at(path)
 
+    def scenario_beside(self, reference: Scalar, key: str) -> Path:
+        """The scenario that a reference names: a file, else one that ships. Raises ScenarioErrors there."""
+        path = self.path_of(reference, key)
+        shipped = library.scenarios().get(reference.text)
+        if shipped is None or is_file(path):
+            self.beside(reference, key)
+            return path
+        self.roots = self.roots.with_folder(shipped.parent)
+        return shipped
+
     def path_of(self, reference: Scalar, key: str) -> Path:
         """The path that a relative path names, checked only for whether it may be read.
 

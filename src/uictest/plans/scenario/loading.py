@@ -176,7 +176,8 @@ class _Loader:
         return merged.without("vary", *EXPANSION_KEYS), vary
 
     def _parent(self, reference: Scalar) -> Map:
-        tree = self.parts.files.beside(reference, "extends")
+        files = self.parts.files
+        tree = files.at(files.scenario_beside(reference, "extends"))
         require_schema(tree, SCENARIO_SCHEMA)
         return tree
 

@@ -54,7 +54,8 @@ class Scenario(TestFile):
         alias="schema", description="What the file holds: uictest/scenario/1."
     )
     extends: str | None = Field(
-        default=None, description="Relative path of the parent scenario; maps merge, lists replace."
+        default=None,
+        description="The parent: a relative path, or a scenario that ships; maps merge, lists replace.",
     )
     validated: str | None = Field(
         default=None,

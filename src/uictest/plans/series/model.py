@@ -39,7 +39,7 @@ def _entries(content: object) -> object:
 class Stops(Model):
     """Stops of one scenario, simulated or recorded."""
 
-    scenario: str = Field(description="Relative path of the scenario.")
+    scenario: str = Field(description="Relative path of the scenario, or one that ships.")
     set: dict[str, Any] = Field(
         default={},
         description="Values by dotted key of the scenario; a list makes one stop for each of its values.",

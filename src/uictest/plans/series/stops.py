@@ -64,8 +64,7 @@ def read_entry(
     """
     reference = node.get("scenario") if isinstance(node, Map) else node
     assert isinstance(reference, Scalar)
-    files.beside(reference, key)
-    path = files.path_of(reference, key)
+    path = files.scenario_beside(reference, key)
     cases = load_file(path, [*common, *values_set_by(node), *last], files)
     listed = node.get("recordings") if isinstance(node, Map) else None
     if not isinstance(listed, List) or not listed.items:

@@ -7,6 +7,7 @@ from math import prod
 from pathlib import Path
 from typing import Final
 
+from uictest.plans import library
 from uictest.plans.scenario import (
     CONDITION,
     FIXED,
@@ -98,7 +99,8 @@ def load_sweep(
     """Return the plan of a sweep file.
 
     Args:
-        path: a ``*.sweep.yaml``: a scenario with `vary`, or a sweep as 0.2 wrote it.
+        path: a ``*.sweep.yaml``: a scenario with `vary`, or a sweep as 0.2 wrote it; or the name of one that
+            ships.
         overrides: ``key=value`` texts. One value fixes a key of the scenario, swept or not; a comma list or
             ``range(first,last,step)`` replaces the values in the file.
         seed: of the sensors' noise in every case.
@@ -107,6 +109,7 @@ def load_sweep(
     Raises:
         ScenarioErrors: with all errors of the file, or of the scenario that it names.
     """
+    path = library.named_scenario(path)
     given = parse_overrides(overrides, seed)
     survey = survey_on_command_line(given)
     parsed = given if survey is None else tuple(each for each in given if each.key != TIME_STEP)

@@ -99,12 +99,13 @@ def fitted_yaml(
     Raises ValueError where a value cannot be written below a part that the scenario only refers to.
 
     """
+    ships = library.named_scenario(scenario) != scenario
     content: dict[str, Any] = {
         "schema": "uictest/scenario/1",
         "name": _name(case.scenario.name, stop),
         "title": f"{case.scenario.name} with the friction of a recorded stop",
         "description": "\n".join(_account(fit, cleaning)),
-        "extends": Path(os.path.relpath(scenario, folder)).as_posix(),
+        "extends": (scenario if ships else Path(os.path.relpath(scenario, folder))).as_posix(),
         "expect": case.scenario.expect,
         **dict.fromkeys(EXPANSION_KEYS),
     }

@@ -16,6 +16,7 @@ from uictest.plans.scenario.yaml.tree import (
     Scalar,
     describe,
     merge,
+    nearest,
     quoted,
     visible,
 )
@@ -86,9 +87,14 @@ def read_library(folder: str, name: str) -> Map:
 
 
 def display_name(path: Path) -> str:
-    """The path as messages and manifests show it: relative to the working folder where it lies below it."""
+    """The path as messages and manifests show it: relative to the working folder where it lies below it.
+
+    A shipped scenario is shown by its name.
+    """
     absolute = Path(os.path.abspath(path))  # noqa: PTH100 - resolve() would follow links and rename what the user typed
     working = Path.cwd()
+    if name := library.scenario_name(absolute, working):
+        return name
     shown = (
         absolute.relative_to(working) if absolute.is_relative_to(working) else Path(os.path.normpath(path))
     )
@@ -113,7 +119,9 @@ def is_file(path: Path) -> bool:
 def _content(path: Path, largest: int = LARGEST, hint: str = "is this a scenario file?") -> bytes:
     try:
         if not is_file(path):
-            raise single_error(whole_file(path), "not a file" if os.path.lexists(path) else "no such file")
+            there = os.path.lexists(path)
+            hint = "" if there else _shipped_hint(path)
+            raise single_error(whole_file(path), "not a file" if there else "no such file", hint=hint)
         with path.open("rb") as file:
             content = file.read(largest + 1)
     except (OSError, ValueError) as error:
@@ -121,6 +129,18 @@ def _content(path: Path, largest: int = LARGEST, hint: str = "is this a scenario
     if len(content) > largest:
         raise single_error(whole_file(path), f"larger than {largest // 1024} KiB", hint=hint)
     return content
+
+
+def _shipped_hint(path: Path) -> str:
+    """What to write for a shipped scenario that was taken for a file here; empty where none is meant."""
+    shipped = library.scenarios()
+    name = path.name.partition(".")[0]
+    if name in shipped:
+        return f"{name} ships with uictest: write `{name}`, or copy it with `uictest init --scenarios`"
+    if path.suffix or len(path.parts) > 1:
+        return ""
+    guess = nearest(name, shipped)
+    return f"did you mean {quoted(guess)}?" if guess else f"by name there are {', '.join(shipped)}"
 
 
 def _tree(display: str, folder: Path, content: bytes, schema: str = SCENARIO_SCHEMA) -> Map:
