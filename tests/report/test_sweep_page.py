@@ -1,5 +1,7 @@
 """The page of a sweep: what stands on it, and that nothing in it runs."""
 
+from dataclasses import replace
+
 import pytest
 from pydantic import TypeAdapter
 
@@ -27,6 +29,20 @@ def test_every_finding_has_a_heading(make_sweep):
     others = "Cases met by parameter; Measures by parameter; Distributions; What the measures depend on"
     for heading in (*headings.split("; "), *others.split("; "), "Cases most worth looking at", "Provenance"):
         assert heading in text
+
+
+def test_what_was_asked_comes_before_the_maps(make_sweep):
+    text = Page(sweep_page_html(make_sweep())).text
+    asked = [text.index(heading) for heading in ("Frontier along", "What the measures depend on", "Maps")]
+    assert asked == sorted(asked)
+    assert text.index("Maps") < text.index("Distributions")
+
+
+def test_where_all_cases_are_met_no_drawing_says_so_again(make_sweep):
+    content = make_sweep()
+    result = replace(content.result, cases=content.result.met, missed=())
+    text = Page(sweep_page_html(replace(content, result=result))).text
+    assert "Cases met by parameter" not in text
 
 
 def test_a_worst_case_is_drawn_and_linked_from_its_row_and_its_cell(make_sweep):

@@ -91,7 +91,8 @@ const offerHeats = (section) => {
     for (const pair of pairs) {
       pair.hidden = pair.dataset.pair !== (pairChoice?.value ?? "1");
       for (const figure of all(".heat", pair)) {
-        figure.hidden = figure !== first(".heat", pair) && figure.dataset.measure !== measureChoice.value;
+        const always = figure === first(".heat", pair) && !("uniform" in figure.dataset);
+        figure.hidden = !always && figure.dataset.measure !== measureChoice.value;
         if (pair.hidden || figure.hidden || offered.has(figure)) continue;
         offered.add(figure);
         offerHeat(figure);

@@ -83,6 +83,8 @@ class HeatMaps:
     signs: Sequence[tuple[str, str]]
     no_case: int
     has_boundary: bool
+    uniform: str
+    """What the map of cases met would say in every cell; empty where its cells differ."""
 
     @property
     def name(self) -> str:
@@ -124,7 +126,14 @@ def heat_maps(
         ],
         int((cells.cases == 0).sum()),
         bool(maps[0].plot.boundary),
+        _uniform(cells),
     )
+
+
+def _uniform(cells: MapCells) -> str:
+    if np.array_equal(cells.met, cells.cases):
+        return "In every cell all cases met their expectation."
+    return "" if cells.met.any() else "In no cell did a case meet its expectation."
 
 
 def _map_of_verdicts(

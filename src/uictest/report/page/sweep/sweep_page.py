@@ -23,7 +23,7 @@ from uictest.report.sweep.map_cells import (
     map_cells,
     mapped_pairs,
 )
-from uictest.report.sweep.result import SweepResult
+from uictest.report.sweep.result import OutcomeCount, SweepResult
 from uictest.report.sweep.summary_rows import ReportedColumns, SummaryRows, reported_columns
 from uictest.report.sweep.summary_tables import frontier_table, notable_table, sensitivity_table
 from uictest.report.sweep.sweep_sentences import (
@@ -113,6 +113,8 @@ def sweep_page_html(content: SweepContent) -> str:
         if case.id in content.traces
     ]
     keys = {view.result.id: view.fragment for view in drawn}
+    points = _scatter(content, keys)
+    trends = {} if points else _trends(result)
     return render(
         "sweep.html.j2",
         content=content,
@@ -121,13 +123,13 @@ def sweep_page_html(content: SweepContent) -> str:
         swept={key: swept_words([count.value for count in counts]) for key, counts in result.rates.items()},
         maps=list(shown_maps(content, keys)),
         maps_left_out=maps_left_out(content),
-        scatter=_scatter(content, keys),
-        rates={key: counts for key, counts in result.rates.items() if len(counts) <= _MOST_VALUES},
+        scatter=points,
+        rates=_rates(result),
         frontier=frontier and (frontier_plot(frontier, result.logarithmic), frontier_table(frontier)),
-        trends=_trends(result),
+        trends=trends,
         sobol_plots=list(sobol_plots(result.sensitivities)),
         histograms=list(map(histogram_plot, result.distributions)),
-        plot_tables=script_json(_plot_tables(result)),
+        plot_tables=script_json(_plot_tables(result, with_trends=bool(trends))),
         tails=list(tail_tables(result)),
         tails_left_out=tables_left_out(result),
         notable=notable_table(result),
@@ -145,6 +147,13 @@ def sweep_page_html(content: SweepContent) -> str:
         alone=command_alone(content.manifest),
         share_words=share_words,
     )
+
+
+def _rates(result: SweepResult) -> dict[str, Sequence[OutcomeCount]]:
+    """Return the cases met by value, of parameters with few values; none where all cases are met."""
+    if result.met == result.cases:
+        return {}
+    return {key: counts for key, counts in result.rates.items() if len(counts) <= _MOST_VALUES}
 
 
 def _scatter(content: SweepContent, fragments: Mapping[str, str]) -> ScatterView | None:
@@ -165,10 +174,10 @@ def _trends(result: SweepResult) -> dict[str, list[TrendPlot]]:
     return plots
 
 
-def _plot_tables(result: SweepResult) -> dict[str, str]:
+def _plot_tables(result: SweepResult, *, with_trends: bool) -> dict[str, str]:
     """Return the numbers behind the drawings that have no table of their own, as CSV by file name."""
     tables = {}
-    if result.trends:
+    if with_trends:
         tables["trends.csv"] = csv_text(TREND_COLUMNS, chain.from_iterable(map(trend_rows, result.trends)))
     if result.distributions:
         rows = [row for each in result.distributions for row in distribution_rows(each)]
