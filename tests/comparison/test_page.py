@@ -1,6 +1,7 @@
 """The page of a comparison as text: what stands in it without a browser."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -34,6 +35,23 @@ def test_a_difference_is_signed_and_relative_in_the_units_of_the_page(make_recor
     assert _cells(page, "speed", "differing") == expected
     largest = ["km/h", "at 5 s", "90", "82.8", "-7.2", "-8", "0.036", f"{-7.2 / 101:+.5g}"]
     assert _cells(page, "speed", "side-values") == largest
+
+
+def test_turned_verdicts_come_first_and_the_others_by_how_far_they_are_out(make_recording):
+    found = comparison.compare_recordings(
+        make_recording(), make_recording(), ("a", "b"), comparison.Tolerances.read(()), ["*"]
+    )
+    near, far = (
+        Difference("stop", name, 100.0, 100.0 + off, False, "m", off, 1.0)
+        for name, off in (("braking_distance_m", 2.0), ("deceleration_distance_m", 9.0))
+    )
+    turned = Difference("stop", "outcome", "pass", "fail", False)
+    page = comparison.comparison_html(replace(found, differences=(near, far, turned)))
+    first = page[page.index('id="turned"') : page.index("</section>", page.index('id="turned"'))]
+    assert "outcome" in first
+    assert "distance" not in first
+    rows = page[page.index('id="differences"') :]
+    assert rows.index("deceleration_distance_m") < rows.index("braking_distance_m")
 
 
 def test_a_state_has_no_relative_figure(make_recording):

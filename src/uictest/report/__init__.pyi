@@ -12,6 +12,7 @@ from .difference import (
     Value as Value,
     baseline_summary as baseline_summary,
     case_word as case_word,
+    furthest_out as furthest_out,
     not_compared_sentences as not_compared_sentences,
     percent_text as percent_text,
     relative_percent as relative_percent,

@@ -10,6 +10,7 @@ from typing import Any, Final
 
 from uictest.analysis.comparison.common_samples import ChannelDifference, WorstInstant, holds
 from uictest.analysis.comparison.difference import Comparison, verdict_line
+from uictest.analysis.comparison.forest import forest
 from uictest.analysis.comparison.overlay import BINS, Overlay, curve_name
 from uictest.analysis.comparison.paired.pairing import PairedComparison
 from uictest.analysis.comparison.paired.wording import (
@@ -30,6 +31,7 @@ from uictest.report import (
     PlotLine,
     Value,
     channel_title,
+    furthest_out,
     listed,
     number,
     printable,
@@ -178,6 +180,7 @@ def _with_unit(each: ChannelDifference, text: str) -> str:
 
 
 _PAIRED: Final[dict[str, Any]] = {
+    "forest": forest,
     "paired_method": METHOD,
     "paired_table": paired_table,
     "group_text": group_text,
@@ -215,6 +218,7 @@ def comparison_html(comparison: Comparison) -> str:
         overlays=overlays,
         fragments={each.overlay.title: each.fragment for each in overlays},
         verdict_line=verdict_line(comparison),
+        turned=[each for each in comparison.differences if not each.within and _is_verdict(each)],
         differences_table=differences_table,
         parameters_table=parameters_table,
         relative_cell=relative_cell,
@@ -275,8 +279,14 @@ _PARAMETERS: Final[tuple[Column[ParameterChange], ...]] = (
 
 
 def differences_table(differences: Sequence[Difference]) -> Table:
-    """Return differences in the units of every page, those out of tolerance first."""
-    return Table(_DIFFERENCES, sorted(map(in_page_units, differences), key=lambda each: each.within))
+    """Return differences in the units of every page, those furthest out of tolerance first."""
+    furthest = furthest_out(map(in_page_units, differences))
+    return Table(_DIFFERENCES, sorted(furthest, key=lambda each: each.within))
+
+
+def _is_verdict(difference: Difference) -> bool:
+    """Return whether a difference is one of an outcome or of the status of a criterion."""
+    return difference.quantity == "outcome" or difference.quantity.startswith("criterion ")
 
 
 def parameters_table(changes: Sequence[ParameterChange]) -> Table:

@@ -1,3 +1,4 @@
+from .axis import Axis as Axis, Tick as Tick
 from .links import case_anchor as case_anchor, fragment as fragment, series_anchor as series_anchor
 from .rendering import render as render
 from .run_page import page_html as page_html
