@@ -81,6 +81,16 @@ def test_what_failed_leads_from_the_top_of_the_page_to_its_instant(browser: Any,
     assert browser.find_element("css selector", ".ring").is_displayed()
 
 
+def test_a_vent_leads_to_its_instant(browser: Any, stop_page: Path) -> None:
+    browser.get(stop_page.as_uri())
+    wait(browser, READY)
+    run(browser, "document.querySelector('table.vents').closest('details').open = true")
+    button = browser.find_element("css selector", "table.vents tbody tr:nth-child(2) button")
+    button.send_keys("\ue007")
+    assert browser.find_element("css selector", ".readout output").text == f"{button.text} s"
+    assert browser.find_element("css selector", ".spotlight").is_displayed()
+
+
 def test_the_ring_follows_its_wheelset_where_they_stand_side_by_side(browser: Any, stop_page: Path) -> None:
     browser.get(stop_page.as_uri())
     wait(browser, READY)

@@ -33,6 +33,7 @@ from uictest.report.traces.quantities import (
     panel_lines,
 )
 from uictest.report.traces.trace import BINS, Curve, PlotTrace
+from uictest.report.traces.vent_cycles import VentCycle
 from uictest.report.verdict_sentences import real_time_sentences
 
 HeadlineMeasure = tuple[str, str, str]
@@ -59,6 +60,7 @@ class CaseView:
     note: str
     repeats: RepeatsView | None = None
     command: str = ""
+    vents: Sequence[VentCycle] = ()
 
     @property
     def fragment(self) -> str:
@@ -98,6 +100,7 @@ def case_view(
         " ".join(_notes(drawn, subject, trace)),
         repeats_view(result),
         command,
+        trace.vents,
     )
 
 

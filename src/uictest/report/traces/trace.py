@@ -20,6 +20,7 @@ from uictest.report.traces.quantities import (
     channel_names,
     loop_lines,
 )
+from uictest.report.traces.vent_cycles import VentCycle, vent_cycles
 
 Samples = NDArray[np.float64]
 Rows = NDArray[np.intp]
@@ -129,6 +130,7 @@ class PlotTrace:
         derived: names of the curves that the record does not hold.
         moments: id of a criterion -> when it was decided.
         faults: when faults were active.
+        vents: every vent, from the samples as they were recorded.
 
     """
 
@@ -141,6 +143,7 @@ class PlotTrace:
     derived: tuple[str, ...] = ()
     moments: Mapping[str, Moments] = field(default_factory=dict)
     faults: tuple[FaultSpan, ...] = ()
+    vents: tuple[VentCycle, ...] = ()
 
 
 def trace_of(
@@ -170,6 +173,7 @@ def trace_of(
         tuple(name for name in series if name not in record.channels),
         moments_of(verdicts, record, wheelsets),
         fault_spans(record),
+        vent_cycles(time, series),
     )
 
 

@@ -39,4 +39,15 @@ const offerMoments = (within, panels, show) => {
       panels.scrollIntoView({ block: "nearest" });
     });
   for (const button of buttons) button.setAttribute("aria-pressed", "false");
+  for (const row of all(".vents tbody tr", within)) {
+    const [start, wheelset, duration] = [...row.cells].map((cell) => cell.textContent);
+    const button = make("button", start, { type: "button", "aria-label": `Show the vent of wheelset ${wheelset} at ${start} s` });
+    row.cells[0].replaceChildren(button);
+    button.addEventListener("click", () => {
+      band(Number(start), Number(start) + Number(duration));
+      encircle(null);
+      show(Number(start));
+      panels.scrollIntoView({ block: "nearest" });
+    });
+  }
 };
