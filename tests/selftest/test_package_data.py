@@ -18,13 +18,15 @@ CRITERIA = "plans/library/criteria/uic-541-05-appendix-b.yaml"
 
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
-    """A copy of the shipped data, and what Python and editors leave beside them."""
+    """A copy of the shipped data, what a wheel adds, and what Python and editors leave beside them."""
     for name in stored_data_digests():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(PACKAGE / name, tmp_path / name)
     left = tmp_path / "plans/library" / "__pycache__" / "__init__.cpython-311.pyc"
     left.parent.mkdir()
     left.write_bytes(b"")
+    (tmp_path / "plans/library/scenarios").mkdir()
+    (tmp_path / "plans/library/scenarios/slip-120.yaml").write_bytes(b"")  # as in a wheel
     (tmp_path / "plans/library" / ".swap").write_bytes(b"")
     return tmp_path
 

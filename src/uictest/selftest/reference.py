@@ -19,7 +19,8 @@ from uictest.selftest.template_stops import python_stop
 _PACKAGE: Final = Path(__file__).parents[1]
 _FOLDERS: Final = ("plans/library", "selftest/stops", "selftest/record", "plans/templates")
 """Where the parts, criteria, known stops and first files of users lie."""
-_OF_PYTHON: Final = "__pycache__"
+_LEFT_OUT: Final = {"__pycache__", "scenarios"}
+"""What Python leaves there; the scenarios, which only a wheel has there: every run states their digests."""
 
 
 def data_digests(package: Path = _PACKAGE) -> dict[str, str]:
@@ -34,7 +35,7 @@ def data_digests(package: Path = _PACKAGE) -> dict[str, str]:
 def _files(folder: Path) -> Iterator[Path]:
     """Yield the files below a folder, without what Python leaves there and what editors hide."""
     for path in sorted(folder.rglob("*"), key=Path.as_posix):
-        hidden = any(part.startswith(".") or part == _OF_PYTHON for part in path.relative_to(folder).parts)
+        hidden = any(part.startswith(".") or part in _LEFT_OUT for part in path.relative_to(folder).parts)
         if path.is_file() and not hidden:
             yield path
 
