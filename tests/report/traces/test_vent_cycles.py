@@ -54,6 +54,10 @@ def test_a_slide_that_is_not_back_before_the_next_vent_has_not_recovered() -> No
     assert other.recovery == pytest.approx(0.0)
 
 
+def test_a_stop_in_which_nothing_is_vented_has_none() -> None:
+    assert _cycles(valve_command_1=np.zeros(len(TIME)), slide_1=np.zeros(len(TIME))) == ()
+
+
 def test_a_vent_that_the_record_cuts_off_ends_with_it() -> None:
     (cut,) = _cycles(valve_command_3=_valve((9.5, 20.0)))
     assert cut.start + cut.duration == pytest.approx(TIME[-1])

@@ -56,7 +56,8 @@ def _of_wheelset(time: Series, series: Mapping[str, Series], n: int) -> Iterator
     slide, pressure = series.get(f"slide_{n}", missing), series.get(f"tank_pressure_{n}", missing)
     edges = np.flatnonzero(np.diff(np.rint(valve) == VENT, prepend=False, append=False))
     starts, ends = edges[::2], edges[1::2]
-    for start, end, following in zip(starts, ends, [*starts[1:], len(time)], strict=True):
+    next_starts = np.append(starts, len(time))[1:]
+    for start, end, following in zip(starts, ends, next_starts, strict=True):
         yield VentCycle(
             n,
             float(time[start]),
