@@ -58,7 +58,7 @@ const look = () => {
   const drawing = document.querySelector("details.stop[open] svg.panels");
   const { top, height } = drawing?.getBoundingClientRect() ?? {};
   if (height && top < innerHeight) now("drawing");
-  if (document.querySelector(".panels-plot .scatterlayer .trace path")) return now("plot");
+  if (document.querySelector(".panels-plot :is(canvas, .scatterlayer .trace path)")) return now("plot");
   requestAnimationFrame(look);
 };
 requestAnimationFrame(look);
@@ -201,7 +201,7 @@ def main() -> None:
     arguments = parser.parse_args()
     candidates = {"this": HERE} | ({"other": arguments.against} if arguments.against else {})
     load = os.getloadavg()[0]
-    print(machine.description("plotly", "selenium"), f"; load average {load:.1f}", sep="", flush=True)
+    print(machine.description("youplot", "selenium"), f"; load average {load:.1f}", sep="", flush=True)
     with tempfile.TemporaryDirectory() as folder:
         sources = stops_in(Path(folder))
         for cases in map(int, arguments.cases.split(",")):

@@ -118,6 +118,6 @@ def test_a_stop_of_two_runs_has_a_band_only_where_a_tolerance_names_the_channel(
     }
     page = comparison.comparison_html(drawn)
     assert 'href="#case-dry-120"' in page[page.index('class="differing"') :]
-    assert "allowed ±2 km/h" in page
+    assert r"allowed \u00b12 km/h" in page
     # What a channel differs by is drawn; the runs are judged by their figures.
     assert [each.quantity for each in drawn.beyond] == ["braking_distance_m"]

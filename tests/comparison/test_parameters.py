@@ -46,7 +46,7 @@ def test_the_parameter_that_changed_is_named(make_run):
     assert found.to_dict()["parameters"][0]["second"] == "3 km/h"
     html = comparison_html(found)
     assert "<td>4 km/h</td><td>3 km/h</td>" in html
-    assert "plotly.js" not in html  # nothing is drawn
+    assert "var uPlot=" not in html  # nothing is drawn
 
 
 def test_a_changed_parameter_is_an_explanation_told_once_and_no_difference(make_run):

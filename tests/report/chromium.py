@@ -32,12 +32,13 @@ if (plots && !plots.dataset.ready) {
   plots.scrollIntoView({block: 'nearest', behavior: 'instant'});
   return 0;
 }
-return document.querySelectorAll('.panels-plot .scatterlayer .trace').length;
+const panels = plots?.querySelector('.panels-plot').plots ?? [];
+return panels.reduce((sum, {lines, bars}) => sum + lines.length + bars.length, 0);
 """
 """How many lines the plots of the open stop have, once they are drawn and answer, near the window."""
 
 COMPARED = """
-return document.querySelector('.compared-plot .scatterlayer .trace') &&
+return document.querySelector('.compared-plot canvas') &&
   document.querySelectorAll('.cases li').length;
 """
 """How many cases are laid over each other, once they are drawn and the table beside them is filled."""

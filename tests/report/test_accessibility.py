@@ -28,7 +28,7 @@ axe.run({exclude: [['svg.main-svg']]}, {resultTypes: ['violations'], preload: fa
     violations.flatMap(({id, nodes}) => nodes.map((node) => `${id}: ${node.target.join(' ')}`))),
   (error) => done([String(error)]));
 """
-"""What plotly draws is no text of ours; its values are read at the cursor and from the tables."""
+"""What a canvas shows is no text of ours; its values are read at the cursor and from the tables."""
 
 _ALL_PLOTTED = """
 const missing = document.querySelector('details.stop .plots:not([data-ready])');

@@ -54,22 +54,17 @@ def test_the_difference_stands_beneath_each_channel_on_its_axis(browser: Any, la
     _open(browser, laid_over_page)
     traces = run(
         browser,
-        "return document.querySelector('.panels-plot').data.filter((each) => each.mode === 'lines')"
-        ".map((each) => [each.name, each.xaxis, each.yaxis, each.line.dash])",
+        "return document.querySelector('.panels-plot').plots"
+        ".map(({lines}) => lines.map((each) => [each.label, String(each.dash)]))",
     )
-    assert [name for name, *_ in traces] == ["A", "B", "B - A"] * 3
-    assert {x for _, x, *_ in traces} == {"x"}
-    assert [y for _, _, y, _ in traces] == ["y", "y", "y2", "y3", "y3", "y4", "y5", "y5", "y6"]
-    dashes = {name: dash for name, *_, dash in traces}
-    assert dashes["A"] != dashes["B"]
-    band, worst = run(
-        browser,
-        "const {data, layout} = document.querySelector('.panels-plot'); return ["
-        "layout.shapes.filter((each) => each.yref === 'y2').map((each) => [each.type, each.y0, each.y1]),"
-        "data.filter((each) => each.mode === 'markers' && each.yaxis === 'y2').map((each) => each.y[0])]",
+    names = [[name for name, _ in own] for own in traces]
+    assert names == [["A", "B"], ["B - A"]] * 3 + [[]]  # the last is the axis
+    (_, first), (_, second) = traces[0]
+    assert first != second
+    marks = run(
+        browser, "return document.querySelector('.panels-plot').plots[1].marks.map((m) => [m.kind, m.y])"
     )
-    assert band == [["rect", -10, 10]]
-    assert worst == [pytest.approx(9.0, abs=1e-3)]
+    assert marks == [["tolerance", 10], ["point", pytest.approx(9.0, abs=1e-3)]]
 
 
 def test_one_cursor_reads_both_sides_their_difference_and_its_share(
@@ -100,7 +95,7 @@ def test_over_distance_both_sides_stand_at_the_same_place(browser: Any, laid_ove
         "const choice = document.querySelector('[data-choice=across]'); choice.value = 'distance';"
         "choice.dispatchEvent(new Event('change'))",
     )
-    title = "return document.querySelector('.panels-plot').layout.xaxis.title.text"
+    title = "return document.querySelector('.panels-plot').plots.at(-1).plot.axes[0].label"
     assert wait(browser, f"{title}.startsWith('distance') && ({title[7:]})").endswith("m")
     slider = browser.find_element("css selector", ".laid-over input[type=range]")
     slider.send_keys("\ue011" + "\ue014" * 300)
@@ -127,10 +122,10 @@ def test_the_points_of_a_channel_and_its_difference_come_as_csv(browser: Any, la
         "document.querySelector('.laid-over .tables button').click()",
     )
     text = wait(browser, "return window.saved")
-    assert "Sampled every 10 ms in A and every 20 ms in B." in text.splitlines()[2]
+    assert "Sampled every 10 ms in A and every 20 ms in B." in text.splitlines()[1]
     rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
     by_line: dict[str, dict[float, float]] = {}
-    for row in rows:
+    for row in (each for each in rows if each["channel"] == "speed"):
         assert row["unit"] == "km/h"
         by_line.setdefault(row["line"], {})[float(row["time_s"])] = float(row["value"])
     assert list(by_line) == ["A", "B", "B - A"]

@@ -2,7 +2,6 @@ import base64
 import hashlib
 import itertools
 import re
-import zlib
 from html.parser import HTMLParser
 
 import pytest
@@ -59,12 +58,10 @@ def test_every_case_has_a_row_with_its_figures():
 
 def test_a_drawn_case_can_be_read_without_javascript(drawn):
     page = Page(drawn)
-    assert page.count("path") > 60
-    for title in ("Speed of train", "Slide", "Pressures", "Clamping force", "Deceleration", "WSP valves"):
+    assert page.count("path") > 40
+    for title in ("Speed of train", "Pressures", "WSP valves"):
         assert title in page.text
-    for title in ("Speed over distance", "Clamping force over tank pressure", "Adhesion over slide"):
-        assert title in page.text
-    titles = [drawn.index(f'class="plot-{key}"') for key in ("speed", "valves", "slide")]
+    titles = [drawn.index(f'class="plot-{key}"') for key in ("speed", "valves", "pressure")]
     assert titles == sorted(titles)
 
 
@@ -83,9 +80,7 @@ def test_the_page_loads_nothing_and_runs_only_its_own_scripts(drawn):
     assert all(place is None or place.startswith("#") for place in places)
     policy = next(a["content"] for tag, a in page.elements if tag == "meta" and "http-equiv" in a)
     assert policy.startswith("default-src 'none'; ")
-    of_page = [text for attributes, text in page.scripts if not attributes]
-    deflated = [text for attributes, text in page.scripts if attributes.get("id") == "plotly"]
-    executable = [*of_page, *(zlib.decompress(base64.b64decode(text)).decode() for text in deflated)]
+    executable = [text for attributes, text in page.scripts if not attributes]
     digests = {base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in executable}
     assert len(digests) == 2
     assert set(re.findall(r"'sha256-([^']+)'", policy)) == digests
@@ -93,7 +88,7 @@ def test_the_page_loads_nothing_and_runs_only_its_own_scripts(drawn):
 
 def test_without_anything_to_draw_the_plotting_script_stays_out():
     html = page_html(make_content(make_result()))
-    assert len(html) < 200_000  # plotly has millions
+    assert len(html) < 200_000  # the rest of the page is most of it
     assert "1 case not drawn" in html
     assert 'id="requirements"' not in html
 

@@ -58,10 +58,10 @@ def test_a_criterion_leads_to_the_instant_at_which_its_value_was_taken(browser: 
         const panels = document.querySelector('.panels-plot');
         const {left, top} = panels.getBoundingClientRect();
         const box = panels.querySelector('.ring').getBoundingClientRect();
-        const {x, y} = panels.placeOf('slide', 3);
-        const {[x]: across, [y]: up} = panels._fullLayout;
+        const {plot} = panels.plots.find(({row}) => row.key === 'slide');
+        const over = plot.over.getBoundingClientRect();
         return [[box.x + box.width / 2 - left, box.y + box.height / 2 - top],
-                [across._offset + across.l2p(8), up._offset + up.l2p(60)]];
+                [over.x - left + plot.valToPos(8, 'x'), over.y - top + plot.valToPos(60, 'y')]];
         """,
     )
     assert ring == pytest.approx(place, abs=1.0)
@@ -96,15 +96,14 @@ def test_the_ring_follows_its_wheelset_where_they_stand_side_by_side(browser: An
     wait(browser, READY)
     browser.find_element("css selector", "button.moment").click()
     _choose(browser, ".plots", "view", "apart")
-    wait(browser, "return document.querySelector('.panels-plot')._fullLayout.xaxis4 !== undefined")
-    assert run(browser, "return document.querySelector('.panels-plot').placeOf('slide', 3).x") == "xaxis3"
-    lines = "return [...document.querySelectorAll('.cursor-line')].filter((each) => !each.hidden).length"
-    assert wait(browser, lines) == 4
-    ranges = run(
-        browser,
-        "const l = document.querySelector('.panels-plot')._fullLayout;"
-        "return ['yaxis', 'yaxis2', 'yaxis3', 'yaxis4'].map((name) => l[name].range)",
-    )
+    own = "document.querySelector('.panels-plot').plots.filter(({row}) => row.key === arguments[0])"
+    assert wait(browser, f"return {own}.length === 4", "slide")
+    rings = f"return {own}.map(({{plot}}) => plot.over.querySelector('.ring:not([hidden])') !== null)"
+    wait(browser, "return document.querySelector('.ring:not([hidden])') !== null")
+    assert run(browser, rings, "slide") == [False, False, True, False]
+    lines = f"return {own}.filter(({{plot}}) => plot.over.querySelector('.cursor-line:not([hidden])')).length"
+    assert run(browser, lines, "slide") == 4
+    ranges = run(browser, f"return {own}.map(({{plot}}) => [plot.scales.y.min, plot.scales.y.max])", "speed")
     assert all(each == ranges[0] for each in ranges)
     assert ranges[0][1] > 119
 
@@ -133,7 +132,8 @@ def test_labels_lie_above_the_panels_and_not_over_each_other(browser: Any, stop_
     wait(browser, READY)
     boxes = run(
         browser,
-        "return [...document.querySelectorAll('.panels-plot .annotation-text')]"
+        "return [...document.querySelectorAll('.panels-plot .label-row span')]"
+        ".filter((each) => each.textContent)"
         ".map((each) => each.getBoundingClientRect())"
         ".map((box) => [box.left, box.right, box.top, box.bottom])",
     )
@@ -186,51 +186,103 @@ def test_the_link_and_the_command_can_be_copied(browser: Any, stop_page: Path) -
     assert wait(browser, "return document.querySelector('.stop .copied').textContent") == "Copied command."
 
 
-def test_the_points_of_a_plot_come_as_csv_with_their_sampling(browser: Any, stop_page: Path) -> None:
+def test_the_samples_behind_the_plots_come_as_csv(browser: Any, stop_page: Path) -> None:
     browser.get(stop_page.as_uri())
     wait(browser, READY)
-    text = _downloaded(browser, "Slide")
-    comments = [line for line in text.splitlines() if line.startswith("#")]
-    assert comments[0] == f"# case: {CASE}"
-    assert "Sampled every 10 ms" in comments[2]
-    rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
-    third = [row for row in rows if row["line"] == "slide of wheelset 3"]
-    times, values = (np.array([float(row[key] or "nan") for row in third]) for key in ("time_s", "value"))
-    # The train is at rest at the end of the record: a slide is no number there.
-    assert np.isnan(values[-1])
-    times, values = times[~np.isnan(values)], values[~np.isnan(values)]
-    assert {row["unit"] for row in third} == {"%"}
-    assert times[values.argmax()] == pytest.approx(8.0)
-    assert values.max() == pytest.approx(60.0, abs=60 / 32766)
-    assert (np.diff(times) > 0).all()
-    valves = _downloaded(browser, "WSP valves")
-    assert "vent" in valves
-
-
-def _downloaded(browser: Any, title: str) -> str:
-    """Return the text that a button saves."""
     run(
         browser,
         """
         window.saved = null;
         URL.createObjectURL = (blob) => { blob.text().then((text) => { window.saved = text; }); return '#'; };
-        const buttons = [...document.querySelectorAll('.tables button')];
-        buttons.find((each) => each.textContent === arguments[0]).click();
+        document.querySelector('.tables button').click();
         """,
-        title,
     )
-    return str(wait(browser, "return window.saved"))
+    text = str(wait(browser, "return window.saved"))
+    comments = [line for line in text.splitlines() if line.startswith("#")]
+    assert comments[0] == f"# case: {CASE}"
+    assert "Sampled every 10 ms" in comments[1]
+    rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
+    times, slides = (
+        np.array([float(row[key] or "nan") for row in rows]) for key in ("time, s", "slide_3, %")
+    )
+    assert np.diff(times) == pytest.approx(0.01)
+    # The train is at rest at the end of the record: a slide is no number there.
+    assert np.isnan(slides[-1])
+    assert times[np.nanargmax(slides)] == pytest.approx(8.0)
+    assert np.nanmax(slides) == pytest.approx(60.0, abs=0.02)
+    assert {"fill", "vent"} <= {row["valve_command_1"] for row in rows}
+
+
+def test_the_upright_axes_follow_what_is_in_view_and_the_loops_show_that_part(
+    browser: Any, stop_page: Path
+) -> None:
+    browser.get(stop_page.as_uri())
+    wait(browser, READY)
+    highest = (
+        "return document.querySelector('.panels-plot').plots"
+        ".find(({row}) => row.key === 'slide').plot.scales.y.max"
+    )
+    assert run(browser, highest) > 60
+    run(browser, "document.querySelector('.panels-plot').plots[0].plot.setScale('x', {min: 1, max: 7.5})")
+    assert wait(browser, f"const most = () => {{{highest}}}; return most() < 50")
+    ends = "return document.querySelector('.panels-plot').plots.map(({plot}) => plot.scales.x.max)"
+    assert set(run(browser, ends)) == {7.5}
+    run(browser, "document.querySelector('.zoom button[value=all]').click()")
+    assert wait(browser, f"const most = () => {{{highest}}}; return most() > 60")
+
+
+@pytest.mark.parametrize(("across", "unit"), [("distance", "m"), ("speed", "km/h")])
+def test_the_plots_stand_over_distance_and_over_the_speed_of_the_train(
+    browser: Any, stop_page: Path, across: str, unit: str
+) -> None:
+    browser.get(stop_page.as_uri())
+    wait(browser, READY)
+    _choose(browser, ".plots", "across", across)
+    slider = browser.find_element("css selector", ".readout input")
+    slider.send_keys("\ue011" + "\ue014" * 294)  # home, then arrow right: 10 s of 34 s
+    place, title = run(
+        browser,
+        "const {plot} = document.querySelector('.panels-plot').plots[0];"
+        "const line = plot.over.querySelector('.cursor-line');"
+        "const foot = document.querySelector('.panels-plot').plots.at(-1).plot;"
+        "return [plot.posToVal(parseFloat(line.style.left), 'x'), foot.axes[0].label]",
+    )
+    assert title.endswith(unit)
+    # 120 km/h, 1 m/s2 from the command on; over speed, a place is its negative.
+    expected = {"distance": 10.0 * 120.0 / 3.6 - 0.5 * 10.0**2, "speed": -(120.0 - 36.0)}[across]
+    assert place == pytest.approx(expected, rel=0.01)
+
+
+def test_two_cursors_read_the_difference_the_mean_and_the_vents_between(
+    browser: Any, stop_page: Path
+) -> None:
+    browser.get(stop_page.as_uri())
+    wait(browser, READY)
+    slider = browser.find_element("css selector", ".readout input")
+    slider.send_keys("\ue011" + "\ue014" * 294)
+    browser.find_element("css selector", ".pin").click()
+    slider.send_keys("\ue014" * 147)  # 5 s more
+    assert browser.find_element("css selector", ".between output").text == "5.00 s from 10.00 s"
+    train = "return document.querySelector('.train-readout dd').textContent"
+    assert run(browser, train) == "-18.0"
+    _choose(browser, ".plots", "reading", "mean")
+    assert run(browser, train) == "75.0"
+    _choose(browser, ".plots", "reading", "value")
+    assert run(browser, train) == "66.0"
+    browser.find_element("css selector", ".unpin").click()
+    assert not browser.find_element("css selector", ".between").is_displayed()
 
 
 def test_the_loops_are_those_of_the_wheelset_that_is_chosen(browser: Any, stop_page: Path) -> None:
     browser.get(stop_page.as_uri())
     wait(browser, READY)
-    roles = "return [...new Set(document.querySelector('.loops-plot').data.map((trace) => trace.meta))]"
-    assert run(browser, roles) == ["train", "wheelset-1"]
+    titles = (
+        "return [...document.querySelectorAll('.loops-plot .plot-title')].map((each) => each.textContent)"
+    )
+    assert all(title.endswith("wheelset 1") for title in run(browser, titles))
     _choose(browser, ".plots", "wheelset", "3")
-    assert run(browser, roles) == ["train", "wheelset-3"]
-    names = "return document.querySelector('.loops-plot').data.map((trace) => trace.name)"
-    assert {"rising", "falling"} <= set(run(browser, names))
+    loops = ("Clamping force over tank pressure", "Adhesion over slide")
+    assert run(browser, titles) == [f"{loop}, wheelset 3" for loop in loops]
 
 
 def test_on_a_phone_case_verdict_and_measures_are_in_sight(browser: Any, stop_page: Path) -> None:

@@ -139,7 +139,7 @@ def test_a_link_to_a_row_that_is_filtered_away_shows_all_rows_again(browser: Any
 def test_the_part_of_a_drawn_case_is_where_its_link_leads(browser: Any, long_page: Path) -> None:
     browser.get(f"{long_page.as_uri()}#case-case-001")
     assert wait(browser, "return document.getElementById('case-case-001').open")
-    assert wait(browser, "return document.querySelectorAll('[id=case-case-001] .scatterlayer .trace').length")
+    assert wait(browser, "return document.querySelectorAll('[id=case-case-001] .panels-plot canvas').length")
 
 
 @pytest.mark.parametrize("width", [1600, 1280, 1000, 700, 400])

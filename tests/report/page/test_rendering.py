@@ -1,9 +1,15 @@
+import sys
+from types import SimpleNamespace
+
 import pytest
 from jinja2 import DictLoader, Environment
 from markupsafe import Markup
 
-from uictest.report.page import rendering
+from uictest.report.page import page_html, rendering
 from uictest.report.page.rendering import TemplateCache
+from uictest.report.traces.trace import trace_of
+
+from ..builders import make_content, make_recording, make_result
 
 
 def test_what_cannot_be_seen_is_spelled_out_and_markup_of_ours_is_left_alone():
@@ -38,3 +44,29 @@ def test_the_running_head_holds_nothing_that_ends_it():
     style = rendering._running_head('a"; } </style><b>\\\n\u202e')
     assert not set(style.partition('content: "')[2].rpartition('"')[0]) & set('"<>;{}\n\u202e')
     assert style.count('"') == 2
+
+
+def test_the_plotting_script_is_what_was_published_and_is_not_imported():
+    script, style = rendering.uplot()
+    assert script.startswith("/*! https://github.com/leeoniya/uPlot (v1.6.31) */")
+    assert ".u-over" in style
+    assert "youplot" not in sys.modules
+
+
+@pytest.mark.parametrize("damage", ["no package", "no file", "another file"])
+def test_without_the_plotting_script_a_page_keeps_its_drawings_and_says_why(damage, tmp_path, monkeypatch):
+    (tmp_path / "vendor").mkdir()
+    if damage == "another file":
+        for name in rendering._UPLOT:
+            (tmp_path / "vendor" / name).write_text("alert(1)")
+    spec = SimpleNamespace(origin=str(tmp_path / "__init__.py"))
+    monkeypatch.setattr(rendering, "find_spec", lambda _: None if damage == "no package" else spec)
+    rendering.uplot.cache_clear()
+    try:
+        result = make_result()
+        html = page_html(make_content(result, traces={result.id: trace_of(make_recording())}))
+    finally:
+        rendering.uplot.cache_clear()
+    assert "alert(1)" not in html
+    assert '<svg class="panels"' in html
+    assert "The plots do not answer: uPlot 1.6.31 is not" in html

@@ -2,9 +2,8 @@ import numpy as np
 import pytest
 
 from uictest.core.recording import Recording
-from uictest.report.page.stop.mark import magnet_bars, vents
-from uictest.report.traces.quantities import MAGNETS
-from uictest.report.traces.trace import BINS, deceleration, slide, trace_of
+from uictest.report.traces.quantities import HOLD, VENT
+from uictest.report.traces.trace import BINS, MOST_SAMPLES, deceleration, slide, trace_of
 
 from ..builders import make_recording
 
@@ -25,17 +24,19 @@ def test_discs_are_drawn_in_degrees_where_their_temperature_is_recorded():
     assert list(trace.curves) == ["disc_surface_temperature_3"]
 
 
-@pytest.mark.parametrize("samples", [1, 2, BINS, BINS + 1, 10 * BINS + 7])
-def test_no_more_samples_are_kept_than_a_screen_can_show(samples):
+@pytest.mark.parametrize("samples", [1, 2, BINS, MOST_SAMPLES, MOST_SAMPLES + 1, 3 * MOST_SAMPLES])
+def test_every_sample_is_drawn_and_of_a_long_record_the_extremes(samples):
     time = np.arange(samples) / 100
     noise = np.random.default_rng(1).normal(size=samples)
     trace = trace_of(Recording({"time": time, "speed": noise}, {"time": "s", "speed": "m/s"}))
-    assert all(len(curve.x) <= 2 * BINS + 2 for curve in trace.curves.values())
+    drawn = {len(curve.x) for curve in trace.curves.values()}
+    assert drawn == {samples} if samples <= MOST_SAMPLES else max(drawn) <= 2 * (2 * BINS + 2)
+    assert len({id(curve.x) for curve in trace.curves.values()}) == 1
     assert (trace.start, trace.end) == (time[0], time[-1])
 
 
 def test_a_peak_of_a_single_sample_is_drawn_at_its_time():
-    time = np.arange(20 * BINS) / 100
+    time = np.arange(2 * MOST_SAMPLES) / 100
     force = np.zeros_like(time)
     force[[1234, 5678]] = 9e3, -1e3
     units = {"time": "s", "clamping_force_1": "N"}
@@ -55,25 +56,20 @@ def test_every_change_of_a_valve_is_kept_however_long_the_record():
     command[100::7], command[102::7] = 2, 1  # a vent of one sample, a fill, a hold of one, then fill
     trace = valves(time, valve_command_2=command)
     expected = len(command[100::7])
-    assert len(vents(trace, 2)) == expected
-    bars = magnet_bars(trace, MAGNETS)
-    assert bars.keys() == {"magnet hold role-wheelset-2", "magnet vent role-wheelset-2"}
-    assert len(bars["magnet vent role-wheelset-2"]) == expected
-    assert len(bars["magnet hold role-wheelset-2"]) == pytest.approx(2 * expected, abs=1)
-    assert vents(trace, 2)[0] == (1.0, 1.01, 2)
-    assert vents(trace, 1) == []
+    assert len(trace.valve_spans(2, (VENT,))) == expected
+    assert len(trace.valve_spans(2, (HOLD, VENT))) == pytest.approx(2 * expected, abs=1)
+    assert trace.valve_spans(2, (VENT,))[0] == (1.0, 1.01)
+    assert trace.valve_spans(1, (VENT,)) == []
     gap = valves(np.arange(6.0), valve_command_1=np.array([2, 2, np.nan, np.nan, 2, 2]))
-    assert vents(gap, 1) == [(0.0, 2.0, 1), (4.0, 5.0, 1)]  # in no state where it was not recorded
+    assert gap.valve_spans(1, (VENT,)) == [(0.0, 2.0), (4.0, 5.0)]  # in no state where it was not recorded
 
 
 def test_the_hold_magnet_stays_on_while_the_vent_magnet_goes_on_and_off():
     time = np.arange(8.0)
     command = np.array([0, 1, 2, 2, 1, 0, 1, 1])
     trace = valves(time, valve_command_3=command)
-    hold, vent = magnet_bars(trace, MAGNETS).values()
-    assert [bar[:2] for bar in hold] == [(1.0, 5.0), (6.0, 7.0)]
-    assert [bar[:2] for bar in vent] == [(2.0, 4.0)]
-    assert 3.0 - hold[0][2] == vent[0][2] - 3.0 > 0.0
+    assert trace.valve_spans(3, (HOLD, VENT)) == [(1.0, 5.0), (6.0, 7.0)]
+    assert trace.valve_spans(3, (VENT,)) == [(2.0, 4.0)]
 
 
 def test_a_slide_that_was_not_recorded_is_derived_and_said_to_be():
@@ -90,14 +86,13 @@ def test_a_slide_is_missing_where_the_train_hardly_runs_and_where_its_speed_is()
     assert derived == pytest.approx([0.5, np.nan, np.nan], nan_ok=True)
 
 
-def test_a_recorded_slide_at_rest_is_a_gap_in_its_line_and_no_point_of_its_loop():
+def test_a_recorded_slide_at_rest_is_a_gap_in_its_line():
     speed = np.array([3.0, 2.0, 1.5, 0.5, 0.0])
     channels = {"time": np.arange(5.0), "speed": speed, "adhesion_1": np.full(5, 0.1)}
     channels["slide_1"] = np.where(speed > 1.0, 0.2, 0.0)
     units = {"time": "s", "speed": "m/s", "slide_1": "1", "adhesion_1": "1"}
     trace = trace_of(Recording(channels, units))
     assert trace.curves["slide_1"].y == pytest.approx([20.0, 20.0, 20.0, np.nan, np.nan], nan_ok=True)
-    assert trace.loops["adhesion-loop adhesion_1"].x == pytest.approx([20.0, 20.0, 20.0])
 
 
 def test_the_deceleration_of_a_constant_brake_is_constant_to_the_ends_of_what_was_measured():

@@ -164,6 +164,7 @@ class Decided:
         down_to: definition that holds the train speed at which the span ends, and so do the bounds.
         level: whether the value is a height in the plot, as its bounds are.
         across: key of the plot along whose axis the value lies, as its bounds do; empty where there is none.
+        along_distance: the value is a distance, not a time.
         word: before the value in its mark; at the end before the speed there, which takes its place.
         span_name: what the span is called where it is not the whole stop.
 
@@ -179,6 +180,7 @@ class Decided:
     down_to: str = ""
     level: bool = False
     across: str = ""
+    along_distance: bool = False
     word: str = ""
     span_name: str = ""
 

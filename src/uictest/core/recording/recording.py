@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.recording.formats import UnreadableError
+from uictest.core.recording.formats import UnreadableError, required_module
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -55,9 +55,10 @@ def figure_of(channels: Channels, units: Mapping[str, str], patterns: Sequence[s
 
     Raises:
         KeyError: a pattern names no channel.
+        MissingExtraError: plotly, of the extra `plot`, is not installed.
 
     """
-    from plotly.subplots import make_subplots
+    make_subplots = required_module("plotly.subplots", "plot").make_subplots
 
     time, *others = channels
     names = list(_chosen(others, patterns)) if patterns is not None else _recorded(channels, others)
@@ -157,7 +158,7 @@ class Recording:
             channels: names, in which `*` stands for any characters [default: speeds, slides, cylinder
                 pressures and clamping forces].
 
-        Raises KeyError for a name that is no channel.
+        Raises KeyError for a name that is no channel, MissingExtraError without the extra `plot`.
         """
         return figure_of(self.channels, self.units, channels)
 

@@ -15,11 +15,11 @@ from uictest.report.difference import Difference, case_explanation, case_word
 from uictest.report.escaping import printable
 from uictest.report.page.links import case_anchor, fragment
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
+from uictest.report.page.stop.drawing import Drawing, drawing_of
 from uictest.report.page.stop.margins import Margins, margins_of
-from uictest.report.page.stop.mark import Mark, vents
+from uictest.report.page.stop.mark import Mark
 from uictest.report.page.stop.marks import fault_marks, marks_of
-from uictest.report.page.stop.overlay_view import STEPS, packed, panel_form, script_json
-from uictest.report.page.stop.sketch import Sketch, sketch_of
+from uictest.report.page.stop.overlay_view import packed, panel_form, script_json
 from uictest.report.part_wording import slide_speed
 from uictest.report.traces.quantities import (
     COMPARED,
@@ -27,12 +27,13 @@ from uictest.report.traces.quantities import (
     PANELS,
     PLOT_QUANTITIES,
     STRIPS,
+    VENT,
     WHEELSETS,
     key_of,
     loop_lines,
     panel_lines,
 )
-from uictest.report.traces.trace import BINS, Curve, PlotTrace
+from uictest.report.traces.trace import BINS, MOST_SAMPLES, Curve, PlotTrace
 from uictest.report.traces.vent_cycles import VentCycle
 from uictest.report.verdict_sentences import real_time_sentences
 
@@ -54,7 +55,7 @@ class CaseView:
     word: str
     explanation: Sequence[str]
     headline: Sequence[HeadlineMeasure]
-    sketch: Sketch
+    drawing: Drawing
     data: str
     margins: Margins
     note: str
@@ -94,7 +95,7 @@ def case_view(
         case_word(result, differences),
         case_explanation(result, differences) if differences or not result.met else (),
         list(_headline(result)),
-        sketch_of(trace, marks),
+        drawing_of(trace),
         script_json(_data(result, subject, trace, marks)),
         margins_of(result.criteria, drawn.criteria, trace),
         " ".join(_notes(drawn, subject, trace)),
@@ -117,7 +118,7 @@ def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotT
     every = _milliseconds(trace.interval)
     recorded = f", but none between two samples, {every} apart" if subject.recorded else ""
     yield f"Valves show every change that was recorded{recorded}."
-    drawn = sum(len(vents(trace, n)) for n in WHEELSETS)
+    drawn = sum(len(trace.valve_spans(n, (VENT,))) for n in WHEELSETS)
     counted = sum(wheelset["valve_actuations"] for wheelset in result.wheelsets)
     if drawn < counted:
         yield (
@@ -129,10 +130,10 @@ def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotT
 def _sampling(trace: PlotTrace) -> Iterator[str]:
     """Yield how the points of a line were taken from the stop."""
     yield f"Sampled every {_milliseconds(trace.interval)}."
-    if trace.interval * BINS < trace.end - trace.start:
+    if trace.interval * MOST_SAMPLES < trace.end - trace.start:
         part = _milliseconds((trace.end - trace.start) / BINS)
-        yield f"A line shows the smallest and the largest sample of every {part}."
-    yield f"Values are rounded to 1/{STEPS} of the range of their line."
+        yield f"Drawn through the smallest and the largest sample of every {part}."
+    yield "Samples are rounded to a fifth of the last decimal that the cursor shows."
 
 
 def _milliseconds(seconds: float) -> str:
@@ -163,7 +164,8 @@ def plots_json() -> str:
     """Return what all cases have in common: panels, loops and their lines."""
     panels = [panel_form(panel, panel_lines(panel)) for panel in PANELS]
     loops = [
-        dataclasses.asdict(loop) | {"lines": [dataclasses.asdict(line) for _, line in loop_lines(loop)]}
+        dataclasses.asdict(loop)
+        | {"lines": [dataclasses.asdict(line) | {"over": across} for across, line in loop_lines(loop)]}
         for loop in LOOPS
     ]
     quantities = {key: dataclasses.asdict(quantity) for key, quantity in PLOT_QUANTITIES.items()}
@@ -184,15 +186,14 @@ def _data(
     result: evaluation.CaseResult, subject: CaseDescription, trace: PlotTrace, marks: Sequence[Mark]
 ) -> dict[str, Any]:
     states = {name: Curve(each.time, each.state.astype(np.float64)) for name, each in trace.states.items()}
+    steps = {name: PLOT_QUANTITIES[key_of(name)].step for name in trace.curves}
     return {
         "id": printable(result.id),
         "recorded": bool(subject.recorded),
         "sampling": " ".join(_sampling(trace)),
         "start": trace.start,
         "end": trace.end,
-        "over_time": packed({**trace.curves, **states}, trace.interval),
-        "loops": packed(trace.loops),
-        "states": list(states),
+        "over_time": packed({**trace.curves, **states}, trace.interval, steps),
         "marks": [dataclasses.asdict(mark) for mark in marks],
     }
 

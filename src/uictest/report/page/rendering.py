@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import zlib
 from collections.abc import Callable
 from functools import cache
 from importlib import resources
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from types import MappingProxyType
+from typing import Any, Final
 
 from jinja2 import DictLoader, Environment, StrictUndefined
 from jinja2.bccache import Bucket, BytecodeCache, bc_magic
@@ -40,39 +40,33 @@ from uictest.report.verdict_sentences import (
     without_rig_that_holds,
 )
 
-
-class PackedScript(NamedTuple):
-    """A script as a page holds it.
-
-    Args:
-        digest: SHA-256 of the script itself, Base64, by which a browser permits it.
-        packed: the script deflated, in Base64: less than half as long.
-
-    """
-
-    digest: str
-    packed: str
+_UPLOT: Final = MappingProxyType(
+    {
+        "uplot.iife.min.js": "2d27e8ad3d228164525ce213f9dc716f39b4e3aee0cc773fb3491c96cf4921a2",
+        "uplot.min.css": "df630c6a8d6f8eeaff264b50f73ce5b114f646ffd9a0bb74f049b0a00135fa04",
+    }
+)
+"""Files of uPlot 1.6.31 -> their SHA-256."""
 
 
 @cache
-def plotting_script() -> PackedScript:
-    """Return plotly's script. Raises ModuleNotFoundError where plotly is not installed."""
-    source = _source()
-    status = source.stat()
-    inputs = f"{source} {status.st_size} {status.st_mtime_ns}".encode()
-    kept = user_cache.read("plotly", inputs)
-    if kept is not None:
-        return PackedScript(*kept.decode("ascii").split())
-    # Reading turns every line end into a line feed, as a browser does before it takes the digest.
-    script = packed_script(source.read_text("utf-8"))
-    user_cache.write("plotly", inputs, "\n".join(script).encode("ascii"))
-    return script
+def uplot() -> tuple[str, ...]:
+    """Return the script and the style sheet of uPlot; nothing where they are missing, or not what they were.
 
-
-def packed_script(script: str) -> PackedScript:
-    """Return a script with its digest, packed. For plotly's script this takes as long as ten stops."""
-    text = script.encode("utf-8")
-    return PackedScript(script_digest(script), base64.b64encode(zlib.compress(text, 9)).decode("ascii"))
+    They are read from the package that carries them, which is not imported.
+    """
+    carrier = find_spec("youplot")
+    if carrier is None or carrier.origin is None:
+        return ()
+    folder = Path(carrier.origin).parent / "vendor"
+    try:
+        files = {name: (folder / name).read_bytes() for name in _UPLOT}
+    except OSError:
+        return ()
+    if any(hashlib.sha256(file).hexdigest() != _UPLOT[name] for name, file in files.items()):
+        return ()
+    # A browser turns every line end into a line feed before it takes the digest.
+    return tuple(file.decode("utf-8").replace("\r\n", "\n") for file in files.values())
 
 
 def script_digest(script: str) -> str:
@@ -80,27 +74,19 @@ def script_digest(script: str) -> str:
     return base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
 
 
-def _source() -> Path:
-    # The package is not imported: that takes a second.
-    package = find_spec("plotly")
-    if package is None or package.origin is None:
-        raise ModuleNotFoundError("plotly is not installed, and the page needs its script", name="plotly")
-    return Path(package.origin).parent / "package_data" / "plotly.min.js"
-
-
 _SCRIPTS = (
     "elements",
     "verdict_table",
-    "plotting",
     "packed_lines",
     "appearance",
     "values",
+    "viewer",
     "marks",
-    "bars",
+    "across",
     "panels",
     "loops",
     "csv",
-    "cursor",
+    "readout",
     "moments",
     "stops",
     "comparison",
@@ -148,15 +134,15 @@ def render(template: str, *, with_plots: bool, running_head: str = "", **context
         context: what the template is filled in with.
 
     """
-    page, plotly = _page_script(), plotting_script() if with_plots else None
+    page, (plotting, style) = _page_script(), (uplot() if with_plots else ()) or ("", "")
     return (
         _environment()
         .get_template(template)
         .render(
-            style=Markup(_page_style() + _running_head(running_head)),
+            style=Markup(style + _page_style() + _running_head(running_head)),
             script=Markup(page),
-            plotly=Markup(plotly.packed) if plotly else "",
-            policy=_policy(script_digest(page), *([plotly.digest] if plotly else [])),
+            plotting=Markup(plotting),
+            policy=_policy(*(script_digest(each) for each in (plotting, page) if each)),
             **context,
         )
     )

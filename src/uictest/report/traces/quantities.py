@@ -17,13 +17,22 @@ ORDINARY_CREEP = 10.0
 
 @dataclass(frozen=True, slots=True)
 class PlotQuantity:
-    """A channel as a page shows it: label, unit, how many SI units one of that is, its zero in SI units."""
+    """A channel as a page shows it: label, unit, how many SI units one of that is, its zero in SI units.
+
+    `decimals` are shown of its values.
+    """
 
     label: str
     unit: str
     scale: float = 1.0
     of_wheelsets: bool = False
     zero: float = 0.0
+    decimals: int = 1
+
+    @property
+    def step(self) -> float:
+        """To multiples of this a page rounds the samples it holds: a fifth of the last decimal shown."""
+        return 0.2 * 10.0**-self.decimals
 
 
 PLOT_QUANTITIES = {
@@ -32,17 +41,19 @@ PLOT_QUANTITIES = {
     "reference_speed": PlotQuantity("reference", "km/h", KILOMETRE_PER_HOUR),
     "wheel_speed": PlotQuantity("wheelset", "km/h", KILOMETRE_PER_HOUR, of_wheelsets=True),
     "slide": PlotQuantity("slide", "%", PERCENT, of_wheelsets=True),
-    "reservoir_pressure": PlotQuantity("reservoir", "bar", BAR),
-    "brake_line_pressure": PlotQuantity("brake line", "bar", BAR),
-    "tank_pressure": PlotQuantity("tank", "bar", BAR, of_wheelsets=True),
-    "cylinder_pressure": PlotQuantity("cylinder", "bar", BAR, of_wheelsets=True),
-    "clamping_force": PlotQuantity("clamping force", "kN", KILONEWTON, of_wheelsets=True),
-    "deceleration": PlotQuantity("deceleration", "g"),
-    "adhesion": PlotQuantity("adhesion", "1", of_wheelsets=True),
-    "friction": PlotQuantity("friction", "1", of_wheelsets=True),
-    "cleaned_share": PlotQuantity("cleaned share", "1", of_wheelsets=True),
-    "disc_temperature": PlotQuantity("disc", "degC", of_wheelsets=True, zero=CELSIUS_ZERO),
-    "disc_surface_temperature": PlotQuantity("disc surface", "degC", of_wheelsets=True, zero=CELSIUS_ZERO),
+    "reservoir_pressure": PlotQuantity("reservoir", "bar", BAR, decimals=2),
+    "brake_line_pressure": PlotQuantity("brake line", "bar", BAR, decimals=2),
+    "tank_pressure": PlotQuantity("tank", "bar", BAR, of_wheelsets=True, decimals=2),
+    "cylinder_pressure": PlotQuantity("cylinder", "bar", BAR, of_wheelsets=True, decimals=2),
+    "clamping_force": PlotQuantity("clamping force", "kN", KILONEWTON, of_wheelsets=True, decimals=2),
+    "deceleration": PlotQuantity("deceleration", "g", decimals=3),
+    "adhesion": PlotQuantity("adhesion", "1", of_wheelsets=True, decimals=3),
+    "friction": PlotQuantity("friction", "1", of_wheelsets=True, decimals=3),
+    "cleaned_share": PlotQuantity("cleaned share", "1", of_wheelsets=True, decimals=2),
+    "disc_temperature": PlotQuantity("disc", "degC", of_wheelsets=True, zero=CELSIUS_ZERO, decimals=0),
+    "disc_surface_temperature": PlotQuantity(
+        "disc surface", "degC", of_wheelsets=True, zero=CELSIUS_ZERO, decimals=0
+    ),
     "valve_command": PlotQuantity("valve", "1", of_wheelsets=True),
 }
 """Channel, less the number of the wheelset -> how it is shown. The deceleration is derived from the speed."""
@@ -169,7 +180,6 @@ class PlotLoop:
 
 
 LOOPS = (
-    PlotLoop("over-distance", "Speed over distance", "distance", "speed", "distance, m", "speed, km/h"),
     PlotLoop(
         "force-loop",
         "Clamping force over tank pressure",

@@ -13,12 +13,10 @@ from uictest.core.units import STANDARD_GRAVITY
 from uictest.judging import evaluation
 from uictest.report.traces.moments import Moments, moments_of
 from uictest.report.traces.quantities import (
-    LOOPS,
     OF_CLEANED_RAIL,
     PLOT_QUANTITIES,
     WHEELSETS,
     channel_names,
-    loop_lines,
 )
 from uictest.report.traces.vent_cycles import VentCycle, vent_cycles
 
@@ -79,11 +77,10 @@ def _spans(record: recording.Recording, label: str, bit: int) -> Iterator[FaultS
         yield FaultSpan(label, float(time[first]), float(time[min(after, len(time) - 1)]))
 
 
+MOST_SAMPLES = 20_000
+"""A record with more is drawn through the extremes of its channels; 200 s at 100 Hz, chosen."""
 BINS = 800
-"""Parts of a stop of which a line shows the smallest and the largest sample: about one per pixel."""
-
-LOOP_BINS = 400
-"""Parts of a stop of which a loop shows the extremes of both its quantities; chosen."""
+"""Into so many parts such a record is divided: about one per pixel."""
 
 DECELERATION_WINDOW = 0.5
 """s: over how long the deceleration that is drawn is averaged; chosen to show what a passenger feels."""
@@ -123,10 +120,9 @@ class PlotTrace:
     Args:
         start, end: first and last time of the record, s since the brake command.
         interval: time between two samples of the record, s.
-        curves: name -> line over time (s), in the unit of `quantities.QUANTITIES`; wheelsets have
-            `_1` .. `_4` at the end.
+        curves: name -> line over time (s), in the unit of `quantities.PLOT_QUANTITIES`; wheelsets have
+            `_1` .. `_4` at the end. All share one array of times.
         states: name -> states over time.
-        loops: key of a loop and name of its upper series, with a blank between -> line.
         derived: names of the curves that the record does not hold.
         moments: id of a criterion -> when it was decided.
         faults: when faults were active.
@@ -139,11 +135,19 @@ class PlotTrace:
     interval: float
     curves: Mapping[str, Curve]
     states: Mapping[str, States] = field(default_factory=dict)
-    loops: Mapping[str, Curve] = field(default_factory=dict)
     derived: tuple[str, ...] = ()
     moments: Mapping[str, Moments] = field(default_factory=dict)
     faults: tuple[FaultSpan, ...] = ()
     vents: tuple[VentCycle, ...] = ()
+
+    def valve_spans(self, n: int, wanted: Sequence[int]) -> list[tuple[float, float]]:
+        """Return when (s) the valve of a wheelset is in one of some states; what follows at once is one."""
+        states = self.states.get(f"valve_command_{n}")
+        if states is None:
+            return []
+        times = np.append(states.time, self.end)
+        ends = np.flatnonzero(np.diff(np.isin(states.state, wanted), prepend=False, append=False))
+        return [(float(times[a]), float(times[b])) for a, b in ends.reshape(-1, 2).tolist()]
 
 
 def trace_of(
@@ -151,7 +155,7 @@ def trace_of(
     verdicts: Iterable[evaluation.Verdict] = (),
     wheelsets: Sequence[Mapping[str, float]] = (),
 ) -> PlotTrace:
-    """Return what is drawn of a stop: the extremes of every signal, every change of a state.
+    """Return what is drawn of a stop: every sample, or of many the extremes; every change of a state.
 
     Args:
         record: samples of the stop, SI.
@@ -163,13 +167,14 @@ def trace_of(
     channels = dict(record.channels) | _derived(record)
     series = _in_units(_without_slides_at_rest(channels))
     states = {name for state in STATES for name in channel_names(state)}
+    rows = _drawn_rows([samples for name, samples in series.items() if name not in states])
+    drawn = time[rows]
     return PlotTrace(
         float(time[0]),
         float(time[-1]),
         interval_of(time),
-        {name: curve_of(time, samples) for name, samples in series.items() if name not in states},
+        {name: Curve(drawn, samples[rows]) for name, samples in series.items() if name not in states},
         {name: _states(time, samples) for name, samples in series.items() if name in states},
-        dict(_loops(series)),
         tuple(name for name in series if name not in record.channels),
         moments_of(verdicts, record, wheelsets),
         fault_spans(record),
@@ -238,26 +243,17 @@ def _in_units(channels: Mapping[str, Series]) -> dict[str, Series]:
         }
 
 
-def curve_of(time: Series, samples: Series) -> Curve:
-    """Return the line through the extremes of a signal."""
-    rows = thinned(samples, BINS)
-    return Curve(time[rows], samples[rows])
+def _drawn_rows(signals: Sequence[Series]) -> slice | Rows:
+    """Return the rows of which a line shows a point: all, or of a long record those of any extreme."""
+    if not signals or len(signals[0]) <= MOST_SAMPLES:
+        return slice(None)
+    return np.unique(np.concatenate([thinned(each, BINS) for each in signals]))
 
 
 def _states(time: Series, samples: Series) -> States:
     state = np.where(np.isfinite(samples), np.rint(samples), UNKNOWN).astype(np.int64)
     changes = np.flatnonzero(np.diff(state, prepend=state[0] - 1))
     return States(time[changes], state[changes])
-
-
-def _loops(series: Mapping[str, Series]) -> Iterator[tuple[str, Curve]]:
-    for loop in LOOPS:
-        for across, line in loop_lines(loop):
-            if across in series and line.series in series:
-                x, y = series[across], series[line.series]
-                rows = np.union1d(thinned(x, LOOP_BINS), thinned(y, LOOP_BINS))
-                rows = rows[np.isfinite(x[rows])]
-                yield f"{loop.key} {line.series}", Curve(x[rows], y[rows])
 
 
 def interval_of(time: Series) -> float:

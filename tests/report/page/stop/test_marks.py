@@ -110,7 +110,7 @@ def test_the_braking_distance_is_a_band_and_a_distance_outside_an_instant_of_it_
 ):
     band, reached = marks("braking_distance", lower=440.0, upper=490.0, value=510.0, status=status)
     assert (band.label, reached.label) == (f"braking-distance: 440 .. 490 m{ending}", f"510 m{ending}")
-    assert (band.plot, band.kind, band.x0, band.x1) == ("over-distance", "band", 440.0, 490.0)
+    assert (band.plot, band.kind, band.x0, band.x1, band.along) == ("speed", "band", 440.0, 490.0, "distance")
     assert (reached.kind, reached.x0) == ("instant", 510.0)
     (alone,) = marks("braking_distance", lower=440.0, upper=490.0)
     assert alone.label == "braking-distance: 440 .. 490 m"

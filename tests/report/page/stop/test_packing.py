@@ -13,12 +13,17 @@ def _unpacked(content):
     """Read lines as the page's script does."""
     data = np.frombuffer(zlib.decompress(base64.b64decode(content["data"])), dtype="u1")
     numbers = data.reshape(2, -1).T.copy().view("<i2").ravel().astype(float)
-    curves, at = {}, 0
-    for name, line in content["lines"].items():
-        x, y = (np.cumsum(numbers[at + k * line["count"] :][: line["count"]]) for k in (0, 1))
-        at += 2 * line["count"]
-        up = np.where(y == 32767, np.nan, line["y"][0] + line["y"][1] * y)
-        curves[name] = (line["x"][0] + line["x"][1] * x, up)
+    counts = [grid["count"] for grid in content["grids"]]
+    counts += [counts[line["grid"]] for line in content["lines"].values()]
+    parts = [np.cumsum(part) for part in np.split(numbers, np.cumsum(counts)[:-1])]
+    across = [
+        grid["scale"][0] + grid["scale"][1] * part
+        for grid, part in zip(content["grids"], parts, strict=False)
+    ]
+    curves = {}
+    for (name, line), part in zip(content["lines"].items(), parts[len(across) :], strict=True):
+        offset, step = line["scale"]
+        curves[name] = (across[line["grid"]], np.where(part == 32767, np.nan, offset + step * part))
     return curves
 
 
@@ -40,6 +45,23 @@ def test_lines_come_back_within_a_fifty_thousandth_of_their_range(lines):
         rounding = 1e-12 * float(np.abs(known).max()) if len(known) else 0.0
         rounding += np.finfo(np.float64).tiny
         assert np.all(np.abs(y - series)[np.isfinite(series)] <= 2e-5 * span + rounding)
+
+
+@given(st.lists(st.floats(-300.0, 300.0) | st.just(float("nan")), min_size=1, max_size=50))
+def test_values_with_a_step_come_back_as_multiples_of_it(values):
+    series = np.array(values)
+    packed_lines = packed({"a": Curve(np.arange(float(len(values))), series)}, steps={"a": 0.02})
+    ((_, back),) = _unpacked(packed_lines).values()
+    assert np.allclose(back, series, rtol=0.0, atol=0.01 + 1e-9, equal_nan=True)
+    known = back[np.isfinite(back)] / 0.02
+    assert known == pytest.approx(np.rint(known), abs=1e-6)
+
+
+def test_lines_over_one_array_of_times_share_it():
+    time = np.arange(5.0)
+    content = packed({"a": Curve(time, time), "b": Curve(time, -time), "c": Curve(time.copy(), time)})
+    assert len(content["grids"]) == 2
+    assert [line["grid"] for line in content["lines"].values()] == [0, 0, 1]
 
 
 @pytest.mark.parametrize("interval", [0.0, 0.01])

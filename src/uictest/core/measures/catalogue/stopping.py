@@ -54,7 +54,7 @@ MEASURES = (
         course="grows",
         meaning="distance from the brake command to standstill, not corrected for the initial speed",
         read=lambda stop, wheelsets, definition: braking_distance(stop),
-        decided=Decided(how="end", plot="speed", across="over-distance"),
+        decided=Decided(how="end", plot="speed", across="speed", along_distance=True),
         recorded=RecordedData(("speed", "distance"), when="ends"),
         column=StopColumn(
             "braking_distance_m",

@@ -5,4 +5,5 @@ from .problems import (
     MissingExtraError as MissingExtraError,
     ReadingInterruptedError as ReadingInterruptedError,
     UnreadableError as UnreadableError,
+    required_module as required_module,
 )

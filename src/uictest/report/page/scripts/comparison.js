@@ -1,45 +1,37 @@
 /* Cases that are chosen in the table, laid over each other over the time since the brake command. */
 const MOST_COMPARED = 8;
-const CASE_DASHES = ["solid", "6px,2px", "2px,2px", "8px,2px,2px,2px"];
+const CASE_DASHES = [[], [6, 2], [2, 2], [8, 2, 2, 2]];
 const styleOf = (place) => ({ ink: `compared-${place + 1}`, dash: CASE_DASHES[place % CASE_DASHES.length] });
 
-const comparedRow = (stops, panel) => ({
-  title: `${panel.title}, ${panel.unit}`,
-  height: 112 * panel.height,
-  yaxis: { nticks: 5 },
-  include: panel.include,
-  traces: (wheelsets) =>
+const comparedRow = (stops, axes, panel) => ({
+  key: panel.key, title: `${panel.title}, ${panel.unit}`, height: 112 * panel.height, include: panel.include,
+  lines: (wheelsets) =>
     stops.flatMap((stop, place) =>
       panel.lines
         .filter((each) => each.series in stop.curves && inColumn(wheelsetOf(each.role), wheelsets))
-        .map((each) => {
-          const { ink, dash } = styleOf(place);
-          const wide = each.role === "train" && panel.lines.length > 1;
-          return { ...line(each, stop.curves[each.series]), line: { color: colour(ink), width: wide ? 2.4 : 1.4, dash }, name: stop.id };
-        })),
+        .map((each) => ({ ...lineOf(stop, axes[place], each), ...styleOf(place), label: stop.id,
+          width: each.role === "train" && panel.lines.length > 1 ? 2.4 : 1.4 }))),
 });
 
 /* The valves of each case in a row of its own: a thin bar while held, a full one while vented. */
-const comparedValves = (stops, lanes) => ({
-  title: "WSP valves: vent magnet, pale where only held",
-  height: 16 * stops.length + 10,
-  yaxis: { fixedrange: true, tickvals: stops.map((_, place) => place + 1), range: [stops.length + 0.5, 0.5], showgrid: false },
-  traces: ([n]) =>
-    stops
-      .flatMap((stop, place) => lanes.map((lane) => ({
-        ...magnetBars(stop, { ...lane, offset: 0 }, n, place + 1, styleOf(place).ink, 0.34),
-        opacity: lane.label === "hold" ? 0.35 : 1,
-      })))
-      .filter((each) => each.x.length),
+const comparedValves = (stops, axes, lanes) => ({
+  key: "valves", title: "WSP valves: vent magnet, pale where only held", height: 16 * stops.length + 10, include: [],
+  ticks: new Map(stops.map((_, place) => [place + 1, String(place + 1)])), ruled: false, range: [0.5, stops.length + 0.5],
+  lines: () => [],
+  bars: ([n]) =>
+    stops.flatMap((stop, place) => lanes.map((lane) => ({
+      ...magnetBars(stop, axes[place], { ...lane, offset: 0 }, n, place + 1, styleOf(place).ink, 0.34),
+      opacity: lane.label === "hold" ? 0.35 : 1,
+    }))),
 });
 
-const comparedFigure = (stops, width, wheelset) => {
+const comparedFigure = (stops, axes, width, wheelset) => {
   const panels = common.compared.filter((panel) => panel.lines.some((each) => stops.some((stop) => each.series in stop.curves)));
-  const [speed, ...others] = panels.map((panel) => comparedRow(stops, panel));
+  const [speed, ...others] = panels.map((panel) => comparedRow(stops, axes, panel));
   const lanes = common.strips.find((strip) => strip.lanes.length).lanes;
-  const rows = stops.some((stop) => "valve_command_1" in stop.curves) ? [speed, comparedValves(stops, lanes), ...others] : [speed, ...others];
+  const rows = stops.some((stop) => "valve_command_1" in stop.curves) ? [speed, comparedValves(stops, axes, lanes), ...others] : [speed, ...others];
   const columns = wheelset === "apart" && width > 640 ? ROWS.map((n) => [n]) : [[Number(wheelset) || 1]];
-  return gridFigure({ rows, columns, width, start: Math.min(...stops.map((stop) => stop.start)), end: Math.max(...stops.map((stop) => stop.end)) });
+  return { rows, columns, start: Math.min(...axes.map(({ start }) => start)), end: Math.max(...axes.map(({ end }) => end)), across: axes[0] };
 };
 
 /* Rows of the table: what the cursor reads of each case, then the measures that its own part of the page names. */
@@ -57,9 +49,9 @@ const comparedTable = (table, stops, wheelset) => {
     const own = body.insertRow();
     own.append(make("th", label, { scope: "row" }), ...cells);
   };
+  const read = (key, name) => [name, quantityText(common.quantities[key]), common.quantities[key].decimals];
   const followed = [
-    ...TRAIN_ROWS.filter(([name]) => ["speed", "distance", "deceleration"].includes(name)),
-    ...WHEELSET_ROWS.map(([name, label, decimals]) => [`${name}_${n}`, label, decimals]),
+    ...["speed", "distance", "deceleration"].map((key) => read(key, key)), ...rowsRead.map((key) => read(key, `${key}_${n}`)),
   ].filter(([name]) => stops.some((stop) => name in stop.curves));
   for (const [name, label, decimals] of followed) {
     const cells = stops.map(() => make("td", "", { class: "number" }));
@@ -85,7 +77,7 @@ const caseKey = (stop, place) => {
   const stroke = document.createElementNS("http://www.w3.org/2000/svg", "path");
   stroke.setAttribute("d", "M1 4H23");
   stroke.setAttribute("class", "line");
-  stroke.style.cssText = `stroke:var(--${ink});stroke-width:2;stroke-dasharray:${dash === "solid" ? "none" : dash}`;
+  stroke.style.cssText = `stroke:var(--${ink});stroke-width:2;stroke-dasharray:${dash.length ? dash : "none"}`;
   swatch.append(stroke);
   entry.append(swatch, `${place + 1} `, make("a", stop.id, { href: `#${stop.fragment}` }), stop.recorded ? " (recorded)" : "");
   return entry;
@@ -95,7 +87,8 @@ const offerComparison = (section, boxes, bar) => {
   const panels = first(".compared-plot", section);
   const slider = first("input", section);
   const known = new Map();
-  let [stops, move, mark, at, choices] = [[], () => {}, null, 0, 0];
+  let [stops, axes, move, at, choices] = [[], [], () => {}, 0, 0];
+  const view = viewer(panels, { moved: (x) => show(axes[0].time(x)), pinned: () => {} });
 
   const stopAt = async (fragment) => {
     if (!known.has(fragment)) {
@@ -110,19 +103,14 @@ const offerComparison = (section, boxes, bar) => {
     slider.value = (slider.max * at) / (end() || 1);
     slider.setAttribute("aria-valuetext", `${text(at, 2)} seconds`);
     first("output", section).textContent = `${text(at, 2)} s`;
-    mark?.(at, at);
+    view.show("cursor-line", axes[0].at(at));
     move(at);
   };
-  const paint = async () => {
+  const paint = () => {
     if (stops.length < 2) return;
-    const Plotly = await plotly();
     const wheelset = chosen(section, "wheelset");
-    const { traces, layout } = comparedFigure(stops, panels.clientWidth, wheelset);
-    await Plotly.react(panels, traces, layout, configOf(panels.clientWidth));
-    if (!mark) {
-      mark = uprights(panels, "cursor-line");
-      panels.on("plotly_hover", ({ xvals }) => show(xvals[0]));
-    }
+    axes = stops.map((stop) => axisOver(stop, "time"));
+    view.paint(comparedFigure(stops, axes, panels.clientWidth, wheelset));
     first(".cases", section).replaceChildren(...stops.map(caseKey));
     move = comparedTable(first("table", section), stops, wheelset);
     show(at);
@@ -138,7 +126,7 @@ const offerComparison = (section, boxes, bar) => {
     const read = await Promise.all(wanted.map((box) => stopAt(box.value)));
     if (own !== choices) return; /* Another choice was made while the stops were read. */
     stops = read;
-    await paint();
+    paint();
   };
   for (const box of boxes) box.addEventListener("change", choose);
   slider.addEventListener("input", () => show((slider.value / slider.max) * end()));
@@ -148,6 +136,7 @@ const offerComparison = (section, boxes, bar) => {
     choose();
     boxes[0].focus();
   });
+  offerZoom(first(".zoom", section), view);
   redraw.push(paint);
 };
 

@@ -1,23 +1,16 @@
 /* Two sides of a stop over each other, their difference beneath, over time or over distance: drawn once they
  * come near the window, with one cursor for all panels and the table. */
-const SIDE_STYLES = { "side-a": ["compared-1", "solid"], "side-b": ["compared-2", "6px,2px"], difference: ["train", "solid"] };
+const SIDE_STYLES = { "side-a": ["compared-1", []], "side-b": ["compared-2", [6, 2]], difference: ["train", []] };
 const SIDE_LINES = ["first", "second", "difference"];
 
-const sideRow = ({ curves, marks }, panel) => {
-  const isDifference = panel.lines.some((each) => each.role === "difference");
-  return {
-    title: `${panel.title}, ${panel.unit}`,
-    height: 112 * panel.height,
-    yaxis: { nticks: isDifference ? 4 : 5, zeroline: isDifference, zerolinecolor: colour("quiet"), zerolinewidth: 1 },
-    include: panel.include,
-    traces: () =>
-      panel.lines.filter((each) => each.series in curves).map((each) => {
-        const [ink, dash] = SIDE_STYLES[each.role];
-        return { ...line(each, curves[each.series]), line: { color: colour(ink), width: 1.5, dash } };
-      }),
-    marks: () => marks.filter((mark) => mark.plot === panel.key),
-  };
-};
+const sideRow = ({ curves, marks }, panel) => ({
+  key: panel.key, title: `${panel.title}, ${panel.unit}`, height: 112 * panel.height, include: panel.include,
+  lines: () => panel.lines.filter((each) => each.series in curves).map(({ label, role, series }) => {
+    const [ink, dash] = SIDE_STYLES[role];
+    return { label, ink, dash, width: 1.5, ...curves[series] };
+  }),
+  marks: () => marks.filter((mark) => mark.plot === panel.key),
+});
 
 /* A value of a line; none beyond its ends. */
 const valueWithin = (curve, at) =>
@@ -66,71 +59,67 @@ const abscissae = async (stop) => {
   return views;
 };
 
-const offerSideTables = (place, stop, views, shown) => {
-  const pairs = stop.panels.filter((panel) => panel.lines.length > 1);
-  for (const panel of pairs) {
-    const button = make("button", panel.title, { type: "button", "aria-label": `Download ${panel.title} as CSV` });
-    button.addEventListener("click", () => {
-      const { curves, head } = views[shown()];
-      const channel = panel.quantities[0];
-      const points = SIDE_LINES.flatMap((name, k) => {
-        const { x, y } = curves[`${name} ${channel}`] ?? { x: [], y: [] };
-        return Array.from(x, (at, row) => [["A", "B", "B - A"][k], panel.unit, numberText(at, 9), numberText(y[row], 7)]);
-      });
-      save(`${stop.id} ${channel}.csv`, csvOf(stop, panel.title, ["line", "unit", head, "value"], points));
-    });
-    place.append(button);
-  }
+/* The three lines of every channel, each over its own points. */
+const sideTable = (stop, { curves, head, panels }) => {
+  const rows = panels.filter((panel) => panel.lines.length > 1).flatMap(({ quantities: [channel], unit }) =>
+    SIDE_LINES.flatMap((name, k) => {
+      const { x, y } = curves[`${name} ${channel}`] ?? { x: [], y: [] };
+      return Array.from(x, (at, row) => [channel, ["A", "B", "B - A"][k], unit, numberText(at, 9), numberText(y[row] ?? NaN, 7)]);
+    }));
+  return csvOf(stop, ["channel", "line", "unit", head, "value"], rows);
 };
 
 const drawSides = async (plots) => {
-  const Plotly = await plotly();
   const stop = await stopOf(plots.nextElementSibling);
   const views = await abscissae(stop);
   const panels = first(".panels-plot", plots);
   const slider = first(".slider input", plots);
   const cells = all(".at-cursor tbody tr", plots).map(cursorCells);
   const shown = () => chosen(plots, "across") || "time";
+  const view = viewer(panels, { moved: (x) => show(x), pinned: () => {} });
   const paint = () => {
     const { curves, marks, start, end, title, panels: own } = views[shown()];
     const rows = own.map((panel) => sideRow({ curves, marks }, panel));
-    const { traces, layout } = gridFigure({ rows, columns: [ROWS], width: panels.clientWidth, start, end, across: title });
-    return Plotly.react(panels, traces, layout, configOf(panels.clientWidth));
+    view.paint({ rows, columns: [ROWS], start, end, across: { title, tick: (x) => x } });
+    if (at !== null) show(at);
   };
+  let at = null;
   panels.hidden = false;
-  for (const each of all(".sketch", plots)) each.hidden = true;
-  await paint();
-  redraw.push(paint);
-  const mark = uprights(panels, "cursor-line");
+  for (const each of all(".drawing", plots)) each.hidden = true;
   const show = (wanted) => {
-    const view = views[shown()];
-    const at = Math.max(view.start, Math.min(wanted, view.end));
-    slider.value = (slider.max * (at - view.start)) / (view.end - view.start || 1);
-    slider.setAttribute("aria-valuetext", `${text(at, 2)} ${view.unit}`);
-    first(".slider output", plots).textContent = `${text(at, 2)} ${view.unit}`;
-    for (const read of cells) read(view, at);
-    mark(at, at);
+    const own = views[shown()];
+    at = Math.max(own.start, Math.min(wanted, own.end));
+    slider.value = (slider.max * (at - own.start)) / (own.end - own.start || 1);
+    slider.setAttribute("aria-valuetext", `${text(at, 2)} ${own.unit}`);
+    first(".slider output", plots).textContent = `${text(at, 2)} ${own.unit}`;
+    for (const read of cells) read(own, at);
+    view.show("cursor-line", at);
   };
+  paint();
+  redraw.push(paint);
   slider.addEventListener("input", () => {
     const { start, end } = views[shown()];
     show(start + (slider.value / slider.max) * (end - start));
   });
-  panels.on("plotly_hover", ({ xvals }) => show(xvals[0]));
+  offerZoom(first(".zoom", plots), view);
   const choice = first('[data-choice="across"]', plots);
-  choice?.addEventListener("change", async () => {
-    await paint();
-    show(views[shown()].start);
+  choice?.addEventListener("change", () => {
+    at = views[shown()].start;
+    paint();
   });
   for (const button of all("button.moment", plots))
-    button.addEventListener("click", async () => {
+    button.addEventListener("click", () => {
+      at = Number(button.dataset.at);
       if (choice && choice.value !== "time") {
         choice.value = "time";
-        await paint();
+        paint();
       }
-      show(Number(button.dataset.at));
+      if (at < view.inView()[0] || at > view.inView()[1]) view.all();
+      show(at);
       panels.scrollIntoView({ block: "nearest" });
     });
-  offerSideTables(first(".tables", plots), stop, views, shown);
+  const button = first(".tables", plots).appendChild(make("button", "Save as CSV", { type: "button", "aria-label": `Save the points of ${stop.id} as CSV` }));
+  button.addEventListener("click", () => save(`${stop.id}.csv`, sideTable(stop, views[shown()])));
   show(Number(first("button.moment", plots)?.dataset.at ?? stop.start));
   plots.dataset.ready = "yes";
 };

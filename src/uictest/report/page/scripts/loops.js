@@ -1,18 +1,17 @@
-/* One quantity over another. A loop of wheelsets shows one of them, and which way it is run through. */
+/* One quantity over another, of one wheelset, while the plots over time show that part of the stop. */
 const loopsIn = (stop) =>
-  common.loops.filter((loop) => loop.lines.some((each) => `${loop.key} ${each.series}` in stop.loops));
+  common.loops.filter((loop) => loop.lines.some(({ series, over }) => series in stop.curves && over in stop.curves));
 
 const REVERSAL = 0.02; /* of the range: what is no reversal but noise */
-const ARROWS = 10;
 
 /* Whether x rises (1) or falls (-1) at each sample; it turns once it has come back by some share of its range. */
 const directions = (x) => {
-  let [low, high] = [Infinity, -Infinity];
-  for (const value of x) [low, high] = [Math.min(low, value), Math.max(high, value)];
+  const [low, high] = extentOf(x);
   const least = REVERSAL * (high - low);
   const result = new Int8Array(x.length);
   let [direction, extreme, turned] = [1, x[0], 0];
   x.forEach((value, k) => {
+    if (value === null) return;
     if (direction * (value - extreme) >= 0) [extreme, turned] = [value, k];
     else if (direction * (extreme - value) > least) {
       direction = -direction;
@@ -24,84 +23,79 @@ const directions = (x) => {
   return result;
 };
 
-/* The part of a curve that is run through in one direction; gaps between its pieces. */
-const partOf = ({ x, y }, way, direction) => {
-  const part = { x: [], y: [] };
-  for (let k = 1; k < x.length; k += 1) {
-    if (way[k] !== direction) continue;
-    if (way[k - 1] !== direction || k === 1) {
-      part.x.push(null, x[k - 1]);
-      part.y.push(null, y[k - 1]);
+/* Lines through the points, or the points themselves; where x falls a directed line is dashed and paler. */
+const paintLoop = (plot, { dots, directed }, { x, y, way }, ink, rows) =>
+  clipped(plot, (ctx, bbox, across, up, pixel) => {
+    ctx.globalAlpha = 0.75;
+    if (dots) {
+      ctx.fillStyle = colour(ink);
+      for (let k = rows[0]; k <= rows[1]; k += 1)
+        if (y[k] !== null && x[k] !== null) ctx.fillRect(across(x[k]) - pixel, up(y[k]) - pixel, 2.4 * pixel, 2.4 * pixel);
+      return;
     }
-    part.x.push(x[k]);
-    part.y.push(y[k]);
-  }
-  return part;
-};
-
-/* Arrowheads half-way through the longest pieces: a hidden point and a head that points away from it. */
-const arrowsOf = ({ x, y }, way, direction, style) => {
-  const pieces = [];
-  for (let k = 1, from = 0; k <= x.length; k += 1)
-    if (k === x.length || way[k] !== way[from + 1]) {
-      if (way[from + 1] === direction) pieces.push([Math.abs(x[k - 1] - x[from]), from, k - 1]);
-      from = k - 1;
+    ctx.lineWidth = 1.4 * pixel;
+    for (const direction of directed ? [1, -1] : [0]) {
+      ctx.strokeStyle = colour(direction < 0 ? "falling" : ink);
+      ctx.setLineDash(direction < 0 ? [4 * pixel, 2 * pixel] : []);
+      ctx.beginPath();
+      for (let k = rows[0] + 1; k <= rows[1]; k += 1) {
+        if (direction && way[k] !== direction) continue;
+        if ([x[k], y[k], x[k - 1], y[k - 1]].includes(null)) continue;
+        if (k === rows[0] + 1 || (direction && way[k - 1] !== direction) || y[k - 2] === null) ctx.moveTo(across(x[k - 1]), up(y[k - 1]));
+        ctx.lineTo(across(x[k]), up(y[k]));
+      }
+      ctx.stroke();
     }
-  const longest = pieces.sort(([a], [b]) => b - a).slice(0, ARROWS);
-  const heads = longest.map(([, from, to]) => {
-    const middle = (x[from] + x[to]) / 2;
-    for (let k = from + 1; k <= to; k += 1) if (direction * (x[k] - middle) >= 0) return k;
-    return to;
   });
-  return {
-    type: "scatter", mode: "markers", hoverinfo: "none", ...style,
-    x: heads.flatMap((k) => [x[k - 1], x[k]]), y: heads.flatMap((k) => [y[k - 1], y[k]]),
-    marker: { symbol: "arrow", angleref: "previous", size: heads.flatMap(() => [0, 10]), color: style.line.color },
+
+/* The plots of all loops of a stop, for the wheelset and the part of the stop that are chosen. */
+const loopPlots = (place, stop) => {
+  let plots = [];
+  let [rows, at] = [[0, Infinity], stop.start];
+  const put = () => {
+    for (const { plot, curve, dot } of plots) {
+      const [x, y] = [{ x: curve.time, y: curve.x }, { x: curve.time, y: curve.y }].map((each) => valueAt(each, at));
+      const [left, top] = [plot.valToPos(x, "x"), plot.valToPos(y, "y")];
+      dot.hidden = !(left >= 0 && left <= plot.over.clientWidth && top >= 0 && top <= plot.over.clientHeight);
+      dot.style.cssText = `left:${left}px;top:${top}px`;
+    }
   };
-};
-
-const directedTraces = (curve, each, place) => {
-  const way = directions(curve.x);
-  return [[1, colour(each.role), "solid"], [-1, colour("falling"), "4px,2px"]].flatMap(([direction, ink, dash]) => {
-    const style = { meta: each.role, name: direction > 0 ? "rising" : "falling", line: { color: ink, width: 1.4, dash }, ...place };
-    return [
-      { type: "scatter", mode: "lines", hoverinfo: "none", opacity: 0.7, connectgaps: false, ...partOf(curve, way, direction), ...style },
-      arrowsOf(curve, way, direction, style),
-    ];
-  });
-};
-
-const loopTraces = (loop, each, curve, place) => {
-  if (loop.directed) return directedTraces(curve, each, place);
-  const drawn = loop.dots ? { mode: "markers", marker: { color: colour(each.role), size: 3 } } : {};
-  return [line(each, { ...curve, opacity: 0.8, ...drawn, ...place }, true)];
-};
-
-const loopsFigure = (stop, width, wheelset) => {
-  const drawn = loopsIn(stop);
-  const count = drawn.length;
-  const stacked = width < 640;
-  const grid = { pattern: "independent", xgap: 0.16, ygap: 0.24, rows: stacked ? count : 1, columns: stacked ? 1 : count };
-  const traces = [];
-  const layout = { shapes: [], annotations: [], grid };
-  const pixels = (width - 60) / (stacked ? 1 : count * 1.16);
-  drawn.forEach((loop, k) => {
-    const tail = k ? k + 1 : "";
-    const [x, y] = [`x${tail}`, `y${tail}`];
-    const lines = loop.lines.filter((each) => inColumn(wheelsetOf(each.role), [wheelset]));
-    for (const each of lines) {
-      const curve = stop.loops[`${loop.key} ${each.series}`];
-      if (curve) traces.push(...loopTraces(loop, each, curve, { xaxis: x, yaxis: y }));
-    }
-    const own = lines.some((each) => wheelsetOf(each.role)) ? `, wheelset ${wheelset}` : "";
-    const titled = (text) => ({ text, font: { size: 11 }, standoff: 4 });
-    layout[`xaxis${tail}`] = axis({ nticks: 6, autorangeoptions: { include: loop.include }, title: titled(loop.across_title) });
-    layout[`yaxis${tail}`] = axis({ nticks: 6, title: titled(loop.up_title), automargin: true });
-    const marks = stop.marks.filter((mark) => mark.plot === loop.key);
-    for (const mark of marks)
-      if (mark.kind === "point") traces.push(pointOf(mark, x, y));
-      else layout.shapes.push(shapeOf(mark, x, y));
-    layout.annotations.push(...labelsAbove(labelRows(loop.title + own, marks, pixels, () => pixels), pixels, x, y));
-  });
-  return { traces, layout: frame({ ...layout, height: stacked ? 280 * count : 320, hovermode: false, margin: { l: 52, r: 8, t: 44, b: 44 } }) };
+  const addLoop = (cell, loop, line, wheelset) => {
+    const [across, up] = [stop.curves[line.over], stop.curves[line.series]];
+    const curve = { time: across.x, x: across.y, y: up.y, way: loop.directed && directions(across.y) };
+    cell.append(make("div", `${loop.title}, wheelset ${wheelset}`, { class: "plot-title" }));
+    const [x, y] = [spanOf([...loop.include, ...extentOf(curve.x)]), spanOf([0, ...extentOf(curve.y)])];
+    const titled = (label, size) => axisOf({ label, size, labelSize: 16, labelFont: axisOf().font, values: numbersOf });
+    const plot = new uPlot({
+      width: Math.floor(cell.clientWidth), height: 290, padding: [4, RIGHT, 0, 0], legend: { show: false },
+      cursor: { x: false, y: false, points: { show: false }, drag: { x: true, y: true, dist: 5 } },
+      scales: { x: { time: false, range: () => x }, y: { range: () => y } },
+      axes: [titled(loop.across_title, 24), titled(loop.up_title, LEFT)],
+      series: [{}, { show: false }],
+      hooks: { draw: [(own) => paintLoop(own, loop, curve, line.role, [Math.max(rows[0], 0), Math.min(rows[1], curve.x.length - 1)])], setScale: [() => queueMicrotask(put)] },
+    }, [x, [null, null]], cell);
+    plots.push({ plot, curve, loop, dot: plot.over.appendChild(make("div", "", { class: "cursor-dot" })) });
+  };
+  return {
+    paint: (wheelset) => {
+      for (const { plot } of plots) plot.destroy();
+      plots = [];
+      place.replaceChildren();
+      const lines = loopsIn(stop).map((loop) => [
+        loop, loop.lines.find((each) => inColumn(wheelsetOf(each.role), [wheelset]) && each.series in stop.curves)]);
+      const cells = lines.filter(([, line]) => line).map((each) => [place.appendChild(make("div", "", { class: "loop" })), ...each]);
+      for (const each of cells) addLoop(...each, wheelset);
+      place.plots = plots;
+      put();
+    },
+    within: (from, to) => {
+      const grid = plots[0]?.curve.time ?? [];
+      rows = [rowAt(grid, from), rowAt(grid, to) + 1];
+      for (const { plot } of plots) plot.redraw(false);
+    },
+    show: (time) => {
+      at = time;
+      put();
+    },
+  };
 };

@@ -1,36 +1,60 @@
-/* Criteria in the plots: limits, instants, windows. Their labels stand above a panel, where no data lie. */
+/* Criteria in the plots: limits, instants, windows, bars. Their labels stand above a panel, where no data lie. */
 const MARK_COLOURS = { pass: "good", fail: "bad", inconclusive: "odd", not_applicable: "quiet" };
-const inkOf = (mark) => colour(MARK_COLOURS[mark.status]);
+const MARKS_BELOW = ["window", "band", "tolerance"];
+const MARKS_ABOVE = ["limit", "mean", "instant", "point"];
 
-const shapeOf = (mark, xref, yref) => {
-  const x0 = mark.x0 ?? 0;
-  const x1 = mark.x1 ?? 1;
-  const across = mark.x0 === null && mark.x1 === null ? `${xref} domain` : xref;
-  const upright = { xref: across, yref: `${yref} domain`, x0, x1, y0: 0, y1: 1 };
-  if (mark.kind === "instant") return { type: "line", ...upright, line: { color: inkOf(mark), width: 2 } };
-  if (mark.kind === "tolerance")
-    return { type: "rect", layer: "below", xref: `${xref} domain`, yref, x0: 0, x1: 1, y0: -mark.y, y1: mark.y,
-             line: { width: 0 }, fillcolor: colour(`${MARK_COLOURS[mark.status]}-wash`) };
-  if (mark.y === null)
-    return { type: "rect", layer: "below", ...upright, opacity: 0.75, line: { width: 0 },
-             fillcolor: colour(mark.kind === "window" && mark.status === "fail" ? "bad-wash" : "window") };
-  return { type: "line", xref: across, yref, x0, x1, y0: mark.y, y1: mark.y,
-           line: { color: inkOf(mark), width: mark.kind === "mean" ? 2.6 : 1.5,
-                   dash: mark.kind === "mean" ? "solid" : "dash" } };
+/* Heights that an upright axis must include for the marks in it. */
+const heightsOf = (marks) => marks.flatMap(({ kind, y }) => (y === null || kind === "interval" ? [] : kind === "tolerance" ? [-y, y] : [y]));
+
+const clipped = (plot, draw) => {
+  const { ctx, bbox } = plot;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  draw(ctx, bbox, (x) => plot.valToPos(x, "x", true), (y) => plot.valToPos(y, "y", true), devicePixelRatio);
+  ctx.restore();
 };
 
-const pointOf = (mark, xaxis, yaxis) => ({
-  type: "scatter", mode: "markers", cliponaxis: false, x: [mark.x0], y: [mark.y], xaxis, yaxis, hoverinfo: "none", name: mark.criterion,
-  marker: { symbol: "circle-open", size: 10, color: inkOf(mark), line: { width: 2 } },
-});
+/* An open end of a mark is the end of the record. */
+const paintMarks = (plot, marks, kinds) => {
+  const own = marks.filter((mark) => kinds.includes(mark.kind));
+  if (!own.length) return;
+  clipped(plot, (ctx, bbox, across, up, pixel) => {
+    for (const { kind, status, x0, x1, y } of own) {
+      const [left, right] = [x0 === null ? bbox.left : across(x0), x1 === null ? bbox.left + bbox.width : across(x1)];
+      ctx.setLineDash(kind === "limit" ? [6 * pixel, 4 * pixel] : []);
+      ctx.lineWidth = { limit: 1.5, mean: 2.6 }[kind] * pixel || 2 * pixel;
+      ctx.strokeStyle = colour(MARK_COLOURS[status]);
+      ctx.fillStyle = kind === "tolerance" ? colour(`${MARK_COLOURS[status]}-wash`) : colour(kind === "window" && status === "fail" ? "bad-wash" : "window");
+      ctx.globalAlpha = kind === "window" || kind === "band" ? 0.75 : 1;
+      ctx.beginPath();
+      if (kind === "tolerance") ctx.fillRect(bbox.left, up(y), bbox.width, up(-y) - up(y));
+      else if (MARKS_BELOW.includes(kind)) ctx.fillRect(left, bbox.top, right - left, bbox.height);
+      else if (kind === "point") ctx.arc(left, up(y), 4.5 * pixel, 0, 2 * Math.PI);
+      else if (kind === "instant") {
+        ctx.moveTo(left, bbox.top);
+        ctx.lineTo(left, bbox.top + bbox.height);
+      } else {
+        ctx.moveTo(left, up(y));
+        ctx.lineTo(right, up(y));
+      }
+      ctx.stroke();
+    }
+  });
+};
 
-/* An open end of a mark is the end of the record, so that zooming keeps it in its place. */
-const closedMarks = (stop) =>
-  stop.marks.map((mark) =>
-    mark.y !== null && (mark.x0 === null) !== (mark.x1 === null)
-      ? { ...mark, x0: mark.x0 ?? stop.start, x1: mark.x1 ?? stop.end }
-      : mark,
-  );
+/* Bars in rows: `spans` of x, in the row `row`, `half` of one high to each side; the shortest stays in sight. */
+const paintBars = (plot, { spans, row, half, ink, opacity = 1 }) =>
+  clipped(plot, (ctx, bbox, across, up, pixel) => {
+    ctx.fillStyle = colour(ink);
+    ctx.globalAlpha = opacity;
+    const [top, bottom] = [up(row - half), up(row + half)];
+    for (const [from, to] of spans) {
+      const left = Math.round(across(from));
+      ctx.fillRect(left, Math.min(top, bottom), Math.max(across(to) - left, pixel), Math.abs(bottom - top));
+    }
+  });
 
 const CHARACTER = 6.3; /* pixels of a letter of a label, about */
 const LABEL_ROW = 14;
@@ -40,7 +64,7 @@ const shortened = (text, width) =>
   widthOf(text) <= width ? text : `${text.slice(0, Math.max(Math.floor((width - 8) / CHARACTER) - 1, 1))}…`;
 
 /* Title and labels in rows above a panel, none over another. `pixel` gives the place of an x in the panel. */
-const labelRows = (title, marks, width, pixel) => {
+const labelsAbove = (title, marks, width, pixel) => {
   const rows = [[{ text: title, left: 0, right: widthOf(title) * 1.08 }]];
   const free = (row, left, right) => row.every((each) => right <= each.left || left >= each.right);
   for (const mark of marks.filter((each) => each.label)) {
@@ -51,14 +75,12 @@ const labelRows = (title, marks, width, pixel) => {
     if (row < 0) row = rows.push([]) - 1;
     rows[row].push({ text, left, right: left + own, mark });
   }
-  return rows;
+  return rows.map((row) => {
+    const line = make("div", "", { class: "label-row" });
+    for (const { text, left, mark } of row) {
+      const label = line.appendChild(make("span", text, { class: mark ? `mark mark-${mark.status}` : "plot-title" }));
+      label.style.left = `${left}px`;
+    }
+    return line;
+  });
 };
-
-const labelsAbove = (rows, width, x, y) =>
-  rows.flatMap((row, k) =>
-    row.map(({ text, left, mark }) => ({
-      text: plain(text), xref: `${x} domain`, yref: `${y} domain`, x: left / width, y: 1, xanchor: "left",
-      yanchor: "bottom", yshift: 2 + LABEL_ROW * (rows.length - 1 - k), showarrow: false,
-      font: { size: mark ? 11 : 12, color: mark ? inkOf(mark) : colour("ink") },
-    })),
-  );

@@ -1,137 +1,85 @@
-/* Rows of panels over one time axis, in one column or in one for each wheelset.
- *
- * A row has a `title`, a `height` in pixels, the settings of its upright axis and, for the wheelsets of a
- * column, its traces and its marks. */
-const MARGIN = { l: 44, r: 8, b: 40 };
-const COLUMN_GAP = 12;
-const MODEBAR = 22; /* pixels above the panels, so that it covers no label */
-const subplot = (letter, number) => (number > 1 ? `${letter}${number}` : letter);
-
-/* Where the columns lie, in shares of the width, and how many pixels one of them has. */
-const columnsOf = (count, width) => {
-  const inner = width - MARGIN.l - MARGIN.r;
-  const gap = (COLUMN_GAP * (count - 1)) / inner;
-  const share = (1 - gap) / count;
-  return { pixels: inner * share, domains: Array.from({ length: count }, (_, c) => {
-    const from = c * (share + COLUMN_GAP / inner);
-    return [from, Math.min(from + share, 1)];
-  }) };
-};
-
-/* What the upright axis of a row spans: all values in all columns, and what its settings include. */
-const AIR = 0.05;
-const spanOf = (traces, marks, include) => {
-  let [low, high] = [Infinity, -Infinity];
-  const add = (value) => {
-    if (value === null || !Number.isFinite(value)) return;
-    low = Math.min(low, value);
-    high = Math.max(high, value);
-  };
-  for (const trace of traces) trace.y.forEach(add);
-  for (const mark of marks) add(mark.y);
-  include.forEach(add);
-  const air = AIR * (high - low) || 1;
-  return low <= high ? [low - air, high + air] : [0, 1];
-};
-
-/* Without any trace a panel would be left out. */
-const NOTHING = { type: "scatter", mode: "lines", x: [0], y: [null], hoverinfo: "skip" };
-
-const gridFigure = ({ rows, columns, width, start, end, across = "time since the brake command, s" }) => {
-  const { pixels, domains } = columnsOf(columns.length, width);
-  const pixel = (time) => (Math.min(Math.max(time, start), end) - start) / (end - start || 1) * pixels;
-  const marks = rows.map((row) => columns.map((wheelsets, c) => row.marks?.(wheelsets, c) ?? []));
-  const labels = rows.map((row, r) =>
-    columns.map((_, c) => labelRows(c ? "" : row.title, marks[r][c], pixels, pixel)));
-  const gaps = labels.map((own) => 12 + LABEL_ROW * Math.max(...own.map((each) => each.length)));
-  const apart = columns.length > 1;
-  const over = apart ? 18 : 0;
-  const total = rows.reduce((sum, { height }, r) => sum + height + gaps[r], over);
-  const traces = [];
-  const layout = { shapes: [], annotations: [] };
-  let top = 1 - over / total;
-  rows.forEach((row, r) => {
-    const upper = top - gaps[r] / total;
-    top = Math.max(upper - row.height / total, 0);
-    const drawn = columns.map((wheelsets) => row.traces(wheelsets, apart));
-    for (const cell of drawn) if (!cell.length) cell.push(NOTHING);
-    const { range = spanOf(drawn.flat(), marks[r].flat(), row.include ?? []), ...settings } = row.yaxis;
-    columns.forEach((wheelsets, c) => {
-      const number = r * columns.length + c + 1;
-      const [x, y] = [subplot("x", c + 1), subplot("y", number)];
-      traces.push(...drawn[c].map((trace) => ({ ...trace, xaxis: x, yaxis: y })));
-      layout[`yaxis${number > 1 ? number : ""}`] = axis({
-        domain: [top, upper], anchor: x, range, ...settings, ...(c ? { matches: subplot("y", number - c), showticklabels: false } : {}),
-      });
-      for (const mark of marks[r][c]) {
-        if (mark.kind === "point") traces.push(pointOf(mark, x, y));
-        else if (mark.kind !== "interval") layout.shapes.push(shapeOf(mark, x, y));
-      }
-      layout.annotations.push(...labelsAbove(labels[r][c], pixels, x, y));
-    });
-  });
-  columns.forEach((wheelsets, c) => {
-    const last = (rows.length - 1) * columns.length + c + 1;
-    layout[`xaxis${c ? c + 1 : ""}`] = axis({
-      domain: domains[c], anchor: subplot("y", last), range: [start, end], ...(c ? { matches: "x" } : {}), nticks: apart ? 5 : 10,
-      title: { text: c ? "" : across, font: { size: 11, color: colour("quiet") }, standoff: 6 },
-    });
-    if (apart)
-      layout.annotations.push({ text: `wheelset ${wheelsets[0]}`, xref: `${subplot("x", c + 1)} domain`, yref: "paper", x: 0, y: 1,
-        xanchor: "left", yanchor: "top", showarrow: false, font: { size: 12, color: colour("ink"), weight: 600 } });
-  });
-  return { traces, layout: frame({ ...layout, height: total + MARGIN.b + MODEBAR, hovermode: "x", hoverdistance: -1,
-    dragmode: "zoom", margin: { ...MARGIN, t: MODEBAR } }) };
-};
-
-/* Panels with the strips below each of them, then the other strips; those with nothing to show left out. */
-const plotsOverTime = (stop) => {
-  const strips = common.strips.filter((strip) => stripBars(stop, strip, ROWS).length);
-  const under = (panel) => strips.filter((strip) => strip.below === panel.key);
-  const shown = (panel) => panel.lines.some((each) => each.series in stop.curves);
-  const placed = stop.panels.flatMap((panel) => [...(shown(panel) ? [panel] : []), ...under(panel)]);
-  return [...placed, ...strips.filter((strip) => !placed.includes(strip))];
-};
+/* The panels of a stop, and the strips between them. */
+const common = first("#plots") ? json(first("#plots")) : { panels: [], loops: [], strips: [], quantities: {}, compared: [] };
+const STATES = ["fill", "hold", "vent"];
+const ROWS = [1, 2, 3, 4];
 
 const wheelsetOf = (role) => Number(/^wheelset-([1-4])$/.exec(role)?.[1] ?? 0);
 const inColumn = (wheelset, wheelsets) => !wheelset || wheelsets.includes(wheelset);
 
-/* Marks of a plot in a column: what belongs to another wheelset is left out; common labels stand once. */
-const marksIn = (marks, key) => (wheelsets, c) =>
-  marks
-    .filter((mark) => mark.plot === key && inColumn(mark.wheelset, wheelsets))
-    .map((mark) => (c && !mark.wheelset ? { ...mark, label: "" } : mark));
+/* Line styles stand beside colours: a plot can be read in grey and by colour-blind eyes. */
+const DASHES = { "wheelset-2": [7, 2], "wheelset-3": [3, 2], "wheelset-4": [8, 2, 2, 2] };
 
-const panelRow = (stop, marks, panel) => ({
-  title: `${panel.title}, ${panel.unit}`,
-  height: 112 * panel.height,
-  yaxis: { nticks: 5 },
-  include: panel.include,
-  traces: (wheelsets, apart) =>
-    panel.lines
-      .filter((each) => each.series in stop.curves && inColumn(wheelsetOf(each.role), wheelsets))
-      .map((each) => line(each, stop.curves[each.series], apart)),
-  marks: marksIn(marks, panel.key),
+/* A line of a role in its colour; one that is `alone` in its panel needs no style of its own. */
+const lineOf = (stop, axis, { label, role, series, dotted }, alone) => ({
+  label, ink: role, width: role === "train" ? 2.2 : 1.3, dash: dotted ? [1, 2] : alone ? [] : DASHES[role],
+  x: axis.of(stop.curves[series]), y: stop.curves[series].y,
 });
 
-const stripRow = (stop, marks, strip, apart) => {
-  const rows = apart ? (strip.lanes.length ? strip.lanes.map((lane) => [1 + lane.offset, lane.label]) : []) : strip.rows;
+/* When the valve of a wheelset is in one of some states; such states that follow at once are one span. */
+const spansOf = (stop, n, wanted) => {
+  const { x, y } = stop.curves[`valve_command_${n}`] ?? { x: [], y: [] };
+  const spans = [];
+  y.forEach((value, k) => {
+    const to = x[k + 1] ?? stop.end;
+    if (!wanted.includes(Math.round(value))) return;
+    if (spans.length && spans.at(-1)[1] === x[k]) spans.at(-1)[1] = to;
+    else spans.push([x[k], to]);
+  });
+  return spans;
+};
+
+const magnetBars = (stop, axis, { label, offset, states }, n, row, ink = `wheelset-${n}`, half = 0.17) => ({
+  spans: spansOf(stop, n, states).map((span) => span.map(axis.at)), row: row + offset, half, ink, opacity: label === "hold" ? 0.6 : 1,
+});
+
+/* The bars of some wheelsets: each in its row, or where they stand `apart` in the only one. */
+const stripBars = (stop, axis, marks, { key, lanes }, wheelsets, apart, hidden) => {
+  const rowOf = (n) => (apart ? 1 : n);
+  const magnets = wheelsets.filter((n) => !hidden.has(`wheelset-${n}`))
+    .flatMap((n) => lanes.map((lane) => magnetBars(stop, axis, lane, n, rowOf(n))));
+  const intervals = marks
+    .filter((mark) => mark.plot === key && mark.kind === "interval" && wheelsets.includes(mark.y))
+    .map((mark) => ({ spans: [[mark.x0, mark.x1]], row: rowOf(mark.y), half: 0.46, ink: MARK_COLOURS[mark.status] + (lanes.length ? "-wash" : "") }));
+  return [...intervals, ...magnets].filter(({ spans }) => spans.length);
+};
+
+/* Marks of a plot in a column: what belongs to another wheelset is left out; common labels stand once. */
+const marksIn = (marks, key) => (wheelsets, column) =>
+  marks
+    .filter((mark) => mark.plot === key && inColumn(mark.wheelset, wheelsets))
+    .map((mark) => (column && !mark.wheelset ? { ...mark, label: "" } : mark));
+
+const stripRow = (stop, axis, marks, strip, apart, hidden) => {
+  const rows = !apart ? strip.rows : strip.lanes.map((lane) => [1 + lane.offset, lane.label]);
   return {
-    title: strip.heading,
-    height: Math.max(apart ? 26 : 72, 13 * rows.length),
-    yaxis: {
-      fixedrange: true, tickvals: rows.map(([row]) => row), ticktext: rows.map(([, label]) => label),
-      range: apart ? [1.5, 0.5] : [4.5, 0.5], showgrid: strip.lanes.length > 0,
-    },
-    traces: (wheelsets) => stripBars(stop, strip, wheelsets, apart),
-    marks: marksIn(marks, strip.key),
+    key: strip.key, title: strip.heading, height: Math.max(apart ? 30 : 72, 13 * rows.length),
+    ticks: new Map(rows), ruled: strip.lanes.length > 0, range: apart ? [0.5, 1.5] : [0.5, 4.5], include: [],
+    lines: () => [], marks: marksIn(marks, strip.key),
+    bars: (wheelsets) => stripBars(stop, axis, marks, strip, wheelsets, apart, hidden),
   };
 };
 
-const panelsFigure = (stop, width, apart = false) => {
-  const marks = closedMarks(stop);
-  const rows = plotsOverTime(stop).map((plot) =>
-    plot.lines ? panelRow(stop, marks, plot) : stripRow(stop, marks, plot, apart));
-  const columns = apart ? ROWS.map((n) => [n]) : [ROWS];
-  return gridFigure({ rows, columns, width, start: stop.start, end: stop.end });
+/* Panels with the strips below each of them, then the other strips; those with nothing to show left out. */
+const rowsOf = (stop, axis, apart, hidden) => {
+  const marks = marksOn(stop, axis);
+  const strips = common.strips
+    .filter((strip) => stripBars(stop, axis, marks, strip, ROWS, false, new Set()).length)
+    .map((strip) => [strip.below, stripRow(stop, axis, marks, strip, apart, hidden)]);
+  const rows = stop.panels
+    .filter((panel) => panel.lines.some((each) => each.series in stop.curves))
+    .flatMap((panel) => [
+      {
+        key: panel.key, title: `${panel.title}, ${panel.unit}`, height: 112 * panel.height, include: panel.include,
+        lines: (wheelsets) => panel.lines
+          .filter((each) => each.series in stop.curves && inColumn(wheelsetOf(each.role), wheelsets) && !hidden.has(each.role))
+          .map((each) => lineOf(stop, axis, each, apart)),
+        marks: marksIn(marks, panel.key),
+      },
+      ...strips.filter(([below]) => below === panel.key).map(([, row]) => row),
+    ]);
+  return [...rows, ...strips.map(([, row]) => row).filter((row) => !rows.includes(row))];
 };
+
+const figureOf = (stop, axis, apart, hidden) => ({
+  rows: rowsOf(stop, axis, apart, hidden), columns: apart ? ROWS.map((n) => [n]) : [ROWS], start: axis.start, end: axis.end, across: axis,
+});

@@ -3,29 +3,12 @@ const redraw = [];
 const repaint = () => redraw.forEach((paint) => paint());
 
 const hiddenRoles = (plots) => new Set(all(".key input[data-role]:not(:checked)", plots).map((box) => box.dataset.role));
-
-const hideInSketches = (plots) => {
-  const hidden = hiddenRoles(plots);
-  for (const path of all(".sketch .line, .sketch .magnet", plots))
-    path.style.display = [...hidden].some((role) => path.classList.contains(`role-${role}`)) ? "none" : "";
-};
-
-/* Draws a figure into its place, or what has changed of it. */
-const paintFigure = (Plotly, plots, element, { traces, layout }) => {
-  const hidden = hiddenRoles(plots);
-  const shown = traces.map((trace) => (hidden.has(trace.meta) ? { ...trace, visible: false } : trace));
-  return Plotly.react(element, shown, layout, configOf(element.clientWidth));
-};
-
 const chosen = (plots, name) => first(`select[data-choice="${name}"]`, plots)?.value ?? "";
 
-/* Axes of the panel that shows a wheelset (0: the train) in the plot `key`. */
-const placesIn = (stop, apart) => (key, wheelset) => {
-  const row = plotsOverTime(stop).findIndex((plot) => plot.key === key);
-  if (row < 0) return null;
-  const column = apart() && wheelset ? wheelset : 1;
-  const axisName = (letter, number) => `${letter}axis${number > 1 ? number : ""}`;
-  return { x: axisName("x", column), y: axisName("y", row * (apart() ? ROWS.length : 1) + column) };
+const hideInDrawing = (plots) => {
+  const hidden = [...hiddenRoles(plots)];
+  for (const path of all(".drawing .line, .drawing .magnet", plots))
+    path.style.display = hidden.some((role) => path.classList.contains(`role-${role}`)) ? "none" : "";
 };
 
 const drawn = new WeakMap();
@@ -35,36 +18,82 @@ const draw = (plots) => {
 };
 
 const drawOnce = async (plots) => {
-  plots.dataset.drawn = "yes";
-  const Plotly = await plotly();
   const stop = await stopOf(plots.nextElementSibling);
   const panels = first(".panels-plot", plots);
-  const loops = first(".loops-plot", plots);
+  const slider = first(".readout input", plots);
+  for (const each of [panels, ...all(".js-plot", plots)]) each.hidden = false;
+  for (const each of all(".drawing", plots)) each.hidden = true;
+  let axis = axisOver(stop, "time");
+  let at = stop.start;
+  const reading = readout(plots, stop);
+  const loops = loopPlots(first(".loops-plot", plots), stop);
+  const show = (time) => {
+    at = Math.max(stop.start, Math.min(time, stop.end));
+    slider.value = (slider.max * (at - stop.start)) / (stop.end - stop.start || 1);
+    slider.setAttribute("aria-valuetext", `${text(at, 2)} seconds`);
+    first(".readout output", plots).textContent = `${text(at, 2)} s`;
+    view.show("cursor-line", axis.at(at));
+    reading.show(at);
+    loops.show(at);
+  };
+  const pin = (time) => {
+    reading.pin(time);
+    view.show("pinned-line", time === null ? null : axis.at(time));
+  };
+  const view = viewer(panels, {
+    moved: (x) => show(axis.time(x)),
+    pinned: (x) => pin(axis.time(x)),
+    ranged: ([low, high]) => loops.within(axis.time(low), axis.time(high)),
+  });
   const apart = () => chosen(plots, "view") === "apart" && plots.clientWidth > 640;
-  const wheelset = () => Number(chosen(plots, "wheelset") || 1);
-  const paintPanels = () => paintFigure(Plotly, plots, panels, panelsFigure(stop, panels.clientWidth, apart()));
-  const paintLoops = () => paintFigure(Plotly, plots, loops, loopsFigure(stop, loops.clientWidth, wheelset()));
-  const paint = () => Promise.all([paintPanels(), paintLoops()]);
-  for (const element of [panels, loops]) element.hidden = false;
-  for (const each of all(".sketch", plots)) each.hidden = true;
-  panels.placeOf = placesIn(stop, apart);
-  await paint();
+  const light = offerMoments(plots.closest("details"), panels, { view, axis: () => axis, show });
+  const paintPanels = () => {
+    view.paint(figureOf(stop, axis, apart(), hiddenRoles(plots)));
+    pin(reading.pinned());
+    light();
+    show(at);
+  };
+  const paintLoops = () => loops.paint(Number(chosen(plots, "wheelset") || 1));
+  const paint = () => {
+    paintPanels();
+    paintLoops();
+  };
+  paint();
   redraw.push(paint);
-  const dots = loopDots(loops, stop, wheelset);
-  const show = cursor(plots, stop, panels, [dots]);
-  offerMoments(plots.closest("details"), panels, show);
+  const worthwhile = ({ status, kind, along, x0 }) => x0 !== null && along === "time" && (status !== "pass" || kind === "window");
+  show(stop.marks.find(worthwhile)?.x0 ?? stop.start);
   offerTables(first(".tables", plots), stop);
+
+  slider.addEventListener("input", () => show(stop.start + (slider.value / slider.max) * (stop.end - stop.start)));
+  first("button.pin", plots).addEventListener("click", () => pin(at));
+  first("button.unpin", plots).addEventListener("click", () => pin(null));
+  offerZoom(first(".zoom", plots), view);
   first('[data-choice="view"]', plots).addEventListener("change", paintPanels);
   first('[data-choice="wheelset"]', plots).addEventListener("change", paintLoops);
+  first('[data-choice="across"]', plots).addEventListener("change", ({ target: choice }) => {
+    const [low, high] = view.inView().map((x) => axis.time(x));
+    const whole = low <= stop.start && high >= stop.end;
+    axis = axisOver(stop, choice.value);
+    choice.value = axis.name;
+    paintPanels();
+    if (!whole) view.zoom(axis.at(low), axis.at(high));
+  });
   first(".key", plots).addEventListener("change", ({ target: box }) => {
     if (!box.dataset.role) return;
-    hideInSketches(plots);
-    paint();
+    hideInDrawing(plots);
+    paintPanels();
   });
   plots.dataset.ready = "yes";
 };
 
-/* The drawings stand in for the plots until these come near the window: their script takes a second to run. */
+/* Buttons for what dragging and a double click do. */
+const offerZoom = (place, view) => {
+  const steps = { in: [0.5], out: [2], back: [1, -0.25], on: [1, 0.25] };
+  for (const button of all("button", place))
+    button.addEventListener("click", () => (steps[button.value] ? view.scale(...steps[button.value]) : view.all()));
+};
+
+/* The drawings stand in for the plots until these come near the window. */
 if (canPlot) {
   const near = new IntersectionObserver((entries) => {
     for (const { isIntersecting, target: plots } of entries) if (isIntersecting) setTimeout(() => draw(plots));

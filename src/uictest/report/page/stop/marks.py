@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, Literal
 
 from uictest.core.measures import MEASURES, Decided
 from uictest.core.units import SIZES
@@ -53,7 +53,7 @@ def _decided(verdict: evaluation.Verdict) -> Decided | None:
 def _marks(verdict: evaluation.Verdict, decided: Decided, trace: PlotTrace) -> Iterator[Mark]:
     moments = trace.moments.get(verdict.id, Moments())
     if decided.across:
-        yield from _band(verdict, decided.across)
+        yield from _band(verdict, decided)
     elif decided.how == "end":
         if verdict.status != "pass":
             what = f"{decided.word} {_last_speed(trace)}" if decided.word else value_and_limits(verdict)
@@ -66,12 +66,14 @@ def _marks(verdict: evaluation.Verdict, decided: Decided, trace: PlotTrace) -> I
         yield from _intervals(verdict, decided, moments)
 
 
-def _band(verdict: evaluation.Verdict, plot: str) -> Iterator[Mark]:
+def _band(verdict: evaluation.Verdict, decided: Decided) -> Iterator[Mark]:
     """Yield what lies within the bounds of a distance or a time and, unless it passed, what was reached."""
     label = printable(f"{verdict.id}: {limits(verdict, word='')}")
-    yield Mark(plot, "band", label, verdict.lower, verdict.upper)
+    along: Literal["time", "distance"] = "distance" if decided.along_distance else "time"
+    yield Mark(decided.across, "band", label, verdict.lower, verdict.upper, along=along)
     if verdict.value is not None and verdict.status != "pass":
-        yield instant(plot, verdict.value, quantity(verdict.value, verdict.unit))
+        reached = instant(decided.across, verdict.value, quantity(verdict.value, verdict.unit))
+        yield replace(reached, along=along)
 
 
 def _span(verdict: evaluation.Verdict, decided: Decided, moments: Moments) -> Iterator[Mark]:

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.report.escaping import printable
+from uictest.report.page.stop.drawing import Drawing, panels_over_time
 from uictest.report.page.stop.mark import Mark
-from uictest.report.page.stop.sketch import Sketch, panels_over_time
 from uictest.report.traces.quantities import Panel, PlotLine
 from uictest.report.traces.trace import Curve, PlotTrace
 
@@ -35,27 +35,45 @@ def script_json(content: Any) -> str:
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
 
 
-def packed(curves: Mapping[str, Curve], interval: float = 0.0) -> dict[str, Any]:
-    """Return lines as `{"lines": {name: {"count", "x", "y"}}, "data"}`; `x` and `y` are `[offset, step]`.
+def packed(
+    curves: Mapping[str, Curve], interval: float = 0.0, steps: Mapping[str, float] | None = None
+) -> dict[str, Any]:
+    """Return lines as `{"grids": [{"count", "scale"}], "lines": {name: {"grid", "scale"}}, "data"}`.
 
-    A value is offset + step x number, 32767 in y for missing. `data` holds the numbers of every line, x
-    before y, each as the difference from the number before it: signed, two bytes, all low bytes before all
-    high ones, deflated, base64. What is lost of a value is at most half a step, a sixty-thousandth of the
-    range; of an x that is a multiple of `interval`, nothing.
+    Lines that share their array of x share a grid, the number of which they name. A value is `scale[0]` +
+    `scale[1]` x number, 32767 in y for missing. `data` holds the numbers of every grid, then of every line,
+    each as the difference from the number before it: signed, two bytes, all low bytes before all high ones,
+    deflated, base64.
+
+    Args:
+        curves: lines by their names.
+        interval: x is a multiple of this, and kept exactly; 0 where it is not.
+        steps: name -> the step of its values; without one, or where the range has more than 32766, that is a
+            32766th of the range.
+
     """
-    lines, parts = {}, []
-    for name, curve in curves.items():
-        across, up = _scale_of_times(curve.x, interval), _scale(curve.y)
-        lines[name] = {"count": len(curve.x), "x": across, "y": up}
-        parts += [_differences(_numbers(curve.x, across)), _differences(_numbers(curve.y, up))]
-    numbers = np.concatenate(parts).astype("<i2") if parts else np.zeros(0, "<i2")
-    data = zlib.compress(numbers.view(np.uint8).reshape(-1, 2).T.tobytes(), 6)
-    return {"lines": lines, "data": base64.b64encode(data).decode("ascii")}
+    grids = {id(curve.x): curve.x for curve in curves.values()}
+    numbers = {key: number for number, key in enumerate(grids)}
+    across = {key: _scale_of_times(x, interval) for key, x in grids.items()}
+    up = {name: _scale(curve.y, (steps or {}).get(name, 0.0)) for name, curve in curves.items()}
+    parts = [
+        *(_differences(_numbers(x, across[key])) for key, x in grids.items()),
+        *(_differences(_numbers(curve.y, up[name])) for name, curve in curves.items()),
+    ]
+    data = np.concatenate(parts).astype("<i2") if parts else np.zeros(0, "<i2")
+    deflated = zlib.compress(data.view(np.uint8).reshape(-1, 2).T.tobytes(), 9)
+    return {
+        "grids": [{"count": len(x), "scale": across[key]} for key, x in grids.items()],
+        "lines": {name: {"grid": numbers[id(curve.x)], "scale": up[name]} for name, curve in curves.items()},
+        "data": base64.b64encode(deflated).decode("ascii"),
+    }
 
 
-def _scale(series: Series) -> Scale:
+def _scale(series: Series, step: float = 0.0) -> Scale:
     finite = series[np.isfinite(series)]
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
+    if step > 0.0 and high - low < (STEPS - 1) * step:
+        return float(np.floor(low / step)) * step, step
     return low, (high - low) / STEPS or 1.0
 
 
@@ -69,27 +87,22 @@ def _scale_of_times(times: Series, interval: float) -> Scale:
 def _numbers(series: Series, scale: Scale) -> NDArray[np.int64]:
     offset, step = scale
     known = np.isfinite(series)
-    return np.where(known, np.rint((np.where(known, series, offset) - offset) / step), _MISSING).astype(
-        np.int64
-    )
+    numbers = np.rint((np.where(known, series, offset) - offset) / step)
+    return np.where(known, numbers, _MISSING).astype(np.int64)
 
 
 def _differences(numbers: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.diff(numbers, prepend=np.int64(0))
 
 
-DrawnPanel = tuple[Panel, Sequence[PlotLine]]
-"""A panel with the lines it shows."""
-
-
 @dataclass(frozen=True, slots=True)
 class OverlayView:
-    """Panels drawn as sketches, and the JSON that they are drawn from when they can be zoomed.
+    """Panels as drawings, and the JSON that they are drawn from when they can be zoomed.
 
-    There is a sketch for each group of panels: a page of paper holds some, not all.
+    There is a drawing for each group of panels: a page of paper holds some, not all.
     """
 
-    sketches: list[Sketch]
+    drawings: list[Drawing]
     data: str
 
 
@@ -97,7 +110,7 @@ def overlay_view(
     title: str,
     sampling: str,
     trace: PlotTrace,
-    groups: Sequence[Sequence[DrawnPanel]],
+    groups: Sequence[Sequence[tuple[Panel, Sequence[PlotLine]]]],
     marks: Sequence[Mark],
     *,
     over_distance: Mapping[str, Curve],
@@ -122,13 +135,11 @@ def overlay_view(
         "end": trace.end,
         "over_time": packed(trace.curves, trace.interval),
         "over_distance": packed(over_distance),
-        "loops": packed({}),
-        "states": [],
         "marks": [dataclasses.asdict(mark) for mark in marks],
         "marks_over_distance": [dataclasses.asdict(mark) for mark in marks_over_distance],
         "panels": [panel_form(panel, lines) for group in groups for panel, lines in group],
     }
-    return OverlayView([panels_over_time(trace, group, marks) for group in groups], script_json(data))
+    return OverlayView([panels_over_time(trace, group) for group in groups], script_json(data))
 
 
 def panel_form(panel: Panel, lines: Sequence[PlotLine]) -> dict[str, object]:
