@@ -35,7 +35,7 @@ mark.style.cssText = `position:absolute; left:${Math.max(4, box.left + scrollX -
 document.body.append(mark);
 """
 _OPEN = "document.body.style.paddingLeft = '44px'; document.querySelector('details.stop').open = true"
-_PLOTTED = "return document.querySelectorAll('.plots[data-ready] .scatterlayer .trace').length > 0"
+_PLOTTED = "return document.querySelectorAll('.plots[data-ready] .panels-plot canvas').length > 0"
 
 
 def draw_stop(picture: Path, folder: Path) -> None:

@@ -6,9 +6,10 @@ import math
 
 import pytest
 
-from uictest.analysis.comparison.forest import forest
 from uictest.analysis.comparison.paired.difference import CONFIDENCE, PairedDifference, PairedGroup
+from uictest.analysis.comparison.paired.wording import effects
 from uictest.core.series_measures import Estimate
+from uictest.report.page import Forest, forest
 
 
 def _difference(quantity: str, mean: float, half: float, first: float = 100.0) -> PairedDifference:
@@ -16,21 +17,19 @@ def _difference(quantity: str, mean: float, half: float, first: float = 100.0) -
     return PairedDifference(quantity, "m", first, first + mean, estimate, estimate, 6, 0, 0)
 
 
-def _group(*differences: PairedDifference) -> PairedGroup:
-    return PairedGroup("stop", (0, 1, 2, 3, 4, 5), 6, 6, (0, 0), differences)
+def _drawn(*differences: PairedDifference) -> Forest | None:
+    return forest(effects(PairedGroup("stop", (0, 1, 2, 3, 4, 5), 6, 6, (0, 0), differences)))
 
 
 def test_the_largest_effect_stands_first_whatever_its_sign() -> None:
-    drawn = forest(
-        _group(_difference("a", 1.0, 0.5), _difference("b", -8.0, 1.0), _difference("c", 3.0, 1.0))
-    )
+    drawn = _drawn(_difference("a", 1.0, 0.5), _difference("b", -8.0, 1.0), _difference("c", 3.0, 1.0))
     assert drawn is not None
     assert [row.name for row in drawn.rows] == ["b", "c", "a"]
     assert [row.y for row in drawn.rows] == sorted(row.y for row in drawn.rows)
 
 
 def test_places_are_in_proportion_to_the_share_of_the_first_side() -> None:
-    drawn = forest(_group(_difference("a", 4.0, 2.0), _difference("b", 4.0, 2.0, first=200.0)))
+    drawn = _drawn(_difference("a", 4.0, 2.0), _difference("b", 4.0, 2.0, first=200.0))
     assert drawn is not None
     of_a, of_b = ([x - drawn.zero for x in (row.low, row.mean, row.high)] for row in drawn.rows)
     assert of_a == pytest.approx([2 * x for x in of_b])
@@ -38,15 +37,13 @@ def test_places_are_in_proportion_to_the_share_of_the_first_side() -> None:
 
 
 def test_a_dot_is_filled_where_the_interval_leaves_out_zero() -> None:
-    drawn = forest(
-        _group(_difference("a", 3.0, 1.0), _difference("b", 2.0, 2.5), _difference("c", -1.0, 0.5))
-    )
+    drawn = _drawn(_difference("a", 3.0, 1.0), _difference("b", 2.0, 2.5), _difference("c", -1.0, 0.5))
     assert drawn is not None
     assert {row.name: row.clear for row in drawn.rows} == {"a": True, "b": False, "c": True}
 
 
 def test_a_mean_beyond_the_axis_is_written_out() -> None:
-    drawn = forest(_group(_difference("a", 900.0, 1.0), _difference("b", 3.0, 1.0)))
+    drawn = _drawn(_difference("a", 900.0, 1.0), _difference("b", 3.0, 1.0))
     assert drawn is not None
     assert drawn.rows[0].name == "a, +900 %"
     assert drawn.rows[0].mean > drawn.rows[1].mean
@@ -54,4 +51,4 @@ def test_a_mean_beyond_the_axis_is_written_out() -> None:
 
 def test_what_has_no_share_or_no_interval_is_left_to_the_table() -> None:
     without = _difference("c", 1.0, math.nan)
-    assert forest(_group(_difference("a", 1.0, 0.5, first=0.0), without)) is None
+    assert _drawn(_difference("a", 1.0, 0.5, first=0.0), without) is None

@@ -183,6 +183,7 @@ def publish_validation(validated: validation.Validation, arguments: Sequence[str
             (validation.RESULT, validation.validation_json(validated)),
             ("figures.csv", report.csv_text(*validation.figures_table(validated))),
             ("stops.csv", report.csv_text(*validation.stops_table(validated))),
+            ("index.html", validation.validation_html(validated)),
             ("validation.md", report.document_markdown(validation.validation_document(validated))),
         ):
             files.write(folder.path, name, text)

@@ -131,6 +131,9 @@ def test_every_recorded_stop_has_a_draw_of_its_own_whatever_the_others_are(valid
     assert len(set(seeds.values())) == 3
     assert "simulated draws: one seed per stop, from the seed of its scenario" in answer.out
     assert "one seed per stop" in (newest() / "validation.md").read_text("utf-8")
+    page = (newest() / "index.html").read_text("utf-8")
+    assert "3 of 3 recorded stops counted" in page
+    assert "braking_distance_m: +" in page[page.index("limits of agreement") :]  # drawn, with its bias
     assert {row["draws"] for row in rows("figures.csv")} == {"one seed per stop"}
     shown = {row["stop"].rpartition(".")[2]: row["seed"] for row in rows("stops.csv")}
     assert {name: int(seed) for name, seed in shown.items()} == seeds

@@ -107,9 +107,7 @@ def test_single_stops_and_runs_that_are_the_same_say_nothing_of_pairs(make_repea
 def test_terminal_json_and_page_have_the_method_and_the_numbers(make_repeated):
     found = _compared([make_repeated(BEFORE)], [make_repeated({**AFTER, 4: 500.0})])
     lines = list(document_lines(comparison_document(found), None))
-    paired = lines.index(
-        "paired: slip: 3 pairs, seeds 1..3; without a partner: 0 of the first, 1 of the second"
-    )
+    paired = lines.index("paired: slip: 3 pairs, seeds 1..3; without a partner: 0 of one, 1 of other")
     assert "Student's t" in lines[paired - 1]
     assert "order statistics" in lines[paired - 1]
     row = lines[paired + 2].split("  ")
@@ -145,7 +143,7 @@ def test_variants_of_a_run_are_compared_with_the_first(make_repeated):
     groups = [group.name for each in found for group in each.groups]
     assert groups == ["slip[rail.friction=0.07]", "slip[rail.friction=0.09]"]
     assert found[0].not_paired[0].reason == "only controller=a has it"
-    assert "first controller=a, second controller=b" in list(document_lines(variants_document(found), None))
+    assert "controller=b against controller=a" in list(document_lines(variants_document(found), None))
     document = json.loads(variants_json("run", found))
     assert (document["kind"], len(document["variants"])) == ("variants", 2)
     assert "slip[rail.friction=0.07]" in variants_html("run", found)

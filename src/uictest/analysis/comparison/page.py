@@ -10,12 +10,12 @@ from typing import Any, Final
 
 from uictest.analysis.comparison.common_samples import ChannelDifference, WorstInstant, holds
 from uictest.analysis.comparison.difference import Comparison, verdict_line
-from uictest.analysis.comparison.forest import forest
 from uictest.analysis.comparison.overlay import BINS, Overlay, curve_name
 from uictest.analysis.comparison.paired.pairing import PairedComparison
 from uictest.analysis.comparison.paired.wording import (
-    METHOD,
+    effects,
     group_text,
+    method,
     paired_table,
     same_text,
 )
@@ -41,7 +41,7 @@ from uictest.report import (
     shown_unit,
     side_text,
 )
-from uictest.report.page import STEPS, Mark, OverlayView, case_anchor, fragment, overlay_view, render
+from uictest.report.page import STEPS, Mark, OverlayView, case_anchor, forest, fragment, overlay_view, render
 
 
 def quantity_title(difference: Difference) -> str:
@@ -181,7 +181,8 @@ def _with_unit(each: ChannelDifference, text: str) -> str:
 
 _PAIRED: Final[dict[str, Any]] = {
     "forest": forest,
-    "paired_method": METHOD,
+    "effects": effects,
+    "paired_method": method,
     "paired_table": paired_table,
     "group_text": group_text,
     "same_text": same_text,

@@ -20,6 +20,7 @@ from .domain import (
     domains_of as domains_of,
     is_condition as is_condition,
 )
+from .page import validation_html as validation_html
 from .report import (
     figures_table as figures_table,
     stops_table as stops_table,

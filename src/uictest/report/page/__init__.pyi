@@ -1,4 +1,5 @@
 from .axis import Axis as Axis, Tick as Tick
+from .forest import Effect as Effect, Forest as Forest, forest as forest
 from .links import case_anchor as case_anchor, fragment as fragment, series_anchor as series_anchor
 from .rendering import render as render
 from .run_page import page_html as page_html

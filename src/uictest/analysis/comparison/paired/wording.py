@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Final
 
 from uictest.analysis.comparison.paired.difference import CONFIDENCE, PairedDifference, PairedGroup
@@ -12,20 +12,33 @@ from uictest.core.document import Column, Document, Lines, Table
 from uictest.core.series_measures import Estimate
 from uictest.judging import evaluation
 from uictest.report import counted, number, percent_text, relative_percent
+from uictest.report.page import Effect
 
-METHOD: Final = (
-    "second - first, stop by stop under the same noise: mean with its interval by Student's t, median with"
-    f" its interval by order statistics, {100 * CONFIDENCE:g} % each"
-)
-"""How all paired differences are made."""
+_SHORT: Final = 24
+"""Letters: sides of a longer name are called A and B, lest a table has no room for figures; chosen."""
+
+
+def names_of(compared: PairedComparison) -> tuple[str, str]:
+    """Return what the sides are called in tables."""
+    sides = (compared.first, compared.second)
+    return sides if max(map(len, sides)) <= _SHORT else ("A", "B")
+
+
+def method(compared: PairedComparison) -> str:
+    """Return how paired differences are made."""
+    first, second = names_of(compared)
+    return (
+        f"{second} - {first}, stop by stop under the same noise: mean with its interval by Student's t,"
+        f" median with its interval by order statistics, {100 * CONFIDENCE:g} % each"
+    )
 
 
 def paired_sections(compared: PairedComparison) -> list[Table | Lines]:
     """Return a table per group that differs, and why the stops of the others do not pair."""
     groups = [group for group in compared.groups if differing(group)]
-    sections: list[Table | Lines] = [Lines([f"paired: {METHOD}"])] if groups else []
+    sections: list[Table | Lines] = [Lines([f"paired: {method(compared)}"])] if groups else []
     for group in groups:
-        sections += [Lines([f"paired: {group_text(group)}"]), paired_table(group)]
+        sections += [Lines([f"paired: {group_text(group, compared)}"]), paired_table(group, compared)]
         sections.append(Lines(list(filter(None, [same_text(group)]))))
     sections.append(Lines([f"not paired: {each.name}: {each.reason}" for each in compared.not_paired]))
     return sections
@@ -35,7 +48,7 @@ def variants_document(compared: Sequence[PairedComparison]) -> Document:
     """Return every variant of a run, under the names of both sides."""
     sections: list[Table | Lines] = []
     for each in compared:
-        sections.append(Lines([f"first {each.first}, second {each.second}"]))
+        sections.append(Lines([f"{each.second} against {each.first}"]))
         sections += paired_sections(each)
         if not each.not_paired and not any(map(differing, each.groups)):
             none = "no difference in any pair" if each.groups else "no case or series has several stops"
@@ -43,14 +56,14 @@ def variants_document(compared: Sequence[PairedComparison]) -> Document:
     return Document("Variants", sections)
 
 
-def group_text(group: PairedGroup) -> str:
+def group_text(group: PairedGroup, compared: PairedComparison) -> str:
     """Return which stops of a group pair."""
     pairs = f"{group.name}: {counted(group.pairs, 'pair')}, {evaluation.seeds_text(group.seeds)}"
     if group.draws < group.pairs:
         pairs += f"; only {counted(group.draws, 'draw')} of noise, so that the intervals are too narrow"
-    first, second = group.unpaired
-    if first or second:
-        pairs += f"; without a partner: {first} of the first, {second} of the second"
+    if any(group.unpaired):
+        alone = (f"{count} of {name}" for count, name in zip(group.unpaired, names_of(compared), strict=True))
+        pairs += f"; without a partner: {', '.join(alone)}"
     return pairs
 
 
@@ -80,22 +93,34 @@ def _percent(each: PairedDifference) -> str:
     return percent_text(relative_percent(each.first, each.first + each.mean.value, each.unit))
 
 
-_COLUMNS: Final[tuple[Column[PairedDifference], ...]] = (
-    Column(heading="quantity", text=lambda each: each.quantity),
-    Column(heading="first", text=lambda each: number(each.first), rank=4, right=True),
-    Column(heading="second", text=lambda each: number(each.second), rank=4, right=True),
-    Column(heading="mean", text=lambda each: number(each.mean.value), right=True),
-    Column(heading="% of first", text=_percent, rank=5, right=True),
-    Column(heading="interval", text=lambda each: interval_text(each.mean), right=True),
-    Column(heading="median", text=lambda each: number(each.median.value), rank=2, right=True),
-    Column(
-        heading="interval of the median", text=lambda each: interval_text(each.median), rank=2, right=True
-    ),
-    Column(heading="second larger", text=_larger, rank=3, right=True),
-    Column(heading="unit", text=lambda each: each.unit, rank=1),
-)
+def _columns(first: str, second: str) -> tuple[Column[PairedDifference], ...]:
+    """Return the columns of paired differences between two sides."""
+    return (
+        Column(heading="quantity", text=lambda each: each.quantity),
+        Column(heading=first, text=lambda each: number(each.first), rank=4, right=True),
+        Column(heading=second, text=lambda each: number(each.second), rank=4, right=True),
+        Column(heading="mean", text=lambda each: number(each.mean.value), right=True),
+        Column(heading=f"% of {first}", text=_percent, rank=5, right=True),
+        Column(heading="interval", text=lambda each: interval_text(each.mean), right=True),
+        Column(heading="median", text=lambda each: number(each.median.value), rank=2, right=True),
+        Column(
+            heading="interval of the median", text=lambda each: interval_text(each.median), rank=2, right=True
+        ),
+        Column(heading=f"{second} larger", text=_larger, rank=3, right=True),
+        Column(heading="unit", text=lambda each: each.unit, rank=1),
+    )
 
 
-def paired_table(group: PairedGroup) -> Table:
+def paired_table(group: PairedGroup, compared: PairedComparison) -> Table:
     """Return the quantities of a group that differ in some pair."""
-    return Table(_COLUMNS, differing(group), more="--format json has them")
+    return Table(_columns(*names_of(compared)), differing(group), more="--format json has them")
+
+
+def effects(group: PairedGroup) -> Iterator[Effect]:
+    """Yield the mean differences in per cent of the median of the first side, where there is such a share."""
+    for each in differing(group):
+        ends = each.mean.value, each.mean.low, each.mean.high
+        shares = [relative_percent(each.first, each.first + end, each.unit) for end in ends]
+        mean, low, high = (math.nan if share is None else share for share in shares)
+        if math.isfinite(mean + low + high):
+            yield Effect(each.quantity, mean, low, high)

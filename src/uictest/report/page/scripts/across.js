@@ -5,8 +5,8 @@ const OVER = {
   speed: { title: "speed of the train, km/h", unit: "km/h", decimals: 1, series: "speed", sign: -1 },
 };
 
-/* Values that never fall: over a plateau, or where noise lets them fall, the last one stays. */
-const neverFalling = (y, sign) => {
+/* Values that only rise: where noise lets them fall, the last one stays. */
+const monotone = (y, sign) => {
   let last = -Infinity;
   return Float64Array.from(y, (value) => (last = value === null || sign * value < last ? last : sign * value));
 };
@@ -18,7 +18,7 @@ const axisOver = (stop, name) => {
   if (!curve?.x.length || curve.y[0] === null)
     return { ...words, name: "time", ...OVER.time, start: stop.start, end: stop.end, at: (time) => time, time: (x) => x, of: ({ x }) => x, tick: (x) => x };
   const grid = curve.x;
-  const along = neverFalling(curve.y, sign);
+  const along = monotone(curve.y, sign);
   const at = (time) => valueAt({ x: grid, y: along }, time);
   return {
     ...words, name, at, start: along[0], end: along.at(-1), tick: (x) => sign * x,
