@@ -209,7 +209,7 @@ def test_the_samples_behind_the_plots_come_as_csv(browser: Any, stop_page: Path)
     # The train is at rest at the end of the record: a slide is no number there.
     assert np.isnan(slides[-1])
     assert times[np.nanargmax(slides)] == pytest.approx(8.0)
-    assert np.nanmax(slides) == pytest.approx(60.0, abs=0.02)
+    assert np.nanmax(slides) == pytest.approx(60.0, abs=0.05)
     assert {"fill", "vent"} <= {row["valve_command_1"] for row in rows}
 
 

@@ -133,7 +133,7 @@ def _sampling(trace: PlotTrace) -> Iterator[str]:
     if trace.interval * MOST_SAMPLES < trace.end - trace.start:
         part = _milliseconds((trace.end - trace.start) / BINS)
         yield f"Drawn through the smallest and the largest sample of every {part}."
-    yield "Samples are rounded to a fifth of the last decimal that the cursor shows."
+    yield "Samples are rounded to half of the last decimal that the cursor shows."
 
 
 def _milliseconds(seconds: float) -> str:

@@ -30,7 +30,7 @@ def test_thinning_out_keeps_every_peak(values):
 
 
 def test_missing_samples_leave_a_gap():
-    across = np.arange(0.0, 120.0, 3.0)
+    across = np.arange(0.0, 160.0, 4.0)
     assert path_over_time(across, np.where(np.arange(40) // 10 == 2, NAN, 1.0)).count("M") == 2
     assert path_over_time(across, np.full(40, NAN)) == ""
 

@@ -25,7 +25,7 @@ LEFT, RIGHT = 52, 948
 _HEIGHT, _TITLE, _GAP = 96, 22, 6  # of a panel of height 1, of its title, below it
 _BELOW = 32  # the panels: tick labels and what they count
 _LANE = 12  # of a lane of a strip
-_COLUMN = 3.0
+_COLUMN = 4.0
 """Pixels: of every column of a line only the extremes are kept, so that no peak is lost."""
 _BAR, _LEAST_WIDTH = 0.34, 1.0
 """Height of a bar in its lane, and pixels that it is wide at least."""

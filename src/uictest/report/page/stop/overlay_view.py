@@ -61,7 +61,7 @@ def packed(
         *(_differences(_numbers(curve.y, up[name])) for name, curve in curves.items()),
     ]
     data = np.concatenate(parts).astype("<i2") if parts else np.zeros(0, "<i2")
-    deflated = zlib.compress(data.view(np.uint8).reshape(-1, 2).T.tobytes(), 9)
+    deflated = zlib.compress(data.view(np.uint8).reshape(-1, 2).T.tobytes(), 6)
     return {
         "grids": [{"count": len(x), "scale": across[key]} for key, x in grids.items()],
         "lines": {name: {"grid": numbers[id(curve.x)], "scale": up[name]} for name, curve in curves.items()},

@@ -1,0 +1,132 @@
+"""The numbers of a page in a browser against the results and the recording that it was made from."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uictest.cli.entry import execute
+from uictest.core.recording import Recording, read_parquet
+
+from .chromium import run, wait
+
+READY = "return document.querySelector('.plots[data-ready]') !== null"
+SCALES = {"km/h": 1 / 3.6, "%": 0.01, "bar": 1e5, "kN": 1e3, "m": 1.0, "1": 1.0}
+ROWS = {
+    "wheelset, km/h": "wheel_speed",
+    "slide, %": "slide",
+    "tank, bar": "tank_pressure",
+    "cylinder, bar": "cylinder_pressure",
+    "clamping force, kN": "clamping_force",
+    "adhesion": "adhesion",
+}
+TRAIN = {
+    "train, km/h": "speed",
+    "distance, m": "distance",
+    "brake line, bar": "brake_line_pressure",
+    "reservoir, bar": "reservoir_pressure",
+}
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a run of one stop that misses a criterion, with its recording."""
+    output = tmp_path_factory.mktemp("run")
+    words = ["run", "low-adhesion-80", "--record", "all", "-o", str(output), "-q"]
+    assert execute(words) == 0
+    return (output / "latest").resolve()
+
+
+@pytest.fixture(scope="module")
+def recording(finished: Path) -> Recording:
+    """The recording of the stop."""
+    return read_parquet(finished / "recordings" / "low-adhesion-80.parquet")
+
+
+@pytest.fixture(scope="module")
+def result(finished: Path) -> Any:
+    """The result of the stop."""
+    (case,) = json.loads((finished / "results.json").read_text("utf-8"))["cases"]
+    return case
+
+
+def _open(browser: Any, finished: Path) -> None:
+    browser.get((finished / "index.html").as_uri())
+    run(browser, "document.querySelector('details.stop').open = true")
+    wait(browser, READY)
+
+
+def _shown_at(browser: Any, share: float) -> tuple[float, dict[str, list[str]]]:
+    """Move the cursor to a share of the stop; return its time and the cells by the heads of their rows."""
+    run(
+        browser,
+        "const slider = document.querySelector('.readout input'); slider.value = arguments[0] * slider.max;"
+        "slider.dispatchEvent(new Event('input'))",
+        share,
+    )
+    cells: dict[str, list[str]] = run(
+        browser,
+        "return Object.fromEntries([...document.querySelectorAll('.readout tbody tr, .train-readout div')]"
+        ".map((row) => [...row.children].map((each) => each.textContent))"
+        ".map(([head, ...cells]) => [head, cells]))",
+    )
+    slider = browser.find_element("css selector", ".readout input")
+    return float(slider.get_attribute("value")) / 1000.0, cells
+
+
+@pytest.mark.parametrize("share", [0.013, 0.17, 0.331, 0.502, 0.678, 0.85])
+def test_the_cursor_reads_what_was_recorded(
+    browser: Any, finished: Path, recording: Recording, share: float
+) -> None:
+    _open(browser, finished)
+    moved, cells = _shown_at(browser, share)
+    time = recording["time"]
+    at = time[0] + moved * (time[-1] - time[0])
+    compared = 0
+    for head, key in (ROWS | TRAIN).items():
+        scale = SCALES[head.partition(", ")[2] or "1"]
+        names = [key] if head in TRAIN else [f"{key}_{n}" for n in (1, 2, 3, 4)]
+        for shown, name in zip(cells[head], names, strict=True):
+            last_digit = 10.0 ** -len(shown.partition(".")[2])
+            expected = float(np.interp(at, time, recording[name])) / scale
+            assert float(shown) == pytest.approx(expected, abs=0.76 * last_digit), name
+            compared += 1
+    assert compared == 28
+
+
+def test_every_vent_of_the_counters_is_in_the_table_and_in_the_plots(
+    browser: Any, finished: Path, result: Any
+) -> None:
+    _open(browser, finished)
+    counted = [wheelset["valve_actuations"] for wheelset in result["wheelsets"]]
+    column = "return [...document.querySelectorAll('.vents tbody td:nth-child(2)')].map((e) => e.textContent)"
+    column = "return [...document.querySelectorAll('.vents tbody td:nth-child(2)')].map((e) => e.textContent)"
+    numbers = run(browser, column)
+    assert [numbers.count(str(n)) for n in (1, 2, 3, 4)] == counted
+    spans = run(
+        browser,
+        "return document.querySelector('.panels-plot').plots.find(({row}) => row.key === 'valves').bars"
+        ".filter(({opacity}) => opacity === 1).map(({spans}) => spans.length)",
+    )
+    assert spans == counted
+
+
+def test_values_and_margins_are_those_of_the_result(browser: Any, finished: Path, result: Any) -> None:
+    _open(browser, finished)
+    shown = run(
+        browser,
+        "return Object.fromEntries([...document.querySelectorAll('table.margins tbody tr')].map((row) =>"
+        " [row.querySelector('th').firstChild.data.trim(), row.textContent]))",
+    )
+    judged = [each for each in result["criteria"] if each["layer"] != "rig" and each["value"] is not None]
+    assert len(judged) >= 4
+    for each in judged:
+        assert f"{each['value']:.5g}" in shown[each["id"]]
+    distance = run(
+        browser, "return parseFloat(document.querySelector('details.stop .figures dd').textContent)"
+    )
+    assert distance == pytest.approx(result["measures"]["braking_distance_m"], rel=5e-4)
