@@ -15,6 +15,7 @@ from uictest.controllers import OUTPUTS
 from uictest.plans.scenario import load_part
 from uictest.selftest import conformance
 from uictest.selftest.conformance import checks
+from uictest.selftest.conformance.page import recording_of
 
 Examine = Callable[..., selftest.Examination]
 STEP = '        """Answer one controller cycle."""\n'
@@ -32,6 +33,18 @@ def built_in(name: str) -> selftest.Examination:
 
 def test_the_default_controller_conforms() -> None:
     assert missed(built_in("threshold")) == set()
+
+
+def test_what_a_controller_answered_where_it_misses_a_check_is_a_recording_of_valves() -> None:
+    examined = conformance.examined(conformance.subject_of("slip-band", load_part("controllers/slip-band")))
+    assert examined.missed.keys() == {"ends-vents", "lost-sensor"}
+    locked = examined.missed["ends-vents"]["wheelset 2 locked"]
+    recording = recording_of(locked)
+    longest = np.count_nonzero(recording["valve_command_2"] == 2.0)
+    assert longest == np.count_nonzero(locked.vent[:, 1])
+    assert recording["wheel_speed_2"][-1] == 0.0
+    locked.hold[:, 1] = 7  # no command that a valve has
+    assert np.isnan(recording_of(locked)["valve_command_2"]).all()
 
 
 def test_the_simplest_controller_has_no_watchdog() -> None:

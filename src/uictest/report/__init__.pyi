@@ -174,6 +174,7 @@ from .traces.trace import (
     PlotTrace as PlotTrace,
     interval_of as interval_of,
     thinned as thinned,
+    trace_of as trace_of,
     trace_of_stop as trace_of_stop,
 )
 from .verdict_sentences import (

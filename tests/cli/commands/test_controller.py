@@ -50,6 +50,18 @@ def test_exit_codes_are_those_of_run_and_junit_has_the_failure(call):
     assert call("controller", "check", "no-such.py").code == 4
 
 
+def test_a_page_draws_what_was_answered_where_a_check_is_missed(call):
+    assert call("controller", "check", program(), "--html", "check.html").code == 1
+    page = Path("check.html").read_text("utf-8")
+    assert "10 checks: " in page
+    assert "fail vents-sliding: from the beginning of the slide" in page
+    for n in (1, 2, 3, 4):
+        assert f"<h3>wheelset {n} slides</h3>" in page
+    assert "<h3>good rail</h3>" not in page  # nothing is missed there alone
+    assert call("controller", "check", "threshold", "--html", "check.html").code == 0
+    assert "<h3>" not in Path("check.html").read_text("utf-8")
+
+
 def test_nothing_but_the_table_is_on_stdout(call, tmp_path):
     """What a controller prints cannot disturb it."""
     answer = call("controller", "check", program("print('noise')"), "--format", "json")

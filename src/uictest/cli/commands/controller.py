@@ -13,6 +13,7 @@ from uictest.cli import options
 from uictest.cli.app import command
 from uictest.cli.exit_codes import ExitCode
 from uictest.cli.findings import show_findings
+from uictest.core import files
 from uictest.plans import scenario
 from uictest.plans.scenario import yaml
 from uictest.selftest import conformance
@@ -56,6 +57,12 @@ def check(
     time_limit: TimeLimit = None,
     trusted: options.Trusted = None,
     junit: options.JUnitFile = None,
+    page: Annotated[
+        Path | None,
+        typer.Option(
+            "--html", metavar="FILE", help="Also write a page, with plots of the situations it misses."
+        ),
+    ] = None,
     shown: options.ListFormat = options.PlainFormat.TEXT,
 ) -> ExitCode:
     """Check that a controller keeps what every WSP should, in a child process and without the rig.
@@ -65,7 +72,10 @@ def check(
     """
     file = options.junit_file(junit, Path())
     subject = _subject(reference, class_name, settings or (), time_limit, trusted or ())
-    return show_findings(conformance.examine(subject), shown, file)
+    examined = conformance.examined(subject)
+    if page is not None:
+        files.write_to(page, conformance.examination_html(*examined))
+    return show_findings(examined.examination, shown, file)
 
 
 def _subject(

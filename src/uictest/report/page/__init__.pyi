@@ -1,8 +1,15 @@
 from .axis import Axis as Axis, Tick as Tick
+from .case_view import plot_data as plot_data, plots_json as plots_json, sampling_text as sampling_text
 from .forest import Effect as Effect, Forest as Forest, forest as forest
 from .links import case_anchor as case_anchor, fragment as fragment, series_anchor as series_anchor
 from .rendering import render as render
 from .run_page import page_html as page_html
+from .stop.drawing import Drawing as Drawing, drawing_of as drawing_of
 from .stop.mark import Mark as Mark
-from .stop.overlay_view import STEPS as STEPS, OverlayView as OverlayView, overlay_view as overlay_view
+from .stop.overlay_view import (
+    STEPS as STEPS,
+    OverlayView as OverlayView,
+    overlay_view as overlay_view,
+    script_json as script_json,
+)
 from .sweep.sweep_page import sweep_page_html as sweep_page_html

@@ -96,7 +96,7 @@ def case_view(
         case_explanation(result, differences) if differences or not result.met else (),
         list(_headline(result)),
         drawing_of(trace),
-        script_json(_data(result, subject, trace, marks)),
+        script_json(plot_data(result.id, trace, marks, recorded=bool(subject.recorded))),
         margins_of(result.criteria, drawn.criteria, trace),
         " ".join(_notes(drawn, subject, trace)),
         repeats_view(result),
@@ -109,7 +109,7 @@ def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotT
     yield from (f"{sentence[:1].upper()}{sentence[1:]}." for sentence in real_time_sentences(result))
     for span in trace.faults:
         yield f"Fault {span.label} from {span.start:.4g} s to {span.end:.4g} s."
-    yield from _sampling(trace)
+    yield sampling_text(trace)
     labels = dict.fromkeys(PLOT_QUANTITIES[key_of(name)].label for name in trace.derived)
     if labels:
         yield f"Derived from recorded speeds: {', '.join(labels)}."
@@ -127,13 +127,13 @@ def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotT
         )
 
 
-def _sampling(trace: PlotTrace) -> Iterator[str]:
-    """Yield how the points of a line were taken from the stop."""
-    yield f"Sampled every {_milliseconds(trace.interval)}."
-    if trace.interval * MOST_SAMPLES < trace.end - trace.start:
-        part = _milliseconds((trace.end - trace.start) / BINS)
-        yield f"Drawn through the smallest and the largest sample of every {part}."
-    yield "Samples are rounded to half of the last decimal that the cursor shows."
+def sampling_text(trace: PlotTrace) -> str:
+    """Return how the points of a line were taken from the stop."""
+    part = _milliseconds((trace.end - trace.start) / BINS)
+    is_long = trace.interval * MOST_SAMPLES < trace.end - trace.start
+    drawn = f" Drawn through the smallest and the largest sample of every {part}." if is_long else ""
+    rounded = "Samples are rounded to a fifth of the last decimal that the cursor shows."
+    return f"Sampled every {_milliseconds(trace.interval)}.{drawn} {rounded}"
 
 
 def _milliseconds(seconds: float) -> str:
@@ -182,15 +182,16 @@ def plots_json() -> str:
     )
 
 
-def _data(
-    result: evaluation.CaseResult, subject: CaseDescription, trace: PlotTrace, marks: Sequence[Mark]
+def plot_data(
+    title: str, trace: PlotTrace, marks: Sequence[Mark] = (), *, recorded: bool = False
 ) -> dict[str, Any]:
+    """Return what the script draws a stop from; `recorded` where the stop was not simulated."""
     states = {name: Curve(each.time, each.state.astype(np.float64)) for name, each in trace.states.items()}
     steps = {name: PLOT_QUANTITIES[key_of(name)].step for name in trace.curves}
     return {
-        "id": printable(result.id),
-        "recorded": bool(subject.recorded),
-        "sampling": " ".join(_sampling(trace)),
+        "id": printable(title),
+        "recorded": recorded,
+        "sampling": sampling_text(trace),
         "start": trace.start,
         "end": trace.end,
         "over_time": packed({**trace.curves, **states}, trace.interval, steps),

@@ -31,8 +31,8 @@ class PlotQuantity:
 
     @property
     def step(self) -> float:
-        """To multiples of this a page rounds the samples it holds: half of the last decimal shown."""
-        return 0.5 * 10.0**-self.decimals
+        """To multiples of this a page rounds the samples it holds: a fifth of the last decimal shown."""
+        return 0.2 * 10.0**-self.decimals
 
 
 PLOT_QUANTITIES = {

@@ -45,13 +45,14 @@ class Answers:
 
 
 class Bench:
-    """A controller and what it has answered so far."""
+    """A controller and what it has answered so far; `asked` holds what was asked for since it was emptied."""
 
     def __init__(self, subject: Subject) -> None:
         self.subject = subject
         self.version = ""
         self._cycle_time = subject.config.cycle_time
         self._driven: dict[str, Answers | ControllerError] = {}
+        self.asked: dict[str, Answers] = {}
         self._workers = rig.Workers()
 
     def __enter__(self) -> Self:
@@ -116,6 +117,7 @@ class Bench:
         answers = self._driven[name]
         if isinstance(answers, ControllerError):
             raise answers
+        self.asked[name] = answers
         return answers
 
     def _drives(self, situation: Situation, beginnings: tuple[rig.Beginning, ...]) -> tuple[rig.Driven, ...]:

@@ -1,21 +1,41 @@
 """Check a controller, and what was found."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 from uictest.controllers import ControllerError
-from uictest.selftest.conformance.bench import Bench
+from uictest.selftest.conformance.bench import Answers, Bench
 from uictest.selftest.conformance.checks import CHECKS, Check
 from uictest.selftest.conformance.subject import Subject
 from uictest.selftest.finding import Examination, Finding, Status
 
 
+class Examined(NamedTuple):
+    """What a check of a controller has found, and the situations of each check that is missed, by its id."""
+
+    examination: Examination
+    missed: Mapping[str, Mapping[str, Answers]]
+
+
 def examine(subject: Subject, checks: Sequence[Check] = CHECKS) -> Examination:
     """Check a controller; a crash, a hang or an exception of it is a finding with the status `error`."""
+    return examined(subject, checks).examination
+
+
+def examined(subject: Subject, checks: Sequence[Check] = CHECKS) -> Examined:
+    """Check a controller and keep what it has answered where it misses a check."""
+    findings, missed = [], {}
     with Bench(subject) as bench:
-        findings = tuple(_finding(check, bench, subject.name) for check in checks)
+        for check in checks:
+            bench.asked = {}
+            finding = _finding(check, bench, subject.name)
+            findings.append(finding)
+            if finding.status in ("fail", "error") and bench.asked:
+                missed[check.id] = bench.asked
         about = {f"controller.{name}": text for name, text in subject.description.items()}
         about["controller.version"] = bench.version
-        return Examination("controller check", _title(subject, bench.version), about, findings)
+        title = _title(subject, bench.version)
+    return Examined(Examination("controller check", title, about, tuple(findings)), missed)
 
 
 def _title(subject: Subject, version: str) -> str:

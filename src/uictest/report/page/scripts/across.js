@@ -7,7 +7,7 @@ const OVER = {
 
 /* Values that only rise: where noise lets them fall, the last one stays. */
 const monotone = (y, sign) => {
-  let last = -Infinity;
+  let last = sign * y.find((value) => value !== null);
   return Float64Array.from(y, (value) => (last = value === null || sign * value < last ? last : sign * value));
 };
 
@@ -15,7 +15,7 @@ const monotone = (y, sign) => {
 const axisOver = (stop, name) => {
   const { series, sign = 1, ...words } = OVER[name];
   const curve = stop.curves[series];
-  if (!curve?.x.length || curve.y[0] === null)
+  if (!curve?.y.some((value) => value !== null))
     return { ...words, name: "time", ...OVER.time, start: stop.start, end: stop.end, at: (time) => time, time: (x) => x, of: ({ x }) => x, tick: (x) => x };
   const grid = curve.x;
   const along = monotone(curve.y, sign);

@@ -68,6 +68,7 @@ const drawOnce = async (plots) => {
   first("button.pin", plots).addEventListener("click", () => pin(at));
   first("button.unpin", plots).addEventListener("click", () => pin(null));
   offerZoom(first(".zoom", plots), view);
+  for (const option of all('[data-choice="across"] option', plots)) option.disabled = axisOver(stop, option.value).name !== option.value;
   first('[data-choice="view"]', plots).addEventListener("change", paintPanels);
   first('[data-choice="wheelset"]', plots).addEventListener("change", paintLoops);
   first('[data-choice="across"]', plots).addEventListener("change", ({ target: choice }) => {

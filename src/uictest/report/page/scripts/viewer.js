@@ -136,7 +136,7 @@ const viewer = (element, { moved, pinned, ranged = () => {} }) => {
   };
 
   const options = (row, column, width, lines, marks, bars) => ({
-    width, height: row.height, padding: [3, RIGHT, 3, column ? RIGHT / 2 : 0], legend: { show: false },
+    width, height: row.height, pxAlign: 0, padding: [3, RIGHT, 3, column ? RIGHT / 2 : 0], legend: { show: false },
     cursor: { x: false, y: false, points: { show: false }, drag: { x: true, y: false, dist: 5 },
       bind: { dblclick: () => () => zoom(figure.start, figure.end) } },
     scales: { x: { time: false }, y: row.range ? { range: () => row.range, dir: -1 } : { range: () => spanInView(row) } },
