@@ -7,7 +7,7 @@ import pytest
 
 from uictest.judging.evaluation import EffectivePart, Parameter
 from uictest.report import junit_text, run_suites
-from uictest.report.formats.junit import FORMAT
+from uictest.report.formats.junit import FORMAT, suites_of_run
 
 from ..builders import HOSTILE, make_content, make_result, make_verdict
 from ..junit_schema import check
@@ -30,6 +30,12 @@ def test_a_missed_case_is_a_failure_whose_text_says_everything():
     assert text is not None
     assert "invalid: braking-distance. Expected: pass" in text
     assert "braking-distance (validity) fail: 500 m misses 440 .. 490 m" in text
+
+
+def test_what_is_not_as_expected_comes_first():
+    good, bad = make_result(id="a"), make_result(id="b", outcome="fail")
+    (suite,) = suites_of_run(make_content(good, bad))
+    assert [testcase.name for testcase in suite.testcases] == ["b", "a"]
 
 
 def test_an_expected_failure_is_no_failure():

@@ -121,9 +121,9 @@ def _files(content: RunContent) -> dict[str, bytes]:
 
 
 def suites_of_run(content: RunContent, *, with_properties: bool = False) -> Iterator[Suite]:
-    """Yield the testcases of what a run is reported by."""
+    """Yield the testcases of what a run is reported by, in the order of the other reports."""
     return run_suites(
-        content.results,
+        content.ranked,
         content.baseline,
         content.series,
         with_properties=with_properties,

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from uictest.report.escaping import printable
 from uictest.report.page.axis import axis_title
 from uictest.report.page.links import fragment
+from uictest.report.page.sweep.cell_lines import CellLines, cell_lines
 from uictest.report.page.sweep.colour_scale import CIVIDIS, VIRIDIS, ColourScale
 from uictest.report.page.sweep.heat_plot import SIGNS, HeatPlot, heat_plot, marked
 from uictest.report.sweep.map_cells import MapCells
@@ -74,7 +75,10 @@ class HeatMap:
 
 @dataclass(frozen=True, slots=True)
 class HeatMaps:
-    """The maps of one pair of parameters; `notes` say what its cells stand for, `signs` what marks mean."""
+    """The maps of one pair of parameters, and lines of its measures where one has few values.
+
+    `notes` say what its cells stand for, `signs` what marks mean.
+    """
 
     down: str
     across: str
@@ -85,6 +89,7 @@ class HeatMaps:
     has_boundary: bool
     uniform: str
     """What the map of cases met would say in every cell; empty where its cells differ."""
+    lines: Sequence[CellLines] = ()
 
     @property
     def name(self) -> str:
@@ -127,6 +132,7 @@ def heat_maps(
         int((cells.cases == 0).sum()),
         bool(maps[0].plot.boundary),
         _uniform(cells),
+        list(cell_lines(cells, units, logarithmic)),
     )
 
 

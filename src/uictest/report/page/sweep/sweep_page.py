@@ -114,14 +114,17 @@ def sweep_page_html(content: SweepContent) -> str:
     ]
     keys = {view.result.id: view.fragment for view in drawn}
     points = _scatter(content, keys)
-    trends = {} if points else _trends(result)
+    maps = list(shown_maps(content, keys))
+    # With two parameters the lines of the cells say all; a mean over the other one would mix them.
+    in_lines = len(maps) == 1 and len(result.varied) == 2 and maps[0].lines
+    trends = {} if points or in_lines else _trends(result)
     return render(
         "sweep.html.j2",
         content=content,
         result=result,
         tally=sweep_tally(result),
         swept={key: swept_words([count.value for count in counts]) for key, counts in result.rates.items()},
-        maps=list(shown_maps(content, keys)),
+        maps=maps,
         maps_left_out=maps_left_out(content),
         scatter=points,
         rates=_rates(result),
