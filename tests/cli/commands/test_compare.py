@@ -123,7 +123,9 @@ def test_the_variants_of_one_run_are_compared(call, scenario):
     path = scenario("stop", WET)
     call("run", path, "--repeat", "2", "--set", "controller=threshold,slip-band")
     answer = call("compare", "reports/latest", "--over", "controller", "--html", "page.html", code=0)
-    assert answer.out.startswith("first controller=threshold, second controller=slip-band\npaired: second")
+    assert answer.out.startswith(
+        "controller=slip-band against controller=threshold\npaired: controller=slip-band"
+    )
     assert "paired: stop: 2 pairs, seeds 0, 1" in answer.out.splitlines()
     assert answer.err == "uictest: 1 group of stops of 2 variants paired\n"
     assert "controller=slip-band" in Path("page.html").read_text()
