@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Any, Final
 
 from uictest.analysis.comparison.common_samples import ChannelDifference, WorstInstant, holds
 from uictest.analysis.comparison.difference import Comparison, verdict_line
+from uictest.analysis.comparison.dumbbells import dumbbells
 from uictest.analysis.comparison.overlay import BINS, Overlay, curve_name
 from uictest.analysis.comparison.paired.pairing import PairedComparison
 from uictest.analysis.comparison.paired.wording import (
@@ -87,11 +87,6 @@ def _without_wheelset(quantity: str) -> tuple[str, str]:
 _DIFFERENCE_HEIGHT: Final = 0.75
 """Of a panel of a difference, against one of both sides; chosen."""
 
-_STATUSES: Final[Mapping[bool | None, Status]] = MappingProxyType(
-    {None: "not_applicable", True: "pass", False: "fail"}
-)
-"""Within tolerance or not, None without one -> status of the mark of the worst instant."""
-
 DrawnPanel = tuple[Panel, Sequence[PlotLine]]
 
 
@@ -144,7 +139,8 @@ def _marks(each: ChannelDifference) -> Iterator[Mark]:
     if each.allowed is not None:
         yield Mark(key, "tolerance", f"allowed ±{_with_unit(each, number(each.allowed))}", y=each.allowed)
     if each.worst is not None:
-        yield from _worst(each, each.worst, "s", _STATUSES[each.within])
+        judged: Status = "pass" if each.within else "fail"
+        yield from _worst(each, each.worst, "s", "not_applicable" if each.within is None else judged)
 
 
 def _marks_over_distance(overlay: Overlay) -> Iterator[Mark]:
@@ -219,6 +215,7 @@ def comparison_html(comparison: Comparison) -> str:
         overlays=overlays,
         fragments={each.overlay.title: each.fragment for each in overlays},
         verdict_line=verdict_line(comparison),
+        drawn=dumbbells(comparison.differences),
         turned=[each for each in comparison.differences if not each.within and _is_verdict(each)],
         differences_table=differences_table,
         parameters_table=parameters_table,

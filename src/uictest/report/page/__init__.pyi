@@ -1,4 +1,4 @@
-from .axis import Axis as Axis, Tick as Tick
+from .axis import Axis as Axis, Tick as Tick, span as span
 from .case_view import plot_data as plot_data, plots_json as plots_json, sampling_text as sampling_text
 from .forest import Effect as Effect, Forest as Forest, forest as forest
 from .links import case_anchor as case_anchor, fragment as fragment, series_anchor as series_anchor

@@ -1,0 +1,37 @@
+"""Braking distances of both sides as rows: order, places, what is left out."""
+
+from __future__ import annotations
+
+import pytest
+
+from uictest.analysis.comparison.dumbbells import MEASURE, MOST, dumbbells
+from uictest.report import Difference
+
+
+def _difference(case: str, first: float | str, second: float | str, quantity: str = MEASURE) -> Difference:
+    return Difference(case, quantity, first, second, within=False)
+
+
+def test_the_case_that_differs_most_stands_first_and_places_are_in_proportion() -> None:
+    drawn = dumbbells([_difference("a", 400.0, 410.0), _difference("b", 500.0, 460.0)])
+    assert drawn is not None
+    assert [row.case for row in drawn.rows] == ["b", "a"]
+    of_b, of_a = (row.second - row.first for row in drawn.rows)
+    assert of_b == pytest.approx(-4.0 * of_a)
+    assert drawn.rows[0].words == "b: 500 m, then 460 m (-40 m)"
+    assert drawn.left_out == 0
+    long = dumbbells([_difference("x" * 80, 1.0, 2.0)])
+    assert long is not None
+    assert len(long.rows[0].case) == 48
+
+
+def test_what_is_no_distance_of_both_sides_has_no_row() -> None:
+    other = _difference("a", 1.0, 2.0, quantity="braking_time_s")
+    assert dumbbells([other, _difference("b", "missing", 400.0), _difference("c", float("nan"), 1.0)]) is None
+
+
+def test_of_many_cases_those_that_differ_most_are_drawn() -> None:
+    drawn = dumbbells([_difference(str(k), 400.0, 401.0 + k) for k in range(MOST + 5)])
+    assert drawn is not None
+    assert (len(drawn.rows), drawn.left_out) == (MOST, 5)
+    assert drawn.rows[0].case == str(MOST + 4)
