@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -36,8 +38,8 @@ TRAIN = {
 def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a run of one stop that misses a criterion, with its recording."""
     output = tmp_path_factory.mktemp("run")
-    words = ["run", "low-adhesion-80", "--record", "all", "-o", str(output), "-q"]
-    assert execute(words) == 0
+    words = ["run", "low-adhesion-80", "--set", "expect=pass", "--record", "all", "-o", str(output), "-q"]
+    assert execute(words) == 1
     return (output / "latest").resolve()
 
 
@@ -52,6 +54,20 @@ def result(finished: Path) -> Any:
     """The result of the stop."""
     (case,) = json.loads((finished / "results.json").read_text("utf-8"))["cases"]
     return case
+
+
+def test_junit_says_when_the_value_was_taken_as_the_page_does(finished: Path) -> None:
+    (case,) = ElementTree.parse(finished / "junit.xml").iter("testcase")
+    (instant,) = re.findall(r"total-locked-time .*\(taken at (.*)\)", "".join(case.itertext()))
+    assert re.fullmatch(r"[\d.]+ to [\d.]+ s, wheelset [1-4]", instant)
+    assert instant in (finished / "index.html").read_text("utf-8")
+
+
+def test_a_report_that_draws_no_stop_names_no_instant(finished: Path, tmp_path: Path) -> None:
+    assert execute(["report", str(finished), "--format", "junit", "-o", str(tmp_path)]) == 0
+    written = (tmp_path / "junit.xml").read_text("utf-8")
+    assert "total-locked-time" in written
+    assert "taken at" not in written
 
 
 def _open(browser: Any, finished: Path) -> None:

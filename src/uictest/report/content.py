@@ -121,8 +121,24 @@ class RunContent:
         return case_word(result, self.differences(result.id))
 
     def explanation(self, result: evaluation.CaseResult, most: int | None = None) -> list[str]:
-        """Return the reasons for the outcome of a case, and its differences from the baseline, or `most`."""
-        return case_explanation(result, self.differences(result.id), most)
+        """Return the reasons for the outcome of a case, and its differences from the baseline, or `most`.
+
+        Of a stop that is drawn the reasons say when the values were taken.
+        """
+        return case_explanation(result, self.differences(result.id), most, self._instants(result))
+
+    def _instants(self, result: evaluation.CaseResult) -> dict[str, str]:
+        """Return when, and at which wheelset, the value of each criterion was taken; {} where not drawn.
+
+        The value of a repeated case is not that of the stop that is drawn.
+        """
+        trace = self.traces.get(result.id)
+        if trace is None or result.met or result.repeats is not None:
+            return {}
+        from uictest.report.page.stop.marks import taken_at
+
+        taken = {verdict.id: taken_at(verdict, trace) for verdict in result.criteria}
+        return {name: each.text for name, each in taken.items() if each is not None}
 
     @property
     def tally(self) -> str:

@@ -207,10 +207,16 @@ def case_word(result: evaluation.CaseResult, differences: Sequence[Difference]) 
 
 
 def case_explanation(
-    result: evaluation.CaseResult, differences: Sequence[Difference], most: int | None = None
+    result: evaluation.CaseResult,
+    differences: Sequence[Difference],
+    most: int | None = None,
+    instants: Mapping[str, str] | None = None,
 ) -> list[str]:
-    """Return the reasons for the outcome of a case, and the quantities out of tolerance, `most` of them."""
-    outcome, *reasons = explanation(result)
+    """Return the reasons for the outcome of a case, and the quantities out of tolerance, `most` of them.
+
+    `instants` says when the values of criteria, by their ids, were taken.
+    """
+    outcome, *reasons = explanation(result, instants)
     if differences:
         outcome += ". Differs from the baseline"
     return [outcome, *reasons, *difference_sentences(differences, most)]

@@ -92,9 +92,12 @@ def definition_sentence(verdict: evaluation.Verdict) -> str:
     return printable(", ".join(f"{name} = {text}" for name, text in verdict.definition.items()))
 
 
-def explanation(result: evaluation.CaseResult) -> list[str]:
-    """Return the reasons for an outcome: expectation, reason, and each criterion that decided it."""
-    deciding = [verdict_sentence(verdict) for verdict in _deciding(result)]
+def explanation(result: evaluation.CaseResult, instants: Mapping[str, str] | None = None) -> list[str]:
+    """Return the reasons for an outcome: expectation, reason, and each criterion that decided it.
+
+    `instants` says when the values of criteria, by their ids, were taken.
+    """
+    deciding = {verdict.id: verdict_sentence(verdict) for verdict in _deciding(result)}
     # With criteria the reason of a result repeats theirs, unless one stop of several ended in an error;
     # without any it is all there is.
     alone = not deciding or result.outcome == "error"
@@ -104,8 +107,12 @@ def explanation(result: evaluation.CaseResult) -> list[str]:
         verdicts = list(_deciding(result))
     names = [verdict.id for verdict in verdicts if verdict.status in ("fail", "inconclusive")]
     outcome = outcome_sentence(result.outcome, result.expect, names, unsettled=bool(result.unsettled))
-    unsettled = [line for line in unsettled_sentences(result.unsettled) if line not in deciding]
-    return [outcome, *repeat_sentences(result), *reason, *deciding, *unsettled]
+    unsettled = [line for line in unsettled_sentences(result.unsettled) if line not in deciding.values()]
+    known = instants or {}
+    lines = [
+        f"{line} (taken at {at})" if (at := known.get(name)) else line for name, line in deciding.items()
+    ]
+    return [outcome, *repeat_sentences(result), *reason, *lines, *unsettled]
 
 
 def unsettled_sentences(verdicts: Iterable[evaluation.Verdict]) -> Iterator[str]:

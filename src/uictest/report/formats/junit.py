@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from uictest.core.document import Suite, Testcase, TestcaseStatus, class_name
@@ -35,6 +35,7 @@ def run_suites(
     *,
     with_properties: bool = False,
     uictest_version: str = "",
+    explain: Callable[[evaluation.CaseResult], list[str]] | None = None,
 ) -> Iterator[Suite]:
     """Yield the testcases of a run.
 
@@ -44,7 +45,8 @@ def run_suites(
     its own, with one testcase per criterion.
 
     With `with_properties` testcases have those by which Polarion and Xray know the test case and its
-    requirements. `uictest_version` is that of built-in controllers.
+    requirements. `uictest_version` is that of built-in controllers. `explain` gives the reasons for an
+    outcome where more is known of a stop than its result.
     """
     differences = baseline.differences if baseline else {}
     missing = [
@@ -58,7 +60,7 @@ def run_suites(
         own.setdefault(evaluation.program_in(result.parts), []).append(result)
     for program, of_program in (own or ({} if series else {None: []})).items():
         testcases = [
-            _testcase(result, differences.get(result.id, ()), uictest_version, with_properties)
+            _testcase(result, differences.get(result.id, ()), uictest_version, with_properties, explain)
             for result in of_program
         ]
         yield Suite(
@@ -81,6 +83,7 @@ def _testcase(
     differences: Sequence[Difference],
     uictest_version: str,
     with_properties: bool,
+    explain: Callable[[evaluation.CaseResult], list[str]] | None,
 ) -> Testcase:
     status = _status(result, differs=bool(differences))
     remarks = [*real_time_sentences(result), *domain_sentences(result), *changes_line(result)]
@@ -88,7 +91,8 @@ def _testcase(
     if status != "passed":
         controllers = controllers_text([result], uictest_version)
         tested = [f"controller: {controllers}"] if controllers else []
-        remarks = [*case_explanation(result, differences), *tested, *remarks]
+        reasons = explain(result) if explain else case_explanation(result, differences)
+        remarks = [*reasons, *tested, *remarks]
     else:
         remarks = [*repeat_sentences(result), *remarks]
     return Testcase(
@@ -128,6 +132,7 @@ def suites_of_run(content: RunContent, *, with_properties: bool = False) -> Iter
         content.series,
         with_properties=with_properties,
         uictest_version=content.uictest_version,
+        explain=content.explanation,
     )
 
 

@@ -99,11 +99,7 @@ class Margin:
     @property
     def taken_text(self) -> str:
         """When and where the value was taken; empty where the plots show no such place."""
-        taken = self.taken
-        if taken is None:
-            return ""
-        times = f"{taken.start:.4g}" if taken.start == taken.end else f"{taken.start:.4g} to {taken.end:.4g}"
-        return f"{times} s" + (f", wheelset {taken.wheelset}" if taken.wheelset else "")
+        return "" if self.taken is None else self.taken.text
 
     @property
     def plot_title(self) -> str:

@@ -151,6 +151,12 @@ class Taken:
     wheelset: int | None = None
     value: float | None = None
 
+    @property
+    def text(self) -> str:
+        """The instant or the stretch of time, and the wheelset."""
+        times = f"{self.start:.4g}" if self.start == self.end else f"{self.start:.4g} to {self.end:.4g}"
+        return f"{times} s" + (f", wheelset {self.wheelset}" if self.wheelset else "")
+
 
 def taken_at(verdict: evaluation.Verdict, trace: PlotTrace) -> Taken | None:
     """Return where the value of a criterion was taken; None where the plots show no such place."""
