@@ -6,18 +6,14 @@ from types import SimpleNamespace
 
 import pytest
 import yaml
-from hypothesis import settings
 
+from uictest.judging.evaluation import judge
 from uictest.plans.scenario.parts.criteria import Criteria, Criterion
 from uictest.plans.scenario.parts.measures import MeasureDefinitions
 
 from ..measures.catalogue.conftest import sliding_stop, stop, wheelsets
 
 __all__ = ["sliding_stop", "stop", "wheelsets"]
-
-# How long an example takes says nothing about it on a machine that others use as well.
-settings.register_profile("untimed", deadline=None)
-settings.load_profile("untimed")
 
 
 def _criterion(measure="braking_distance", **fields):
@@ -100,3 +96,15 @@ def scenario():
 @pytest.fixture(scope="session")
 def case():
     return _case
+
+
+@pytest.fixture(scope="session")
+def verdict_of(profile, scenario, wheelsets):
+    """Judge a stop by one criterion."""
+
+    def judged(criterion, measures, records=None, coverage=None):
+        records = wheelsets(0.1, 0.1, 0.1, 0.1) if records is None else records
+        (verdict,) = judge(scenario(profile(criterion)), measures, records, coverage=coverage)
+        return verdict
+
+    return judged

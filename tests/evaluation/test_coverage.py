@@ -22,18 +22,6 @@ seconds = st.lists(st.floats(0.0, 10.0), min_size=4, max_size=4)
 
 
 @pytest.fixture(scope="session")
-def verdict_of(profile, scenario, wheelsets):
-    """Judge a stop by one criterion."""
-
-    def judged(criterion, measures, records=None, coverage=None):
-        records = wheelsets(0.1, 0.1, 0.1, 0.1) if records is None else records
-        (verdict,) = judge(scenario(profile(criterion)), measures, records, coverage=coverage)
-        return verdict
-
-    return judged
-
-
-@pytest.fixture(scope="session")
 def locked(criterion, stop, wheelsets, verdict_of):
     """Judge the times that the wheelsets are locked."""
 

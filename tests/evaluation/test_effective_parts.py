@@ -130,3 +130,14 @@ def test_nothing_of_the_rig_is_said_of_a_recorded_stop(cases):
         "rail.gradient": "0 permille",
         "rig.wsp": "bypassed",
     }
+
+
+def test_own_values_of_single_wheelsets_are_listed_with_their_marks_and_nothing_else_is(cases):
+    own = {"wheelsets.2.wheel_radius": "0.4214 m", "wheelsets.4.sensors.speed.method": "whole-teeth"}
+    text = "vehicle: intercity-180\n"
+    (case,) = cases(text, *(f"vehicle.{key}={value}" for key, value in own.items()))
+    (regular,) = cases(text)
+    listed = [each for each in of(case)["vehicle"].parameters if "wheelsets" in each.key]
+    assert {each.key: each.written for each in listed} == {f"vehicle.{key}": own[key] for key in own}
+    assert all(each.differs and each.mark == "user" for each in listed)
+    assert not any("wheelsets" in each.key for each in of(regular)["vehicle"].parameters)

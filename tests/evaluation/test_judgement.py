@@ -12,18 +12,6 @@ ENDED = "the simulation ended after 60 s at 43.2 km/h; raise `simulation.maximum
 positive = st.floats(0.0, 1e4)
 
 
-@pytest.fixture(scope="session")
-def verdict_of(profile, scenario, wheelsets):
-    """Judge a stop by one criterion."""
-
-    def judged(criterion, measures, records=None):
-        records = wheelsets(0.1, 0.1, 0.1, 0.1) if records is None else records
-        (verdict,) = judge(scenario(profile(criterion)), measures, records)
-        return verdict
-
-    return judged
-
-
 @pytest.fixture
 def appendix_b(shipped):
     return shipped("uic-541-05-appendix-b")

@@ -125,24 +125,23 @@ def test_definitions_of_every_reading_run_through_their_range(minimum_slide, sli
 
 
 @pytest.mark.parametrize("initial", [60.0, 45.0])
-def test_a_stop_from_sixty_or_below_is_not_applicable(criterion, profile, scenario, stop, wheelsets, initial):
+def test_a_stop_from_sixty_or_below_is_not_applicable(criterion, verdict_of, stop, wheelsets, initial):
     """Also where the observation ends early: nothing that follows would give it a share."""
     for running in ({}, {"stopped": 0.0, "end_speed": 5.0}):
         records = stop(initial_speed=initial * KMH, **running), wheelsets(0.5, 0.5, 0.5, 0.5)
-        (verdict,) = judge(scenario(profile(_share_of(criterion))), *records)
-        assert verdict.status == "not_applicable"
+        assert verdict_of(_share_of(criterion), *records).status == "not_applicable"
 
 
-def test_a_stop_that_never_came_down_to_sixty_is_inconclusive(criterion, profile, scenario, stop, wheelsets):
+def test_a_stop_that_never_came_down_to_sixty_is_inconclusive(criterion, verdict_of, stop, wheelsets):
     """Whatever it showed until then; once it came down, the rest of the stop does not matter."""
     reached = stop().reached_time.copy()
     reached[:6] = math.nan
     running = {"stopped": 0.0, "end_speed": 18.0, "half_slow_time": slow_times(0.9)}
-    resolved = scenario(profile(_share_of(criterion)))
-    (verdict,) = judge(resolved, stop(**running, reached_time=reached), wheelsets(0.9, 0.9, 0.9, 0.9))
+    share, records = _share_of(criterion), wheelsets(0.9, 0.9, 0.9, 0.9)
+    verdict = verdict_of(share, stop(**running, reached_time=reached), records)
     assert verdict.status == "inconclusive"
     assert "60 km/h" in verdict.reason
-    (verdict,) = judge(resolved, stop(**running), wheelsets(0.9, 0.9, 0.9, 0.9))
+    verdict = verdict_of(share, stop(**running), records)
     assert (verdict.status, verdict.value) == ("pass", 90.0)
 
 

@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.judging.evaluation import judge
 from uictest.judging.evaluation.bounds import ObservedStop, bounds_of
 from uictest.judging.evaluation.decision import Decision, decide
 from uictest.judging.evaluation.sensitivity import sensitivity
@@ -34,12 +33,11 @@ def slide(criterion):
 
 
 @pytest.fixture(scope="session")
-def moved(profile, scenario):
+def moved(verdict_of):
     """Judge a stop by one criterion; how its verdict moves with its one definition."""
 
     def judged(criterion, measures, records):
-        (verdict,) = judge(scenario(profile(criterion)), measures, records)
-        (only,) = verdict.sensitivity
+        (only,) = verdict_of(criterion, measures, records).sensitivity
         return only
 
     return judged
