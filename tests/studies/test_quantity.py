@@ -82,12 +82,9 @@ def test_a_median_lies_within_its_range(values: list[float]) -> None:
     assert found.low <= found.value <= found.high
 
 
-def test_no_repeat_leaves_no_median() -> None:
-    assert math.isnan(spread([]).value)
-
-
-def test_one_repeat_without_a_figure_leaves_no_median() -> None:
-    assert math.isnan(spread([1.0, math.nan, 2.0]).value)
+@pytest.mark.parametrize("values", [[], [1.0, math.nan, 2.0]])
+def test_without_a_figure_of_every_repeat_there_is_no_median(values: list[float]) -> None:
+    assert math.isnan(spread(values).value)
 
 
 def test_a_reading_may_have_no_range() -> None:
