@@ -309,3 +309,23 @@ def test_paper_has_the_name_of_the_run_and_the_numbers_of_its_pages(browser: Any
     assert "counter(page)" in rules
     head = "return getComputedStyle(document.querySelector('.verdicts thead')).display"
     assert run(browser, head) == "table-header-group"
+
+
+def test_lines_of_a_panel_are_told_apart_without_colours(browser: Any, stop_page: Path) -> None:
+    """By dash or width, and so are the samples of the key; a dotted line belongs to the one above it."""
+    browser.get(stop_page.as_uri())
+    wait(browser, READY)
+    panels = run(
+        browser,
+        "return document.querySelector('.panels-plot').plots.map(({lines}) =>"
+        " lines.map((each) => `${each.dash} ${each.width}`).filter((style) => !style.startsWith('1,2 ')))",
+    )
+    key = run(
+        browser,
+        "return [...document.querySelectorAll('details.stop .key .line')].map((each) => {"
+        " const {strokeDasharray, strokeWidth} = getComputedStyle(each);"
+        " return `${strokeDasharray} ${strokeWidth}`; })",
+    )
+    assert max(map(len, panels)) >= 5
+    assert len(key) == 8
+    assert all(len(set(styles)) == len(styles) for styles in [*panels, key])

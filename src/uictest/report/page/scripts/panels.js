@@ -7,11 +7,14 @@ const wheelsetOf = (role) => Number(/^wheelset-([1-4])$/.exec(role)?.[1] ?? 0);
 const inColumn = (wheelset, wheelsets) => !wheelset || wheelsets.includes(wheelset);
 
 /* Line styles stand beside colours: a plot can be read in grey and by colour-blind eyes. */
-const DASHES = { "wheelset-2": [7, 2], "wheelset-3": [3, 2], "wheelset-4": [8, 2, 2, 2] };
+const DASHES = {
+  "wheelset-2": [7, 2], "wheelset-3": [3, 2], "wheelset-4": [8, 2, 2, 2],
+  "brake-line": [14, 3], reservoir: [12, 2, 2, 2, 2, 2],
+};
 
 /* A line of a role in its colour; one that is `alone` in its panel needs no style of its own. */
 const lineOf = (stop, axis, { label, role, series, dotted }, alone) => ({
-  label, ink: role, width: role === "train" ? 2.2 : 1.3, dash: dotted ? [1, 2] : alone ? [] : DASHES[role],
+  label, ink: role, width: role === "train" ? 2.2 : 1.3, dash: dotted ? [1, 2] : alone && wheelsetOf(role) ? [] : DASHES[role],
   x: axis.of(stop.curves[series]), y: stop.curves[series].y,
 });
 
