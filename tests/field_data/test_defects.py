@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from uictest.recorded.field_data import UnusableError, unusable_result
+from uictest.recorded.field_data.raw_channels import MapError
 
 from .conftest import judge_stop, kept
 
@@ -78,6 +79,10 @@ def _between(first, last, value):
         ("wheel_speed_4", lambda samples: 1.05 * samples, "offset", "+5.0 % from the train before it brakes"),
         ("speed", lambda samples: 1.06 * samples, "offset", ""),
         ("cylinder_pressure_2", lambda samples: samples + 0.4e5, "offset", ""),
+        ("distance", lambda samples: 0.5 * samples, "contradiction", "by its speed the train runs"),
+        ("distance", lambda samples: -samples, "contradiction", "grows by -"),
+        ("valve_command_1", lambda samples: samples + 7.0, "out-of-range", "none of the states 0, 1, 2"),
+        ("valve_command_3", lambda samples: samples + 0.4, "out-of-range", "none of the states 0, 1, 2"),
     ],
 )
 def test_a_damaged_channel_is_the_only_one_that_is_named(channels, prepared, name, damage, kind, text):
@@ -112,6 +117,23 @@ def test_a_dropout_of_the_train_speed_is_no_standstill(channels, prepared):
     stop = prepared(channels)
     assert stop.standstill[0] == standstill[0]
     assert ("dropout", "speed") in _kinds(stop)
+
+
+@pytest.mark.parametrize("last", [250, None])
+def test_a_train_speed_that_falls_to_zero_at_once_is_no_standstill(case, channels, prepared, last):
+    samples = channels["speed"].samples.copy()
+    samples[100:last] = 0.0
+    _change(channels, "speed", samples)
+    stop = prepared(channels)
+    assert ("dropout", "speed") in _kinds(stop)
+    assert judge_stop(case, stop).outcome == "inconclusive"
+
+
+@pytest.mark.parametrize("choices", [{"trigger_time": "4 s"}, {"trigger": "start"}])
+def test_a_brake_command_at_rest_is_refused(channels, prepared, choices):
+    _change(channels, "speed", np.minimum(channels["speed"].samples, 1.3))
+    with pytest.raises(MapError, match=r"4\.68 km/h there, not above the 5 km/h"):
+        prepared(channels, {}, **choices)
 
 
 @pytest.mark.parametrize("name", ["speed", "wheel_speed_1"])

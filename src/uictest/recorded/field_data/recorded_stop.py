@@ -15,7 +15,7 @@ from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.recorded.field_data.channel_map import ChannelMap, Preparation
 from uictest.recorded.field_data.channels import CHANNEL_UNITS
 from uictest.recorded.field_data.raw_channels import Array, RawChannel, select_channels, with_valve_commands
-from uictest.recorded.field_data.sensor_defects import analogue_defects, speed_defects
+from uictest.recorded.field_data.sensor_defects import analogue_defects, distance_defects, speed_defects
 from uictest.recorded.field_data.time_axis import (
     Defect,
     by_axis,
@@ -117,7 +117,9 @@ def prepare(
     speed = filtered["speed"]
     rest = find_standstill(speed.time, speed.samples, trigger.time, float(preparation.standstill_speed))
     require_plausible_deceleration(speed, trigger.time)
-    defects += _sensor_defects(filtered, trigger, rest.time if rest else float(speed.time[-1]))
+    end = rest.time if rest else float(speed.time[-1])
+    defects += _sensor_defects(filtered, trigger, end)
+    defects += distance_defects(filtered, trigger.time, min(end, rest.last) if rest else end, raster)
     defects += _cut_off(speed, trigger, rest)
     recording, standstill = _on_raster(filtered, trigger, rest, raster, tuple(defects))
     choices = {

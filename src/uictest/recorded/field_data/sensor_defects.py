@@ -11,7 +11,7 @@ import numpy as np
 from uictest.core.units import BAR, KILONEWTON
 from uictest.recorded.field_data.channels import of_wheelsets
 from uictest.recorded.field_data.raw_channels import Array, RawChannel
-from uictest.recorded.field_data.time_axis import Defect
+from uictest.recorded.field_data.time_axis import Defect, integrated
 
 _STEEPEST = 150.0
 """m/s2: about three times what a brake or the rail can do to a wheelset; chosen."""
@@ -25,6 +25,8 @@ _LARGEST_SPEED_OFFSET = 0.02
 """Share of the train speed: what different wheel diameters explain; chosen."""
 _ROLLING = 0.2
 """s after the brake command in which wheels still roll; chosen."""
+_DISTANCE_SHARE, _LEAST_DISTANCE = 0.1, 10.0
+"""Share of the distance, and m: wheel diameters and slides of the wheel measured explain no more; chosen."""
 _SPEEDS = ("speed", *of_wheelsets("wheel_speed"))
 _LARGEST_READING_OFFSET: Final = MappingProxyType(
     {
@@ -42,11 +44,28 @@ _LEAST_CHANGE = 0.1
 
 def speed_defects(channels: Mapping[str, RawChannel], begin: float, end: float) -> Iterator[Defect]:
     """Yield the defects of train and wheel speeds in a stop from `begin` to `end` (s in the file's time)."""
+    yield from _sudden_standstill(channels["speed"], begin, end)
     for name in _SPEEDS:
         if name in channels:
             yield from _dropouts(channels[name], begin, end)
             yield from _stuck_speeds(channels[name], channels, begin, end)
     yield from _speed_offsets(channels, begin)
+
+
+def _sudden_standstill(speed: RawChannel, begin: float, end: float) -> Iterator[Defect]:
+    """A fall to the standstill at `end`, steeper than any wheelset can turn: the train did not stop."""
+    known = np.isfinite(speed.samples) & (speed.time >= begin)
+    time, samples = speed.time[known], speed.samples[known]
+    rest = int(np.searchsorted(time, end))
+    if not 0 < rest < len(time):
+        return
+    fall = float(samples[rest - 1] - samples[rest])
+    if fall > max(_STEEPEST * float(time[rest] - time[rest - 1]), _LEAST_JUMP):
+        text = (
+            f"falls at once from {samples[rest - 1]:.4g} to {samples[rest]:.4g} m/s at {time[rest]:.6g} s,"
+            " where it is taken for the standstill"
+        )
+        yield Defect("dropout", speed.name, text, spoils=True)
 
 
 def _dropouts(channel: RawChannel, begin: float, end: float) -> Iterator[Defect]:
@@ -121,6 +140,22 @@ def _rolling_shares(channels: Mapping[str, RawChannel], begin: float) -> Iterato
         known = np.isfinite(running) & (running > 1.0)
         if known.any():
             yield name, float(np.median(speed[known] / running[known]) - 1.0)
+
+
+def distance_defects(
+    channels: Mapping[str, RawChannel], begin: float, end: float, raster: float
+) -> Iterator[Defect]:
+    """Yield where the recorded distance is not what the train speed makes from `begin` to `end`, s."""
+    if "distance" not in channels:
+        return
+    ends = np.array([begin, end])
+    recorded, made = (
+        float(np.diff(np.interp(ends, each.time, each.samples))[0])
+        for each in (channels["distance"], integrated(channels["speed"], raster))
+    )
+    if abs(recorded - made) > max(_DISTANCE_SHARE * made, _LEAST_DISTANCE):
+        text = f"grows by {recorded:.5g} m in the stop; by its speed the train runs {made:.5g} m"
+        yield Defect("contradiction", "distance", text, spoils=True)
 
 
 def _part(channel: RawChannel, begin: float, end: float) -> tuple[Array, Array]:

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.recording import LARGEST, beyond
+from uictest.core.recording import LARGEST, STATES, beyond, state_kind
 from uictest.recorded.field_data.channels import CHANNEL_UNITS
 from uictest.recorded.field_data.raw_channels import Array, RawChannel
 
@@ -24,6 +24,7 @@ DefectKind = Literal[
     "dropout",
     "stuck",
     "offset",
+    "contradiction",
     "starts-late",
     "ends-before-standstill",
 ]
@@ -119,13 +120,18 @@ def coarse_defects(time: Array, names: str) -> Iterator[Defect]:
 
 
 def without_implausible(channel: RawChannel) -> tuple[RawChannel, list[Defect]]:
-    """Return a channel with NaN for implausibly large samples, and the defect."""
+    """Return a channel with NaN for samples that are implausibly large or no state, and the defect."""
     si = CHANNEL_UNITS[channel.name]
+    states = sorted(STATES.get(state_kind(channel.name) or "", {}).values())
     wrong = beyond(channel.samples, si)
+    if states:
+        wrong = np.isfinite(channel.samples) & ~np.isin(channel.samples, states)
     if not wrong.any():
         return channel, []
     first, last = channel.time[wrong][[0, -1]]
-    text = f"has {_counted(wrong)} beyond {LARGEST[si].text}, from {first:.6g} to {last:.6g} s"
+    limit = f"that are none of the states {', '.join(map(str, states))}" if states else ""
+    limit = limit or f"beyond {LARGEST[si].text}"
+    text = f"has {_counted(wrong)} {limit}, from {first:.6g} to {last:.6g} s"
     samples = np.where(wrong, np.nan, channel.samples)
     return replace(channel, samples=samples), [Defect("out-of-range", channel.name, text)]
 

@@ -36,7 +36,7 @@ class BrakeCommand:
 def find_trigger(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand:
     """Return the brake command of a record. Raises MapError where nothing marks it."""
     if preparation.trigger_time is not None:
-        return _stated(channels, float(preparation.trigger_time), "stated by the user")
+        return _stated(channels, float(preparation.trigger_time), "stated by the user", preparation)
     for name in _ORDER if preparation.trigger == "auto" else (preparation.trigger,):
         trigger = _FINDERS[name](channels, metadata, preparation)
         if trigger is not None:
@@ -58,24 +58,38 @@ def _by_metadata(channels: Channels, metadata: Metadata, preparation: Preparatio
     if text is None:
         return None
     try:
-        return _stated(channels, float(parse_quantity(text, "time")), "stated by the file")
+        return _stated(channels, float(parse_quantity(text, "time")), "stated by the file", preparation)
     except QuantityError as error:
         hint = f"{error.hint or 'write a time such as 12.3 s'}, or state the time with --trigger"
         raise MapError(f"{BRAKE_COMMAND_TIME} in the header of the file: {error}; {hint}") from error
 
 
-def _stated(channels: Channels, time: float, by: str) -> BrakeCommand:
+def _stated(channels: Channels, time: float, by: str, preparation: Preparation) -> BrakeCommand:
     first, last = (float(channels["speed"].time[k]) for k in (0, -1))
     if time >= last:
         raise MapError(
             f"the brake command at {time:.6g} s, {by}, is not in the record, which ends at {last:.6g} s"
         )
     text = f"at {time:.6g} s, {by}"
+    _require_running(channels["speed"], max(time, first), f"the brake command {text}", preparation)
     return BrakeCommand(max(time, first), text, late=time < first - 1e-6)
 
 
+def _require_running(speed: RawChannel, time: float, what: str, preparation: Preparation) -> None:
+    """Raise MapError if the train does not run at a time: there is no stop to judge."""
+    known = np.isfinite(speed.samples)
+    running = float(np.interp(time, speed.time[known], speed.samples[known]))
+    if running <= float(preparation.trigger_speed):
+        raise MapError(
+            f"{what}: the train runs at {running / KILOMETRE_PER_HOUR:.4g} km/h there, not above the"
+            f" {preparation.trigger_speed.text} of `trigger_speed`"
+        )
+
+
 def _by_start(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
-    return BrakeCommand(float(channels["speed"].time[0]), "the record begins with it")
+    first = float(channels["speed"].time[0])
+    _require_running(channels["speed"], first, "the record begins with the brake command", preparation)
+    return BrakeCommand(first, "the record begins with it")
 
 
 def _by_command(channels: Channels, metadata: Metadata, preparation: Preparation) -> BrakeCommand | None:
