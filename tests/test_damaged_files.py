@@ -33,7 +33,7 @@ from hypothesis import HealthCheck, Phase, given, settings, strategies as st
 from uictest import report
 from uictest.analysis import comparison, validation
 from uictest.cli.entry import execute
-from uictest.cli.exit_codes import ExitCode
+from uictest.cli.output import ExitCode
 from uictest.controllers import Config, ControllerError
 from uictest.controllers.adapters.fmu import instance as fmu_instance, slave as fmu_slave
 from uictest.core.recording import Recording

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.cli.exit_codes import ExitCode, of_run
+from uictest.cli.output import ExitCode, of_run
 from uictest.judging.evaluation import CaseResult
 from uictest.report import RunContent
 from uictest.runs import Published

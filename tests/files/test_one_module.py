@@ -24,7 +24,7 @@ EXCEPTIONS = {
     "rig/external/child.py": {"fdopen": "a pipe"},
     "rig/external/guard.py": {"rmtree": CHILD},
     "core/recording/formats/reader.py": {"write_text": READER, "write_bytes": READER},
-    "cli/closed_streams.py": {"open": "the null device in the place of a closed stream"},
+    "cli/start.py": {"open": "the null device in the place of a closed stream"},
     "cli/output.py": {"open": "the null device in the place of a closed stream"},
     "core/user_cache/files.py": {"open": "flags that only read"},
 }

@@ -11,8 +11,7 @@ __all__ = ["main"]
 
 def main() -> None:
     """Run the command line and leave the process with its exit code."""
-    from uictest.cli.closed_streams import open_closed_streams
-    from uictest.cli.signals import leave_when_asked, raise_when_asked
+    from uictest.cli.start import leave_when_asked, open_closed_streams, raise_when_asked
 
     leave_when_asked()
     open_closed_streams()

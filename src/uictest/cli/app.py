@@ -10,8 +10,7 @@ import typer
 from typer.core import TyperGroup
 
 from uictest import __version__
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.output import data
+from uictest.cli.output import ExitCode, data
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 

@@ -13,9 +13,8 @@ import typer
 
 from uictest import runs
 from uictest.cli.app import application
-from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import TRUSTED_FOLDERS, CommandLine
-from uictest.cli.output import lost_data, message, use_safe_encoding
+from uictest.cli.output import ExitCode, lost_data, message, use_safe_encoding
 from uictest.plans import scenario
 
 _TYPER_INTERRUPTED = 130

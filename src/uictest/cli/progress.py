@@ -76,6 +76,63 @@ def _heartbeat(total: int, unit: str) -> Iterator[Advance]:
         thread.join()
 
 
+@contextlib.contextmanager
+def sweep_progress(total: int, done: int, *, quiet: bool) -> Iterator[Advance]:
+    """Lend a function that counts finished cases; `done` of `total` were finished before."""
+    if quiet:
+        yield lambda cases: None
+    elif interactive(sys.stderr):
+        with _bar_with_rate(total, done) as advance:
+            yield advance
+    else:
+        yield _SweepHeartbeat(total, done).advance
+
+
+@contextlib.contextmanager
+def _bar_with_rate(total: int, done: int) -> Iterator[Advance]:
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        ProgressColumn,
+        Task,
+        TimeRemainingColumn,
+    )
+    from rich.text import Text
+
+    class Rate(ProgressColumn):
+        def render(self, task: Task) -> Text:
+            return Text("-" if task.speed is None else f"{task.speed:.0f} cases/s")
+
+    columns = (BarColumn(), MofNCompleteColumn(), Rate(), TimeRemainingColumn())
+    console = error_console()
+    with Progress(*columns, console=console, transient=True, speed_estimate_period=60.0) as bar:
+        task = bar.add_task("simulating", total=total, completed=done)
+        yield lambda cases: bar.advance(task, cases)
+
+
+class _SweepHeartbeat:
+    """A line when a chunk is finished, unless the last line is recent."""
+
+    def __init__(self, total: int, done: int) -> None:
+        self._total, self._before, self._done = total, done, 0
+        self._started = self._last_line = monotonic()
+
+    def advance(self, cases: int) -> None:
+        """Count finished cases, and print a line if the last one is old enough."""
+        self._done += cases
+        now = monotonic()
+        if now - self._last_line >= HEARTBEAT:
+            self._last_line = now
+            message(self._line(now - self._started))
+
+    def _line(self, seconds: float) -> str:
+        rate = self._done / seconds
+        finished = self._before + self._done
+        remaining = (self._total - finished) / rate
+        return f"uictest: {finished} of {self._total} cases, {rate:.0f} cases/s, {remaining:.0f} s left"
+
+
 _EVERY: Final = 5.0
 """s between two lines where there is no terminal."""
 

@@ -126,7 +126,7 @@ def test_options_of_requirements_need_the_word(call, scenario, option):
 @pytest.mark.parametrize("columns", ["40", "80"])
 def test_requirements_keep_to_a_terminal(call, scenario, monkeypatch, columns):
     scenario("slide-80-four-caliper", "requirements: [BR-WSP-AUTHORITY-12, BR-1]\n" + OWN)
-    width = "uictest.cli.requirement_listing.terminal_width"
+    width = "uictest.cli.commands.list.terminal_width"
     monkeypatch.setattr(width, lambda stream: int(columns))
     lines = call("list", "--requirements").out.splitlines()
     assert max(len(line) for line in lines if not line.startswith("not shown")) <= int(columns)

@@ -82,7 +82,7 @@ def test_github_shows_an_error_for_each_case_that_differs(call, scenario, baseli
 def test_a_terminal_table_marks_the_case_that_differs(call, scenario, baseline, monkeypatch):
     scenario("a", DIFFERENT)
     monkeypatch.setenv("COLUMNS", "120")
-    monkeypatch.setattr("uictest.cli.running.display.interactive", lambda stream: True)
+    monkeypatch.setattr("uictest.cli.run_display.interactive", lambda stream: True)
     shown = call("run", "--baseline", baseline).out
     assert ["a", "differs", "fail"] in [line.split()[:3] for line in shown.splitlines()]
     assert "baseline: outcome was pass, is fail" in shown

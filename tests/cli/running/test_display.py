@@ -5,7 +5,7 @@ import pytest
 
 from uictest.cli.options import Format
 from uictest.cli.output import interactive
-from uictest.cli.running.display import Annotations, Lines, ResultsDocument, VerdictTable, chosen_display
+from uictest.cli.run_display import Annotations, Lines, ResultsDocument, VerdictTable, chosen_display
 from uictest.judging.evaluation import CaseResult
 from uictest.report import RunContent
 

@@ -10,9 +10,8 @@ from typing import Annotated
 import typer
 
 from uictest import runs
-from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import trusted_folders
-from uictest.cli.output import data, message
+from uictest.cli.output import ExitCode, data, message
 from uictest.cli.progress import compilation_shown
 from uictest.core import recording
 from uictest.core.recording import formats

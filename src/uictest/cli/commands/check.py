@@ -7,9 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from uictest import report, runs
-from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import CheckFormat, Format, Paths, Trusted
-from uictest.cli.output import data, message
+from uictest.cli.output import ExitCode, data, message
 from uictest.plans import scenario, series, sweeps
 from uictest.plans.scenario import yaml
 

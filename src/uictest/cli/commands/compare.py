@@ -1,4 +1,4 @@
-"""`uictest compare`: two runs or two recordings side by side."""
+"""`uictest compare`: two runs, two recordings, or the variants of one run side by side."""
 
 from __future__ import annotations
 
@@ -11,10 +11,8 @@ import typer
 
 from uictest import report, runs
 from uictest.analysis import comparison
-from uictest.cli.compared_variants import compare_variants
-from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbose, tolerances_of
-from uictest.cli.output import data, message, terminal_width
+from uictest.cli.output import ExitCode, data, message, terminal_width
 from uictest.core import files, recording
 from uictest.core.recording import formats
 
@@ -128,3 +126,32 @@ def _names(first: Path, second: Path) -> tuple[str, str]:
     if first.name != second.name:
         return first.name, second.name
     return str(first), str(second)
+
+
+def compare_variants(place: Path, keys: Sequence[str], shown: PlainFormat, page: Path | None) -> ExitCode:
+    """Print the paired differences of the variants of a run. Exit 5 where no stops pair."""
+    run = _run(runs.run_folder(place))
+    try:
+        compared = comparison.compare_variants(run, keys)
+    except ValueError as error:
+        raise runs.InvalidInputError(f"--over: {error}") from error
+    if shown is PlainFormat.JSON:
+        data(comparison.variants_json(run.name, compared))
+    else:
+        for line in report.document_lines(comparison.variants_document(compared), terminal_width(sys.stdout)):
+            data(line)
+    if page is not None:
+        files.write_to(page, comparison.variants_html(run.name, compared))
+    groups = sum(len(each.groups) for each in compared)
+    counts = report.counted(groups, "group of stops", "groups of stops")
+    message(f"uictest: {counts} of {report.counted(len(compared) + 1, 'variant')} paired")
+    return ExitCode.MET if groups else ExitCode.NOTHING_SELECTED
+
+
+def _run(folder: Path) -> report.RunContent:
+    if reason := runs.why_no_run(folder):
+        raise runs.InvalidInputError(f"{reason}; --over takes the folder of a run")
+    try:
+        return report.read_run(folder)
+    except (OSError, ValueError) as error:
+        raise runs.InvalidInputError(f"cannot compare its variants: {error}") from error

@@ -11,8 +11,8 @@ import typer
 
 from uictest.cli import options
 from uictest.cli.app import command
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.findings import show_findings
+from uictest.cli.commands.selftest import show_findings
+from uictest.cli.output import ExitCode
 from uictest.core import files
 from uictest.plans import scenario
 from uictest.plans.scenario import yaml

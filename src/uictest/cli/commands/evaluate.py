@@ -9,10 +9,9 @@ from typing import Annotated
 import typer
 
 from uictest import report, runs
-from uictest.cli import options, recordings, running
-from uictest.cli.exit_codes import ExitCode, of_run
-from uictest.cli.output import data, message
-from uictest.cli.pruning import keep_newest, named_paths
+from uictest.cli import options, recordings, run_display
+from uictest.cli.earlier_runs import keep_newest, named_paths
+from uictest.cli.output import ExitCode, data, message, of_run
 from uictest.core import recording
 from uictest.core.recording import formats
 from uictest.recorded import field_data
@@ -54,7 +53,7 @@ def evaluate(
     """
     named = named_paths(*files, scenario, junit)
     request = campaign.RecordingRequest(recorded.value)
-    display = running.chosen_display(shown, quiet=quiet, verbose=verbose)
+    display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
     if listing and not any(map(runs.is_series, files)):
         mapped, _ = recordings.channel_map(map_name, trusted, trigger)
         return _list(files, mapped)
@@ -68,9 +67,9 @@ def evaluate(
     batch, stops = runs.recorded_batch(
         files, arguments, conditions, overrides, trusted, stated=stated, option="--set", strict=strict
     )
-    published = running.judge_and_show(batch, request, output, junit, display)
+    published = run_display.judge_and_show(batch, request, output, junit, display)
     if not quiet:
-        running.write_preparation(stops)
+        run_display.write_preparation(stops)
         message(f"uictest: {published.content.tally}; reports in {published.place}")
     return keep_newest(of_run(published), keep, published.place, "evaluate", named)
 

@@ -10,8 +10,7 @@ from typing import Annotated, Final
 import typer
 
 from uictest import __version__, runs
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.output import data
+from uictest.cli.output import ExitCode, data
 from uictest.cli.recordings import Files
 from uictest.core import recording
 from uictest.core.files import make_folder

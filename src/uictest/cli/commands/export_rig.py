@@ -12,9 +12,8 @@ import typer
 from uictest import runs
 from uictest.api import rig_fmu
 from uictest.cli.cases import case_lines
-from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Overrides, trusted_folders
-from uictest.cli.output import data, message
+from uictest.cli.output import ExitCode, data, message
 from uictest.cli.progress import compilation_shown
 from uictest.core import files
 from uictest.plans import scenario

@@ -13,8 +13,7 @@ import typer
 
 from uictest import controllers, report, rig, runs
 from uictest.cli import options, recordings
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.output import data, message
+from uictest.cli.output import ExitCode, data, message
 from uictest.cli.progress import compilation_shown
 from uictest.core import files
 from uictest.core.recording import formats

@@ -15,7 +15,6 @@ import typer
 
 from uictest import runs
 from uictest.cli.app import command
-from uictest.cli.exit_codes import ExitCode
 from uictest.cli.identify_options import (
     ActingTime,
     Base,
@@ -35,7 +34,7 @@ from uictest.cli.identify_options import (
     interval,
 )
 from uictest.cli.options import trusted_folders
-from uictest.cli.output import data, message
+from uictest.cli.output import ExitCode, data, message
 from uictest.cli.recordings import rig_of_record
 from uictest.core import files
 from uictest.plans import library, scenario

@@ -10,8 +10,7 @@ import typer
 
 from uictest import report, runs
 from uictest.cli.commands.schema import schema_text
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.output import message
+from uictest.cli.output import ExitCode, message
 from uictest.core import files
 from uictest.plans import library, templates
 

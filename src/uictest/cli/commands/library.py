@@ -10,9 +10,8 @@ import typer
 
 from uictest import runs
 from uictest.cli.app import command
-from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import trusted_folders
-from uictest.cli.output import data
+from uictest.cli.output import ExitCode, data
 from uictest.plans import library as library_files, scenario
 from uictest.plans.scenario import yaml
 from uictest.recorded import field_data

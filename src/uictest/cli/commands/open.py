@@ -11,8 +11,7 @@ from typing import Annotated
 import typer
 
 from uictest import report, runs
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.output import data, message
+from uictest.cli.output import ExitCode, data, message
 from uictest.plans.scenario import yaml
 from uictest.runs import history
 

@@ -11,9 +11,8 @@ import typer
 
 from uictest import report as reports, runs
 from uictest.cli.cases import malformed
-from uictest.cli.exit_codes import ExitCode
 from uictest.cli.options import Draw, report_formats
-from uictest.cli.output import data
+from uictest.cli.output import ExitCode, data
 from uictest.core import files
 
 

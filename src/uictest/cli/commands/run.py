@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from uictest import report, runs
-from uictest.cli import options, running
+from uictest.cli import earlier_runs, options, run_display
 from uictest.cli.cases import (
     case_lines,
     cases_json,
@@ -19,9 +19,7 @@ from uictest.cli.cases import (
     series_json,
     series_lines,
 )
-from uictest.cli.exit_codes import ExitCode, of_run, worst
-from uictest.cli.output import data, message
-from uictest.cli.pruning import keep_newest, named_paths
+from uictest.cli.output import ExitCode, data, message, of_run, worst
 from uictest.judging import evaluation
 from uictest.plans import scenario, series
 from uictest.running import campaign
@@ -89,15 +87,15 @@ def run(
     verbose: options.Verbose = False,
 ) -> ExitCode:
     """Run scenarios, judge each case and write the reports."""
-    named = named_paths(baseline, validated, junit, *(paths or ()))
+    named = earlier_runs.named_paths(baseline, validated, junit, *(paths or ()))
     names = options.report_formats(formats, "--report", report.format_names())
-    choice = running.BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
+    choice = earlier_runs.BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
     changes = overrides if repeat is None else [*(overrides or ()), f"repeat={repeat}"]
     cases, planned = runs.load_cases_and_series(paths, changes, seed, trusted)
     selected = select_by_options(cases, expression, tag)
     of_series = select_by_options(planned, expression, tag)
     if last_failed:
-        selected, of_series = running.failed_last(selected, of_series, output)
+        selected, of_series = earlier_runs.failed_last(selected, of_series, output)
     if not (selected or of_series):
         message(f"uictest: {runs.nothing_selected(cases, planned)}")
         return ExitCode.NOTHING_SELECTED
@@ -108,7 +106,7 @@ def run(
         _show_selection(selected, of_series, shown)
         return ExitCode.MET
     searched = () if expression or tag or last_failed else runs.scenario_paths(paths)
-    accepted = running.open_baseline(choice, running.scope_of(selected, of_series, searched))
+    accepted = earlier_runs.open_baseline(choice, earlier_runs.scope_of(selected, of_series, searched))
     settings = campaign.RunSettings(
         jobs,
         campaign.RecordingRequest(recorded.value, every=1.0 / record_rate),
@@ -123,16 +121,16 @@ def run(
         baseline=None if accept else accepted,
         drawn_first=drawn_first(selected, of_series, draw),
     )
-    display = running.chosen_display(shown, quiet=quiet, verbose=verbose)
-    published = running.publish_and_show(batch, output, names, options.junit_file(junit, output), display)
+    display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
+    published = run_display.publish_and_show(batch, output, names, options.junit_file(junit, output), display)
     if published is None:
         return ExitCode.INTERRUPTED
     _show_slowest(published.content.all_results, durations)
     code = worst(
         of_run(published),
-        running.accept_or_compare(choice, accepted, published, quiet=quiet),
+        earlier_runs.accept_or_compare(choice, accepted, published, quiet=quiet),
     )
-    return keep_newest(code, keep, published.place, "run", named)
+    return earlier_runs.keep_newest(code, keep, published.place, "run", named)
 
 
 def _show_selection(

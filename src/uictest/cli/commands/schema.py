@@ -9,8 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.output import data
+from uictest.cli.output import ExitCode, data
 from uictest.plans import scenario, series
 from uictest.recorded import field_data
 from uictest.rig import bench as rig_bench

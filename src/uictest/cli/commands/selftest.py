@@ -1,14 +1,19 @@
-"""`uictest selftest`: known answers on this machine."""
+"""`uictest selftest`: known answers on this machine; and how the findings of checks are shown."""
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
+from typing import Final
 
-from uictest import selftest as known_answers
+from uictest import report, selftest as known_answers
 from uictest.cli import options
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.findings import show_findings
+from uictest.cli.output import ExitCode, data, terminal_width
 from uictest.cli.progress import compilation_shown
+from uictest.core import files
+
+_CODES: Final = {"fail": ExitCode.MISSED, "error": ExitCode.ERROR}
+"""Worst finding -> exit code; any other is `ExitCode.MET`."""
 
 
 def selftest(
@@ -24,3 +29,17 @@ def selftest(
     with compilation_shown():
         examination = known_answers.examine(stops)
     return show_findings(examination, shown, file)
+
+
+def show_findings(
+    examination: known_answers.Examination, shown: options.PlainFormat, junit: Path | None
+) -> ExitCode:
+    """Print the findings, write them as JUnit where a file is asked for, and return what they come to."""
+    if shown is options.PlainFormat.JSON:
+        data(known_answers.findings_json(examination))
+    else:
+        document = known_answers.finding_document(examination)
+        data("\n".join(report.document_lines(document, terminal_width(sys.stdout))))
+    if junit is not None:
+        files.write_to(junit, report.junit_text([known_answers.findings_suite(examination)]))
+    return _CODES.get(examination.status, ExitCode.MET)

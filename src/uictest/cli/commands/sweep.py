@@ -8,8 +8,7 @@ from typing import Annotated
 import typer
 
 from uictest import report, runs
-from uictest.cli import sweep as sweeping
-from uictest.cli.exit_codes import ExitCode
+from uictest.cli import sweep_run
 from uictest.cli.options import (
     DryRun,
     ExitFirst,
@@ -27,7 +26,7 @@ from uictest.cli.options import (
     junit_file,
     report_formats,
 )
-from uictest.cli.output import message
+from uictest.cli.output import ExitCode, message
 from uictest.plans import sweeps
 from uictest.running import chunked
 
@@ -132,12 +131,12 @@ def sweep(
     plan = sweeps.load_sweep(file, tuple(overrides or ()), seed, trusted or ())
     if plan.written_now and not quiet:
         message(f"{plan.file}: {plan.written_now}")
-    selection = sweeping.selected_cases(plan, expression)
+    selection = sweep_run.selected_cases(plan, expression)
     if selection.size == 0:
         message(f"uictest: nothing selected among {report.counted(plan.size, 'case')}")
         return ExitCode.NOTHING_SELECTED
     if dry_run:
-        sweeping.show_ids(selection)
+        sweep_run.show_ids(selection)
         return ExitCode.MET
     run = runs.SweepRun(
         selection=selection,
@@ -146,16 +145,16 @@ def sweep(
         ),
         folder=output / plan.name,
         jobs=jobs,
-        shard=sweeping.shard_of(shard),
+        shard=sweep_run.shard_of(shard),
         merged=tuple(merged or ()),
-        cluster=sweeping.cluster_address(dask),
+        cluster=sweep_run.cluster_address(dask),
         restart=restart,
         maxfail=1 if exit_first else maxfail,
-        pair=sweeping.map_pair(plan, pair),
-        measures=sweeping.measure_names(measures),
-        search=sweeping.frontier_search(plan, frontier, tolerance),
+        pair=sweep_run.map_pair(plan, pair),
+        measures=sweep_run.measure_names(measures),
+        search=sweep_run.frontier_search(plan, frontier, tolerance),
         reference=runs.reference_of(validated, plan.base.scenario.validated),
         formats=format_names,
         in_process=in_process,
     )
-    return sweeping.execute_sweep(run, shown, junit_file(junit, run.folder), quiet=quiet)
+    return sweep_run.execute_sweep(run, shown, junit_file(junit, run.folder), quiet=quiet)

@@ -11,8 +11,7 @@ import typer
 from uictest import report, runs
 from uictest.analysis import validation
 from uictest.cli import options
-from uictest.cli.exit_codes import ExitCode, worst
-from uictest.cli.output import data, message, terminal_width
+from uictest.cli.output import ExitCode, data, message, terminal_width, worst
 from uictest.cli.progress import TerminalObserver
 
 Files = Annotated[

@@ -1,82 +1,135 @@
-"""Run a sweep, show it while it runs, and return its exit code."""
+"""Behind `uictest sweep` and lists of sweeps: arguments, the run while it goes on, and its result."""
 
 from __future__ import annotations
 
-import contextlib
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
-from time import monotonic, perf_counter
+from time import perf_counter
+
+import typer
 
 from uictest import report, runs
-from uictest.cli import progress as steps
-from uictest.cli.exit_codes import ExitCode
-from uictest.cli.options import Format
-from uictest.cli.output import interactive, message
-from uictest.cli.progress import Advance, TerminalObserver
-from uictest.cli.sweep.display import show_annotations, show_result
+from uictest.analysis import summaries
+from uictest.cli.cases import malformed
+from uictest.cli.options import Format, rejected
+from uictest.cli.output import ExitCode, data, message, terminal_width
+from uictest.cli.progress import Advance, TerminalObserver, sweep_progress
 from uictest.core import files
-from uictest.report import counted
+from uictest.plans import sweeps
+from uictest.report import counted, printable
 from uictest.running import chunked
 from uictest.runs import history
 
 
-@contextlib.contextmanager
-def sweep_progress(total: int, done: int, *, quiet: bool) -> Iterator[Advance]:
-    """Lend a function that counts finished cases; `done` of `total` were finished before."""
-    if quiet:
-        yield lambda cases: None
-    elif interactive(sys.stderr):
-        with _bar(total, done) as advance:
-            yield advance
-    else:
-        yield _Heartbeat(total, done).advance
+def selected_cases(plan: sweeps.Plan, expression: str | None) -> chunked.CaseSelection:
+    """Return the cases that `-k` selects. Raises typer.BadParameter for a malformed expression."""
+    with malformed("-k", expression):
+        return chunked.select_cases(plan, expression)
 
 
-@contextlib.contextmanager
-def _bar(total: int, done: int) -> Iterator[Advance]:
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        ProgressColumn,
-        Task,
-        TimeRemainingColumn,
-    )
-    from rich.text import Text
-
-    class Rate(ProgressColumn):
-        def render(self, task: Task) -> Text:
-            return Text("-" if task.speed is None else f"{task.speed:.0f} cases/s")
-
-    columns = (BarColumn(), MofNCompleteColumn(), Rate(), TimeRemainingColumn())
-    console = steps.error_console()
-    with Progress(*columns, console=console, transient=True, speed_estimate_period=60.0) as bar:
-        task = bar.add_task("simulating", total=total, completed=done)
-        yield lambda cases: bar.advance(task, cases)
+def shard_of(text: str | None) -> chunked.Shard:
+    """Return the shard that `--shard` names, else the only one. Raises typer.BadParameter."""
+    with rejected("--shard"):
+        return chunked.Shard() if text is None else chunked.parse_shard(text)
 
 
-class _Heartbeat:
-    """A line when a chunk is finished, unless the last line is recent."""
+def cluster_address(address: str | None) -> str | None:
+    """Return the address that `--dask` names. Raises typer.BadParameter."""
+    with rejected("--dask"):
+        if address is not None:
+            chunked.check_address(address)
+    return address
 
-    def __init__(self, total: int, done: int) -> None:
-        self._total, self._before, self._done = total, done, 0
-        self._started = self._last_line = monotonic()
 
-    def advance(self, cases: int) -> None:
-        """Count finished cases, and print a line if the last one is old enough."""
-        self._done += cases
-        now = monotonic()
-        if now - self._last_line >= steps.HEARTBEAT:
-            self._last_line = now
-            message(self._line(now - self._started))
+def frontier_search(
+    plan: sweeps.Plan, key: str | None, tolerance: str | None
+) -> summaries.FrontierSearch | None:
+    """Return the search of `--frontier` and `--tolerance`. Raises typer.BadParameter."""
+    with rejected("--frontier", summaries.FrontierError), rejected("--tolerance", runs.ToleranceError):
+        return runs.frontier_search(plan, key, tolerance)
 
-    def _line(self, seconds: float) -> str:
-        rate = self._done / seconds
-        finished = self._before + self._done
-        remaining = (self._total - finished) / rate
-        return f"uictest: {finished} of {self._total} cases, {rate:.0f} cases/s, {remaining:.0f} s left"
+
+def map_pair(plan: sweeps.Plan, text: str | None) -> tuple[str, str] | None:
+    """Return the parameters that `--map` names, else the first two with several listed values.
+
+    Raises typer.BadParameter.
+    """
+    if text is None:
+        return runs.first_pair(plan)
+    first, _, second = text.partition(",")
+    pair = (first.strip(), second.strip())
+    unknown = [key for key in pair if key not in plan.keys]
+    if unknown or pair[0] == pair[1]:
+        accepted = ", ".join(plan.keys)
+        raise typer.BadParameter(f"name two parameters of {accepted}, as KEY,KEY", param_hint="--map")
+    return pair
+
+
+def measure_names(names: Sequence[str] | None) -> tuple[str, ...]:
+    """Return the columns that `--measure` names, else the braking distance. Raises typer.BadParameter."""
+    with rejected("--measure"):
+        return runs.measure_names(names)
+
+
+_IDS_AT_ONCE = 4096
+
+
+def show_ids(selection: chunked.CaseSelection) -> bool:
+    """Write the ids of the selected cases to stdout, one per line; return whether all were accepted."""
+    for first in range(0, selection.size, _IDS_AT_ONCE):
+        indices = selection.indices(first, min(first + _IDS_AT_ONCE, selection.size))
+        if not data("\n".join(map(printable, selection.plan.ids(indices)))):
+            return False
+    return True
+
+
+def show_result(result: report.SweepResult, document: str, shown: Format, *, quiet: bool) -> None:
+    """Write the result document, or maps, rates and the frontier as text, to stdout.
+
+    If `quiet`, write only the cases that missed their expectation; annotations list these already.
+    """
+    if shown is Format.JSON:
+        data(document.rstrip("\n"))
+        return
+    if quiet and shown is Format.GITHUB:
+        return
+    width = terminal_width(sys.stdout)
+    for line in missed_lines(result) if quiet else result_lines(result, width):
+        text = printable(line) if line else line
+        if shown is Format.GITHUB:
+            data(report.no_command(text))
+        else:
+            data(text if width is None else "\n".join(report.wrapped_name(text, width)))
+
+
+def show_annotations(content: report.SweepContent) -> None:
+    """Write the worst missed cases and the counts of the sweep as annotations to stdout."""
+    for line in report.sweep_annotations(content.result, str(content.manifest.get("file", ""))):
+        data(line)
+
+
+def result_lines(result: report.SweepResult, width: int | None = None) -> Iterator[str]:
+    """Yield maps, met cases by parameter, sensitivities, tails and the frontier, a blank line between them.
+
+    Maps and tables keep to `width` characters, None for any width.
+    """
+    for sweep_map in result.maps:
+        yield from report.map_lines(sweep_map, width)
+        yield ""
+    yield from report.titled_lines(report.numbers_of_sweep(result), width)
+    yield from missed_lines(result)
+    for note in result.notes:
+        yield f"note: {note}"
+
+
+def missed_lines(result: report.SweepResult) -> Iterator[str]:
+    """Yield the first missed cases, and the number of the others."""
+    for case in result.missed:
+        yield f"{case.outcome}  {case.id}  {runs.reason_missed(case.reason)}"
+    if more := result.cases - result.met - len(result.missed):
+        yield f"and {more} more, see {report.every_case(result.cases)}"
 
 
 class SweepObserver(TerminalObserver):
