@@ -16,12 +16,11 @@ from open_records import opened, rounded_twice
 from stops import Stop
 
 from uictest.core.physics import arithmetic
+from uictest.core.physics.air import air_changes, coldness, enthalpy, mass_flow
+from uictest.core.physics.caliper import line
 from uictest.core.physics.disc_brake import torque
-from uictest.core.physics.flow import coldness, mass_flow
-from uictest.core.physics.hysteresis import line
 from uictest.core.physics.polach import creep_force
-from uictest.core.physics.tank import air_changes, enthalpy
-from uictest.core.physics.wheelset import SLOWEST_CREEP
+from uictest.core.physics.vehicle import SLOWEST_CREEP
 from uictest.rig.backends.compiled import translate
 from uictest.rig.model.friction_law import FRICTIONS
 

@@ -2,7 +2,7 @@
 
     python scripts/mutate.py --seed 1 --count 60
     python scripts/mutate.py physics sweeps --count 10 --whole
-    python scripts/mutate.py --place src/uictest/physics/flow.py:5:20:constant
+    python scripts/mutate.py --place src/uictest/core/physics/air.py:30:20:constant
 
 Works in a temporary copy of the checkout, with a cache of compiled code of its own. Each place is tried with
 the tests of its module, of its room and of the rooms that use it, until one fails. A survivor needs a test

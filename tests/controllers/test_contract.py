@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.controllers import CONTROLLERS, TrainMemory
-from uictest.core.physics.wsp_valve import FILL, HOLD, VENT
+from uictest.core.physics.valves import FILL, HOLD, VENT
 from uictest.core.record import fields_of, layout_of
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.state import CAR, WHEELSET, Car

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from uictest.core import lanes
 from uictest.core.lanes import select, vectors
-from uictest.core.physics.noise import bell, threefry
+from uictest.core.physics.sensors import bell, threefry
 from uictest.rig.backends.compiled import translate
 
 WIDTH = 8

@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.physics.brake_operating_unit import demanded_pressure, relay_opening
+from uictest.core.physics.valves import demanded_pressure, relay_opening
 
 FULL = 3.8e5
 FILLING_RATE = 1.0 / 1.5

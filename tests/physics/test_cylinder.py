@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from uictest.core.physics.cylinder import memory, output
+from uictest.core.physics.caliper import memory, output
 
 POLES = np.exp(-5e-4 / np.array([30e-3, 8e-3, 3e-3]))
 DENOMINATOR = np.poly(POLES)

@@ -8,7 +8,7 @@ from hypothesis import given, strategies as st
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from uictest.core.physics.disc_temperature import (
+from uictest.core.physics.disc_brake import (
     MODES,
     bulk_change,
     held_mode,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.physics.flow import (
+from uictest.core.physics.air import (
     REFERENCE_DENSITY,
     REFERENCE_TEMPERATURE,
     coldness,

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 from hypothesis import given, strategies as st
 
-from uictest.core.physics.hysteresis import force_after, line, phase_share
+from uictest.core.physics.caliper import force_after, line, phase_share
 
 SQUEEZING = (0.042, -1874.0)
 RELEASING = (0.047, -1580.0)

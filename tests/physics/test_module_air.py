@@ -1,4 +1,4 @@
-"""The air of a module as it is computed, against vessels that obey the energy balance of physics.tank."""
+"""The air of a module as it is computed, against vessels that obey the energy balance of physics.air."""
 
 import math
 from dataclasses import dataclass
@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.physics.module_air import amount_gained, pressure_volume_after, travel_after
-from uictest.core.physics.tank import air_changes, enthalpy
+from uictest.core.physics.air import air_changes, amount_gained, enthalpy, pressure_volume_after, travel_after
 
 K = 1.4
 R = 287.05

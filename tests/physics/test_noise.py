@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from uictest.core.physics.noise import bell, threefry
+from uictest.core.physics.sensors import bell, threefry
 
 ALL_ONES = 0xFFFFFFFF
 # Known answers of the authors' Random123 library (kat_vectors): key, counter, random bits.

@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.physics.pad_friction import quotient_factor, quotient_scale
+from uictest.core.physics.disc_brake import quotient_factor, quotient_scale
 
 KMH = 1.0 / 3.6
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.physics.pole_wheel import (
+from uictest.core.physics.sensors import (
     last_tooth,
     passed_turns,
     passing_rate,

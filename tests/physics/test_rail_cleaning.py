@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.integrate import solve_ivp
 
-from uictest.core.physics.rail_cleaning import cleaned_friction, cleaned_share, share_left_behind
+from uictest.core.physics.rail import cleaned_friction, cleaned_share, share_left_behind
 
 shares = st.floats(0.0, 1.0)
 losses = st.floats(0.0, 1e5)

@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.physics.reservoir import compressor_running, isothermal_pressure
+from uictest.core.physics.air import compressor_running, isothermal_pressure
 
 
 def test_air_at_the_standard_state_weighs_what_tables_say():

@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.physics.resistance import gradient_force, running_resistance
+from uictest.core.physics.vehicle import gradient_force, running_resistance
 
 
 @given(st.floats(-80.0, 80.0))

@@ -7,8 +7,14 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.integrate import solve_ivp
 
-from uictest.core.physics.flow import REFERENCE_DENSITY, REFERENCE_TEMPERATURE, mass_flow, orifice_law
-from uictest.core.physics.tank import air_changes, enthalpy
+from uictest.core.physics.air import (
+    REFERENCE_DENSITY,
+    REFERENCE_TEMPERATURE,
+    air_changes,
+    enthalpy,
+    mass_flow,
+    orifice_law,
+)
 
 K = 1.4
 R = 287.05

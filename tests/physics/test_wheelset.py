@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.integrate import solve_ivp
 
-from uictest.core.physics import polach, wheelset as equations
-from uictest.core.physics.wheelset import SLOWEST_CREEP, locked_force, turning_direction
+from uictest.core.physics import polach, vehicle as equations
+from uictest.core.physics.vehicle import SLOWEST_CREEP, locked_force, turning_direction
 
 from ..conftest import quick
 

@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.physics.wsp_valve import (
+from uictest.core.physics.valves import (
     FILL,
     HOLD,
     LONGEST_DELAY_CYCLES,

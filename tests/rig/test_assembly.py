@@ -6,8 +6,8 @@ import control
 import numpy as np
 import pytest
 
-from uictest.core.physics.flow import REFERENCE_DENSITY
-from uictest.core.physics.wsp_valve import LONGEST_DELAY_CYCLES
+from uictest.core.physics.air import REFERENCE_DENSITY
+from uictest.core.physics.valves import LONGEST_DELAY_CYCLES
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.scenario import ScenarioErrors
 from uictest.rig.assembly import assemble, friction_laws

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.core.physics.wsp_valve import VENT
+from uictest.core.physics.valves import VENT
 from uictest.core.record import fields_of
 from uictest.plans.scenario import WHEELSET_NUMBERS, wheelset_value
 from uictest.plans.scenario.parts.wheelsets import REGULAR

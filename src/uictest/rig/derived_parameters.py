@@ -171,7 +171,7 @@ def _cylinder(p: Parameters, scenario: Scenario) -> None:
     "simulation.time_step",
 )
 def _module_air(p: Parameters, scenario: Scenario) -> None:
-    """Numbers of :mod:`uictest.core.physics.module_air`."""
+    """Numbers of :mod:`uictest.core.physics.air`."""
     model, system = scenario.rig.compensation_model.air, scenario.brake.system
     step, atmosphere = float(scenario.simulation.time_step), system.air.atmospheric_pressure
     heating = step * (system.air.heat_capacity_ratio - 1.0) * system.air.temperature / system.tank.volume
@@ -230,7 +230,7 @@ def _contact(p: Parameters, scenario: Scenario) -> None:
 
 @_reads("rail.condition")
 def _highest_creep(p: Parameters, scenario: Scenario) -> None:
-    """Numbers of :mod:`uictest.core.physics.friction_maximum`."""
+    """Numbers of :mod:`uictest.core.physics.polach`."""
     p.highest_creep_scale, coefficients = highest_creep_law(scenario.rail.condition)
     for power, coefficient in enumerate(coefficients):
         setattr(p, f"highest_creep_{power}", coefficient)
@@ -244,7 +244,7 @@ def _friction(p: Parameters, scenario: Scenario) -> None:
 
 @_reads("rail", "vehicle.bogie", "vehicle.half_pivot_distance")
 def _cleaning(p: Parameters, scenario: Scenario) -> None:
-    """Numbers of :mod:`uictest.core.physics.rail_cleaning`; zero where nothing is cleaned."""
+    """Numbers of :mod:`uictest.core.physics.rail`; zero where nothing is cleaned."""
     cleaning = scenario.rail.cleaning_in_force
     wheelbase = 2.0 * scenario.vehicle.bogie.half_wheelbase
     largest = max(wheelbase, 2.0 * scenario.vehicle.half_pivot_distance - wheelbase)

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from uictest.core.physics.wsp_valve import FILL, HOLD, VENT
+from uictest.core.physics.valves import FILL, HOLD, VENT
 
 Benches = Callable[..., Any]
 

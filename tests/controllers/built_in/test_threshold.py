@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from uictest.controllers.built_in.threshold import PROBING
-from uictest.core.physics.wsp_valve import FILL, HOLD, VENT
+from uictest.core.physics.valves import FILL, HOLD, VENT
 
 Benches = Callable[..., Any]
 CYCLE = 0.01

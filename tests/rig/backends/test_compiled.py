@@ -10,8 +10,8 @@ import pytest
 
 from uictest.controllers import CONTROLLERS, Controller
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.physics.air import mass_flow, orifice_law
 from uictest.core.physics.arithmetic import exp, maximum
-from uictest.core.physics.flow import mass_flow, orifice_law
 from uictest.rig import StopInputs
 from uictest.rig.backends.compiled import compiled_operations, sources, translate, with_controllers
 from uictest.rig.backends.finished_stop import empty_trace

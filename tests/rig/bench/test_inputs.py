@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uictest.core.physics.wsp_valve import FILL, HOLD, VENT
+from uictest.core.physics.valves import FILL, HOLD, VENT
 from uictest.rig.bench.inputs import (
     Clock,
     bypassed_input,

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.core.physics.wsp_valve import FILL, HOLD, VENT
+from uictest.core.physics.valves import FILL, HOLD, VENT
 from uictest.rig.model import cycle as at_cycle, step as at_step
 
 from ...conftest import quick

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.core.physics.flow import REFERENCE_TEMPERATURE
+from uictest.core.physics.air import REFERENCE_TEMPERATURE
 from uictest.rig.model import pneumatics
 from uictest.rig.model.balance import air_energy_residual, stored_air
 

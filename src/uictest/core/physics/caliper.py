@@ -1,7 +1,19 @@
-"""Brake caliper: piston, return spring, friction, clearance and lever.
+"""From the pressure of a tank to the clamping force of a caliper, as identified or as modelled.
 
-The piston has no inertia: at its loads it settles within a few milliseconds. Its equilibrium while it
-moves is
+Four-phase hysteresis, the clamping force that a tank's pressure would give, Lee and Kang (2015), equations
+(4)-(7): the force is linear in pressure, with a slope and an intercept of its own when the brake cylinder
+squeezes or releases in ordinary braking (BC) and when the WSP acts. Between the squeezing and the releasing
+line the force stays where it is while the pressure turns: a play operator bounded by two lines.
+
+Cylinder dynamics, a third-order discrete transfer function from tank pressure to cylinder pressure,
+equation (8):
+
+    y[n] = (b0 + b1 z^-1 + b2 z^-2 + b3 z^-3) / (1 + a1 z^-1 + a2 z^-2 + a3 z^-3) u[n]
+
+in transposed direct form II: three memories, each the part of later outputs that is already known.
+
+The modelled caliper has a piston, a return spring, friction, a clearance and a lever. The piston has no
+inertia: at its loads it settles within a few milliseconds. Its equilibrium while it moves is
 
     p A - F0 - k y - N - sgn(y') (Fc + alpha N) - c y' - cN z' = 0,     N = kc z,  z = max(0, y - y0)
 
@@ -13,6 +25,34 @@ friction can carry the difference nothing moves.
 """
 
 from uictest.core.physics.arithmetic import clamp, fma, maximum, minimum
+
+
+def phase_share(share: float, wsp_acting: float, largest_change: float) -> float:
+    """Share of the WSP lines (0 BC, 1 WSP) after one step towards ``wsp_acting``.
+
+    The lines are exchanged over a finite time, so that the force does not jump when the phase changes.
+    """
+    return share + clamp(wsp_acting - share, -largest_change, largest_change)
+
+
+def line(pressure: float, slope: float, intercept: float) -> float:
+    """Clamping force on one line, N, never negative; gauge pressure in Pa, slope in N/Pa, intercept in N."""
+    return maximum(fma(slope, pressure, intercept), 0.0)
+
+
+def force_after(force: float, squeezing: float, releasing: float) -> float:
+    """Clamping force in N after the pressure changed: kept, unless one of the two lines moves it."""
+    return clamp(force, squeezing, maximum(squeezing, releasing))
+
+
+def output(pressure: float, memory_1: float, b0: float) -> float:
+    """Cylinder pressure y[n] for tank pressure u[n], in the unit of the pressures."""
+    return fma(b0, pressure, memory_1)
+
+
+def memory(pressure: float, filtered: float, b: float, a: float, following: float) -> float:
+    """Memory i after the step: b_i u[n] - a_i y[n] + memory i+1 before it."""
+    return fma(b, pressure, fma(-a, filtered, following))
 
 
 def stiffnesses(

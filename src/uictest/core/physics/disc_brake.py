@@ -1,4 +1,26 @@
-"""Disc brake of one wheelset."""
+"""Disc brake of one wheelset: torque, friction of the pads, temperature of the discs.
+
+The friction of the pads is mu_pad = mu_ref h(v_d) q(F) g(T). v_d is the speed of the friction surface at the
+mean radius, F the clamping force of one pad, T the temperature of the friction surface. Each factor is a
+table (:func:`uictest.core.physics.interpolated`) or, for speed and force, a quotient of two straight lines.
+
+The ring of a disc under one pad face is a slab of thickness L, conductivity k, density rho and specific heat
+c, heated on its friction surface by a flux q, insulated at its back (or heated alike from both sides, then L
+is half of it). All of a face's heat is spread over the whole ring. With the diffusivity alpha = k / (rho c)
+the surface is
+
+    T_surface = T + sum over n of a_n,    da_n/dt = 2 q / (rho c L) - n^2 pi^2 alpha / L^2 a_n
+
+(H. S. Carslaw and J. C. Jaeger, Conduction of Heat in Solids, 2nd ed., 1959, section 3.8) and the bulk
+temperature T follows from the heat that the ring holds; it loses heat h A (T - T_ambient) to the air. That
+loss is taken from the bulk: its gradient within the ring, h L / k of the excess, is left out. Of the modes
+:data:`MODES` are followed, the faster ones are where the present flux would hold them: that holds the highest
+temperature of a stop of t_s within 1 % while L is at most 5.5 sqrt(alpha t_s), 0.1 m for 28 s on cast iron.
+"""
+
+import math
+
+from uictest.core.physics.arithmetic import exp, fma
 
 
 def torque(
@@ -14,3 +36,97 @@ def torque(
         mean_radius: mean friction radius, m.
     """
     return calipers * pads * pad_friction * clamping_force * mean_radius
+
+
+MOST_PAD_POINTS = 16
+"""Points that a table may have."""
+
+
+def quotient_factor(x: float, numerator: float, denominator: float, scale: float) -> float:
+    """Factor (x + a) / (x + b) times a scale that makes it 1 at the reference point.
+
+    The form of Karwatzki's law for composite brake blocks, there over the force of a block and the speed of
+    the train, which is that of the tread that the block rubs on.
+
+    Args:
+        x: speed of the friction surface, m/s, or clamping force of one pad, N.
+        numerator: a, in the unit of ``x``.
+        denominator: b, likewise.
+        scale: (x0 + b) / (x0 + a) of the reference point x0.
+    """
+    return scale * (x + numerator) / (x + denominator)
+
+
+def quotient_scale(reference: float, numerator: float, denominator: float) -> float:
+    """Scale with which :func:`quotient_factor` is 1 at ``reference``."""
+    return (reference + denominator) / (reference + numerator)
+
+
+MODES = 6
+"""Modes that are followed; for a ring of cast iron of 20 mm the next relaxes in 0.06 s."""
+_SLOW = 1e-2
+"""Below it the series of 1 - exp(-x) is used; its first term left out is below 2e-13 of it."""
+
+
+def relaxed_share(x: float) -> float:
+    """Share 1 - exp(-x), x >= 0, of the way to equilibrium that is covered in x time constants."""
+    if x < _SLOW:
+        return x * (1.0 - x / 2.0 * (1.0 - x / 3.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0))))
+    return 1.0 - exp(-x)
+
+
+def bulk_change(
+    temperature: float, surroundings: float, heat: float, warming: float, relaxation: float
+) -> float:
+    """Change of the bulk temperature, K, within an interval of constant heating: the exact solution.
+
+    Args:
+        temperature: of the bulk at the beginning, K.
+        surroundings: temperature of the air, K.
+        heat: that the pads give off in the interval, J.
+        warming: (1 - exp(-x)) / (x C), K/J, with x = h A dt / C.
+        relaxation: 1 - exp(-x).
+    """
+    return fma(warming, heat, -relaxation * (temperature - surroundings))
+
+
+def cooled_heat(
+    temperature: float, surroundings: float, heat: float, capacity: float, warming: float, relaxation: float
+) -> float:
+    """Heat that the air takes from the ring, h A (T - T_ambient), in an interval of constant heating, J.
+
+    Args:
+        capacity: C, J/K.
+        temperature, surroundings, heat, warming, relaxation: :func:`bulk_change`.
+    """
+    return fma(1.0 - capacity * warming, heat, capacity * relaxation * (temperature - surroundings))
+
+
+def mode_after(mode: float, heat: float, rise: float, relaxation: float) -> float:
+    """Mode of the temperature profile, K, at the end of an interval of constant flux: the exact solution.
+
+    Args:
+        mode: at the beginning, K.
+        heat: that the pads give off in the interval, J.
+        rise: what the mode gains from it, K/J; its steady value per heat times ``relaxation``.
+        relaxation: 1 - exp(-n^2 pi^2 alpha dt / L^2).
+    """
+    return mode + fma(rise, heat, -relaxation * mode)
+
+
+def mode_relaxation(number: int, fourier: float) -> float:
+    """Share of the n-th mode that dies away in an interval with Fourier number alpha dt / L^2."""
+    return relaxed_share(number * number * math.pi * math.pi * fourier)
+
+
+def held_mode(number: int) -> float:
+    """The n-th mode under a steady flux, in q L / k: 2 / (n^2 pi^2)."""
+    return 2.0 / (number * number * math.pi * math.pi)
+
+
+def held_rest() -> float:
+    """All modes beyond the :data:`MODES` that are followed under a steady flux, in q L / k.
+
+    The sum of all is 1/3.
+    """
+    return 1.0 / 3.0 - math.fsum(held_mode(number) for number in range(1, MODES + 1))

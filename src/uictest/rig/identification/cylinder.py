@@ -92,7 +92,7 @@ class CylinderResult:
 
 @dataclass(frozen=True, slots=True)
 class AirResult:
-    """Numbers of :mod:`uictest.core.physics.module_air` and their errors where the record was held out.
+    """Numbers of :mod:`uictest.core.physics.air` and their errors where the record was held out.
 
     Attributes:
         tank_heat_conductance: from the wall of a tank to its air, W/K.

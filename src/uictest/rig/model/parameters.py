@@ -74,8 +74,8 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     heat_capacity_ratio: float = from_scenario("brake.system.air.heat_capacity_ratio")
     heat_capacity_pressure: float = derived()  # at constant pressure, J/(kg K)
     heat_capacity_volume: float = derived()  # at constant volume, J/(kg K)
-    air_coldness: float = derived()  # physics.flow.coldness of the surroundings
-    critical_ratio: float = derived()  # this and the next two: physics.flow.orifice_law
+    air_coldness: float = derived()  # physics.coldness of the surroundings
+    critical_ratio: float = derived()  # this and the next two: physics.orifice_law
     subsonic_scale: float = derived()
     laminar_slope: float = derived()
     # tanks
@@ -100,7 +100,7 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     a1: float = derived()
     a2: float = derived()
     a3: float = derived()
-    # compensation: modelled air of the caliper's module, physics.module_air
+    # compensation: modelled air of the caliper's module, physics.air
     modelled_tank_exchange: float = derived()  # Pa
     modelled_exchange: float = derived()  # Pa
     modelled_fill_conductance: float = derived()  # air in a step over the reduced flow
@@ -131,7 +131,7 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     calipers_per_wheelset: float = from_scenario("brake.system.disc.calipers_per_wheelset")
     pads_per_caliper: float = from_scenario("brake.system.disc.pads_per_caliper")
     disc_radius: float = from_scenario("brake.system.disc.mean_radius")  # m
-    # factors of the pad friction over m/s, N and K: tables, and physics.pad_friction.quotient_factor
+    # factors of the pad friction over m/s, N and K: tables, and physics.quotient_factor
     varies_pad_friction: float = derived()  # 0 or 1
     pad_speeds: PadTable = derived()
     pad_speed_factors: PadTable = derived()
@@ -148,7 +148,7 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     pad_temperatures: PadTable = derived()
     pad_temperature_factors: PadTable = derived()
     pad_temperature_points: int = derived()
-    # temperature of the discs of a wheelset in a controller cycle: physics.disc_temperature
+    # temperature of the discs of a wheelset in a controller cycle: physics.disc_brake
     models_disc_temperature: float = derived()  # 0 or 1; where 0, all of the following but one are zero
     initial_disc_temperature: float = derived()  # K
     disc_heat_capacity: float = derived()  # J/K
@@ -221,7 +221,7 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     creep_stiffness: float = derived()  # (1/4) G pi a b c11 at the reference load, N
     reference_load: float = from_scenario("rail.condition.contact.reference_wheel_load")  # N
     load_scale: float = from_scenario("rail.condition.contact.reference_wheel_load", inverse)  # 1/N
-    # largest creep force: physics.friction_maximum
+    # largest creep force: physics.polach
     highest_creep_scale: float = derived()  # s/m
     highest_creep_0: float = derived()
     highest_creep_1: float = derived()
@@ -233,7 +233,7 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     highest_creep_7: float = derived()
     friction_points: int = derived()  # points of the friction along the track
     friction_times: int = derived()  # points of its factor over time
-    # rail cleaned by sliding: physics.rail_cleaning
+    # rail cleaned by sliding: physics.rail
     cleans_rail: float = derived()  # 0 or 1
     cleaning_response: float = derived()  # cleaned share per energy per metre of track, m/J
     cleaning_decay: float = derived()  # 1/m

@@ -200,7 +200,7 @@ def orifice(
     conductance: float,
     p: Parameters,
 ) -> float:
-    """Mass flow through an orifice of the rig, kg/s: :func:`uictest.core.physics.flow.mass_flow`."""
+    """Mass flow through an orifice of the rig, kg/s: :func:`uictest.core.physics.air.mass_flow`."""
     return mass_flow(
         pressure_1,
         pressure_2,

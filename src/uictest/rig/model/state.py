@@ -39,7 +39,7 @@ class Car(Frame, TrainMemory):
     line_pressure: float
     line_mass: float
     line_temperature: float
-    line_coldness: float  # physics.flow.coldness of its air
+    line_coldness: float  # physics.coldness of its air
     line_pressure_error: float  # momentary noise of its sensor, Pa
     demanded_pressure: float  # at present, gauge, Pa
     line_saturated_steps: float  # in which its sensor was read and limited by its range
@@ -96,7 +96,7 @@ class Wheelset(ControlledWheelset, WheelsetParameters):
     pressure: float
     air_mass: float
     air_temperature: float
-    air_coldness: float  # physics.flow.coldness
+    air_coldness: float  # physics.coldness
     vented_air: float
     vented_enthalpy: float  # J
     wall_heat: float  # from the wall of the tank, and the balls in it, to its air, J
@@ -112,7 +112,7 @@ class Wheelset(ControlledWheelset, WheelsetParameters):
     memory_3: float
     wsp_share: float
     compensated_pressure: float  # gauge, after the cylinder dynamics or the modelled air
-    # compensation by modelled air: physics.module_air, pressures and amounts of air in Pa
+    # compensation by modelled air: physics.air, pressures and amounts of air in Pa
     modelled_tank_pressure: float
     modelled_tank_air: float
     modelled_pressure: float
