@@ -26,7 +26,7 @@ EXCEPTIONS = {
     "core/recording/formats/reader.py": {"write_text": READER, "write_bytes": READER},
     "cli/start.py": {"open": "the null device in the place of a closed stream"},
     "cli/output.py": {"open": "the null device in the place of a closed stream"},
-    "core/user_cache/files.py": {"open": "flags that only read"},
+    "core/user_cache.py": {"open": "flags that only read"},
 }
 """Module -> what it may call, and why."""
 

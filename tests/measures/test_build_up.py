@@ -15,12 +15,12 @@ from uictest.core.measures import (
     observe_build_up,
     observe_train,
 )
-from uictest.core.measures.catalogue.build_up import (
+from uictest.core.measures.catalogue.stopping import (
     build_up_time,
     deceleration_distance,
     developed_deceleration,
+    mean_deceleration,
 )
-from uictest.core.measures.catalogue.stopping import mean_deceleration
 
 COMMANDED = 3.8e5
 DEFINITION: Any = SimpleNamespace(

@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from uictest.core import user_cache
-from uictest.core.user_cache import files as cache_files
 
 INPUTS = b"sources"
 MAKER = """
@@ -62,7 +61,7 @@ def test_a_process_that_was_killed_or_stopped_holds_nobody_up_without_end(root, 
     with another_process() as maker:
         maker.kill()
     assert read_in_turn() is None
-    monkeypatch.setattr(cache_files, "PATIENCE", 0.1)
+    monkeypatch.setattr(user_cache, "PATIENCE", 0.1)
     with another_process():
         assert read_in_turn() is None
 

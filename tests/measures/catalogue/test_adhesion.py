@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from uictest.core.measures.catalogue.adhesion import initial_adhesion
+from uictest.core.measures.catalogue.deceleration import initial_adhesion
 
 G = 9.80665
 

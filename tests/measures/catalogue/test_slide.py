@@ -1,6 +1,6 @@
 import numpy as np
 
-from uictest.core.measures.catalogue.slide import maximum_slide_above_cutoff
+from uictest.core.measures.catalogue.sliding import maximum_slide_above_cutoff
 
 KMH = 1 / 3.6
 

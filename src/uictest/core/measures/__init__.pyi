@@ -1,5 +1,4 @@
-from .build_up import begin_build_up as begin_build_up, observe_build_up as observe_build_up
-from .catalogue.slide import SLIDE_CLASS as SLIDE_CLASS, SLOW_SHARE_CLASS as SLOW_SHARE_CLASS
+from .catalogue.sliding import SLIDE_CLASS as SLIDE_CLASS, SLOW_SHARE_CLASS as SLOW_SHARE_CLASS
 from .contact import (
     begin_contact as begin_contact,
     begin_utilisation as begin_utilisation,
@@ -20,7 +19,6 @@ from .measure import (
     WheelsetColumn as WheelsetColumn,
     Wheelsets as Wheelsets,
 )
-from .reaction import observe_reaction as observe_reaction, observe_reference as observe_reference
 from .records import (
     END_SPEEDS as END_SPEEDS,
     SLOW_SHARES as SLOW_SHARES,
@@ -40,18 +38,23 @@ from .registry import (
     wheelset_column_values as wheelset_column_values,
 )
 from .replay import Faults as Faults, Replay as Replay, samples_of as samples_of
-from .sliding_share import begin_slow_times as begin_slow_times, keep_slow_times as keep_slow_times
 from .train import (
+    begin_build_up as begin_build_up,
     begin_train as begin_train,
     begin_window as begin_window,
     keep_window as keep_window,
     note_standstill as note_standstill,
+    observe_build_up as observe_build_up,
     observe_reservoir_margin as observe_reservoir_margin,
     observe_train as observe_train,
 )
 from .wheelset import (
     begin_slides as begin_slides,
+    begin_slow_times as begin_slow_times,
     begin_wheelset as begin_wheelset,
     keep_slide as keep_slide,
+    keep_slow_times as keep_slow_times,
+    observe_reaction as observe_reaction,
+    observe_reference as observe_reference,
     observe_wheelset as observe_wheelset,
 )

@@ -19,10 +19,7 @@ from uictest.core.measures.measure import (
 from uictest.core.measures.records import StopMeasures, WheelsetMeasures
 from uictest.core.units import in_unit
 
-_ORDER: Final = [
-    *("stopping", "build_up", "adhesion", "utilisation", "deceleration", "bogies"),
-    *("slide", "flats", "locking", "caliper", "air", "reservoir", "balances"),
-]
+_ORDER: Final = ["stopping", "deceleration", "sliding", "brake", "simulation"]
 """Order of the modules in results and lists; modules not named here follow in the order of their names."""
 
 

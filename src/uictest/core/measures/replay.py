@@ -11,20 +11,28 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.measures.build_up import begin_build_up, observe_build_up
 from uictest.core.measures.contact import begin_contact, begin_utilisation, observe_contact
-from uictest.core.measures.reaction import observe_reaction, observe_reference
 from uictest.core.measures.records import END_SPEEDS, SLOW_TIMES, SPEED_CLASSES, WINDOW_SECONDS
-from uictest.core.measures.sliding_share import begin_slow_times, keep_slow_times
 from uictest.core.measures.train import (
+    begin_build_up,
     begin_train,
     begin_window,
     keep_window,
     note_standstill,
+    observe_build_up,
     observe_reservoir_margin,
     observe_train,
 )
-from uictest.core.measures.wheelset import begin_slides, begin_wheelset, keep_slide, observe_wheelset
+from uictest.core.measures.wheelset import (
+    begin_slides,
+    begin_slow_times,
+    begin_wheelset,
+    keep_slide,
+    keep_slow_times,
+    observe_reaction,
+    observe_reference,
+    observe_wheelset,
+)
 from uictest.core.physics import VENT
 
 Array = NDArray[np.float64]

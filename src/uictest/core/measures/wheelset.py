@@ -1,11 +1,28 @@
-"""Measures of one wheelset: slide, locks, valve actuations, clamping force, disc temperature."""
+"""Measures of one wheelset: slide, locks, valve actuations, clamping force, disc, reaction to faults.
 
-from uictest.core.measures.records import SPEED_CLASSES, MeasureDefinition, StopMeasures, WheelsetMeasures
+The time that a wheelset turns slower than a share of the train's speed is kept per band of train speed: row
+`k` of a table holds the times before the train first ran at or below `END_SPEEDS[k]`, but not yet those
+before it did at `END_SPEEDS[k + 1]`. The time until the train is down to one of these speeds is the sum of
+that row and all above. A row has one time per share of `SLOW_SHARES`.
+"""
+
+from collections.abc import Sequence
+
+from uictest.core.measures.records import (
+    END_SPEEDS,
+    SLOW_SHARES,
+    SLOW_TIMES,
+    SPEED_CLASSES,
+    MeasureDefinition,
+    StopMeasures,
+    WheelsetMeasures,
+)
 from uictest.core.physics import maximum, minimum, select
 
 NAN = float("nan")
 _CLASSES_PER_SPEED = 3.6 / 10.0
 """Classes of 10 km/h per m/s."""
+_SPEEDS, _SHARES, _WHEELSETS = len(END_SPEEDS), len(SLOW_SHARES), 4
 
 
 def begin_wheelset(measures: WheelsetMeasures) -> None:
@@ -130,3 +147,97 @@ def _observe_lock(measures: WheelsetMeasures, moves: bool, locked: bool, interva
     measures.locked_time += select(locked, interval, 0.0)
     measures.lock = select(locked, measures.lock + interval, select(moves, 0.0, measures.lock))
     measures.longest_lock = maximum(measures.longest_lock, measures.lock)
+
+
+def begin_slow_times(measures: StopMeasures, wheelset_measures: Sequence[WheelsetMeasures]) -> None:
+    """Start the times of a stop and of its four wheelsets."""
+    for k in range(_SPEEDS):
+        measures.reached_time[k] = NAN
+    for k in range(SLOW_TIMES):
+        measures.half_slow_time[k] = 0.0
+        for i in range(_WHEELSETS):
+            wheelset_measures[i].slow_time[k] = 0.0
+
+
+def keep_slow_times(
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+    samples: StopMeasures,
+    wheelset_samples: Sequence[WheelsetMeasures],
+) -> None:
+    """Add the time since the sample before to every wheelset that turns too slowly at the last one.
+
+    A wheelset that turns at exactly a share of the train's speed is not below it. A speed that is NaN, where
+    a recording has a gap, is not below any.
+
+    Args:
+        measures: record of the stop that holds the times.
+        wheelset_measures: records of its wheelsets that hold the times.
+        samples: record that :func:`observe_train` filled with the last sample; may be the same.
+        wheelset_samples: those that :func:`observe_wheelset` filled; may be the same.
+    """
+    row = _SPEEDS - 1
+    while row >= 0 and measures.reached_time[row] >= 0.0:  # false for the NaN before
+        row -= 1
+    if row < 0:
+        return
+    interval = samples.end_time - samples.previous_time
+    for j in range(_SHARES):
+        slow = 0
+        for i in range(_WHEELSETS):
+            if wheelset_samples[i].wheel_speed < SLOW_SHARES[j] * samples.end_speed:
+                wheelset_measures[i].slow_time[row * _SHARES + j] += interval
+                slow += 1
+        if 2 * slow >= _WHEELSETS:
+            measures.half_slow_time[row * _SHARES + j] += interval
+    while row >= 0 and samples.end_speed <= END_SPEEDS[row]:
+        measures.reached_time[row] = samples.end_time
+        row -= 1
+
+
+def observe_reference(measures: StopMeasures, definition: MeasureDefinition, reference_speed: float) -> None:
+    """Observe the controller's estimate of the train's speed in one cycle with a fault, after the train.
+
+    Args:
+        measures: measures of the stop; the estimate is of its last speed but one, from which the controller
+            made it.
+        definition: how samples become measures.
+        reference_speed: m/s; NaN where the controller has none.
+    """
+    if not measures.previous_speed > definition.moving_speed:
+        return
+    # Before the first sample both are NaN; minimum and maximum then give the other number.
+    measures.fault_time = minimum(measures.fault_time, measures.previous_time)
+    excess = reference_speed - measures.previous_speed
+    if excess == excess:
+        measures.reference_excess = maximum(measures.reference_excess, excess)
+
+
+def observe_reaction(
+    measures: WheelsetMeasures,
+    train: StopMeasures,
+    definition: MeasureDefinition,
+    faulty: float,
+    speed_sensor_faulty: float,
+    clamping_force: float,
+    largest_force: float,
+) -> None:
+    """Observe one wheelset in one cycle, after the train.
+
+    Args:
+        measures: measures of the wheelset.
+        train: measures of the stop; its last two samples give the interval.
+        definition: how samples become measures.
+        faulty: 1 once one of its parts has had a fault.
+        speed_sensor_faulty: 1 while its speed sensor has one.
+        clamping_force: of one caliper, N.
+        largest_force: that of the wheelset with most of it, N.
+    """
+    measures.faulty = faulty
+    observed = train.end_speed > definition.moving_speed and train.end_time >= definition.developed_time
+    if not (speed_sensor_faulty > 0.0 and observed):
+        measures.release = 0.0
+        return
+    released = clamping_force < definition.released_share * largest_force
+    measures.release = measures.release + (train.end_time - train.previous_time) if released else 0.0
+    measures.longest_release = maximum(measures.longest_release, measures.release)

@@ -1,18 +1,16 @@
 from .catalogue import SERIES_MEASURES as SERIES_MEASURES
-from .estimate import (
-    Estimate as Estimate,
-    Method as Method,
-    Statistic as Statistic,
-    mean_of as mean_of,
-    median_of as median_of,
-)
 from .measure import (
     CountedStop as CountedStop,
+    Estimate as Estimate,
+    Method as Method,
     Rail as Rail,
     SeriesMeasure as SeriesMeasure,
     SeriesValue as SeriesValue,
     SpeedStops as SpeedStops,
+    Statistic as Statistic,
     dry_relation as dry_relation,
+    mean_of as mean_of,
+    median_of as median_of,
     of_stop as of_stop,
     percent_of_dry as percent_of_dry,
 )

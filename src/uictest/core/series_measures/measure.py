@@ -1,13 +1,105 @@
-"""What declares a measure of a series, and the stops that count."""
+"""What declares a measure of a series, the stops that count, and what they say of all stops like them."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from statistics import median
 from typing import Literal
 
-from uictest.core.series_measures.estimate import Estimate, Statistic, largest_of, median_of, smallest_of
+from uictest.core import statistics
+
+Method = Literal["median", "mean", "share", "largest", "smallest"]
+"""How a value was made of those of the stops, and with it how its interval was."""
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """A value over stops.
+
+    Args:
+        value: the estimate.
+        low, high: the interval that holds the true one with `confidence`; NaN where there is none.
+        confidence: of the interval, a share.
+        method: median: interval by order statistics; mean: by Student's t; share: by Clopper and Pearson;
+            largest and smallest: no interval, see `covered`.
+        stops: how many were drawn.
+        smallest, largest: of the stops, the spread.
+        covered: for the largest (smallest) of the stops: share of all such stops that, with `confidence`,
+            keep on its good side; NaN otherwise.
+
+    """
+
+    value: float
+    low: float
+    high: float
+    confidence: float
+    method: Method
+    stops: int
+    smallest: float
+    largest: float
+    covered: float = math.nan
+
+    def mapped(self, function: Callable[[float], float]) -> Estimate:
+        """Return the estimate of a monotone function of the value."""
+        low, high = sorted((function(self.low), function(self.high)))
+        smallest, largest = sorted((function(self.smallest), function(self.largest)))
+        value = function(self.value)
+        return replace(self, value=value, low=low, high=high, smallest=smallest, largest=largest)
+
+
+Statistic = Callable[[Sequence[float], float], Estimate]
+"""Makes an estimate of the values of stops (at least one, all finite) and a confidence."""
+
+
+def median_of(values: Sequence[float], confidence: float) -> Estimate:
+    """Return the median with its interval by order statistics, whatever the distribution.
+
+    95 % take at least six values.
+    """
+    ranks, ranked = statistics.bound_ranks(0.5, len(values), confidence, "both"), sorted(values)
+    low = math.nan if ranks.lower is None else ranked[ranks.lower - 1]
+    high = math.nan if ranks.upper is None else ranked[-ranks.upper]
+    return _estimate(median(values), low, high, confidence, "median", values)
+
+
+def mean_of(values: Sequence[float], confidence: float) -> Estimate:
+    """Return the mean with its interval by Student's t."""
+    low, high = statistics.mean_interval(values, confidence)
+    return _estimate(math.fsum(values) / len(values), low, high, confidence, "mean", values)
+
+
+def share_of(values: Sequence[float], confidence: float) -> Estimate:
+    """Return the share (%) of values that are 1, the others 0, with its interval by Clopper and Pearson."""
+    successes = sum(value == 1.0 for value in values)
+    low, high = statistics.proportion_interval(successes, len(values), confidence)
+    shares = [100.0 * value for value in values]
+    share = 100.0 * successes / len(values)
+    return _estimate(share, 100.0 * low, 100.0 * high, confidence, "share", shares)
+
+
+def largest_of(values: Sequence[float], confidence: float) -> Estimate:
+    """Return the largest value, and the share of all such stops that stays below it."""
+    return _extreme(max(values), values, confidence, "largest")
+
+
+def smallest_of(values: Sequence[float], confidence: float) -> Estimate:
+    """Return the smallest value, and the share of all such stops that stays above it."""
+    return _extreme(min(values), values, confidence, "smallest")
+
+
+def _extreme(value: float, values: Sequence[float], confidence: float, method: Method) -> Estimate:
+    # All n draws stay below the quantile of order q with probability q^n; with n = 50 q is 94.2 % for 95 %.
+    covered = (1.0 - confidence) ** (1.0 / len(values))
+    whole = _estimate(value, math.nan, math.nan, confidence, method, values)
+    return replace(whole, covered=covered)
+
+
+def _estimate(
+    value: float, low: float, high: float, confidence: float, method: Method, values: Sequence[float]
+) -> Estimate:
+    return Estimate(value, low, high, confidence, method, len(values), min(values), max(values))
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,8 +25,7 @@ Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
 _SOURCES = (
     *("core/record.py", "core/physics", "core/lanes", "controllers", "plans/faults.py", "rig"),
-    *(f"core/measures/{name}.py" for name in ("records", "layouts", "train", "wheelset")),
-    *(f"core/measures/{name}.py" for name in ("build_up", "contact", "reaction", "sliding_share")),
+    *(f"core/measures/{name}.py" for name in ("records", "layouts", "train", "wheelset", "contact")),
 )
 """Files and rooms of the package that compiled code is made from."""
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "forceinline": True}

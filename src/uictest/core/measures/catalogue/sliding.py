@@ -1,4 +1,4 @@
-"""How far and how long the wheelsets slide."""
+"""How far and how long the wheelsets slide, what wears flats by it, and how long they are locked."""
 
 from __future__ import annotations
 
@@ -30,6 +30,8 @@ SLOW_SHARE_CLASS: Final = 5.0 * PERCENT
 
 _WHEEL_SPEEDS = RecordedData(("speed", "wheel_speed_{n}"))
 _SHARED = RecordedData(("speed", "wheel_speed_{n}"), bounded=False)
+_OF_FLATS = ("sliding_slide", "sliding_slip", "moving_speed")
+_OF_LOCKS = ("locked_speed", "moving_speed")
 
 
 def maximum_slide_above_cutoff(
@@ -188,5 +190,65 @@ MEASURES = (
         definitions=("sliding_below", "end_speed"),
         speed_range=_down_to_end_speed,
         recorded=_SHARED,
+    ),
+    Measure(
+        name="slid_distance",
+        kind="length",
+        unit="m",
+        course="grows",
+        meaning="distance that the train runs while the wheelset slides or is locked",
+        read=lambda stop, wheelsets, definition: value_per_wheelset(w.slid_distance for w in wheelsets),
+        decided=Decided(how="intervals", plot="sliding", field="slid_distance"),
+        of_wheelsets=True,
+        observed_by=_OF_FLATS,
+        recorded=RecordedData(("speed", "wheel_speed_{n}")),
+        column=WheelsetColumn("slid_distance_m", "m", read=lambda wheelset: wheelset.slid_distance),
+        finite_field="slid_distance",
+    ),
+    Measure(
+        name="contact_energy",
+        kind="energy",
+        unit="kJ",
+        course="grows",
+        meaning="energy that both contacts of the wheelset turn into heat while it slides or is locked",
+        read=lambda stop, wheelsets, definition: value_per_wheelset(w.contact_energy for w in wheelsets),
+        decided=Decided(how="intervals", plot="sliding", field="contact_energy"),
+        of_wheelsets=True,
+        observed_by=_OF_FLATS,
+        recorded=RecordedData(("speed", "wheel_speed_{n}", "adhesion_{n}", "wheel_load_{n}"), computed=True),
+        column=WheelsetColumn("contact_energy_kj", "kJ", read=lambda wheelset: wheelset.contact_energy),
+        finite_field="contact_energy",
+    ),
+    Measure(
+        name="locked_time",
+        kind="time",
+        unit="s",
+        course="grows",
+        meaning="time the wheelset is locked in all",
+        read=lambda stop, wheelsets, definition: value_per_wheelset(w.locked_time for w in wheelsets),
+        decided=Decided(how="intervals", plot="locked", field="locked_time"),
+        of_wheelsets=True,
+        observed_by=_OF_LOCKS,
+        recorded=_WHEEL_SPEEDS,
+        column=WheelsetColumn(
+            "locked_time_s",
+            "s",
+            overview=Overview("locked\nmax s", digits=1, rank=9),
+            read=lambda wheelset: wheelset.locked_time,
+        ),
+        finite_field="locked_time",
+    ),
+    Measure(
+        name="longest_lock",
+        kind="time",
+        unit="s",
+        course="grows",
+        meaning="longest time the wheelset is locked at a stretch",
+        read=lambda stop, wheelsets, definition: value_per_wheelset(w.longest_lock for w in wheelsets),
+        decided=Decided(how="longest", plot="locked", field="lock"),
+        of_wheelsets=True,
+        observed_by=_OF_LOCKS,
+        recorded=_WHEEL_SPEEDS,
+        finite_field="longest_lock",
     ),
 )

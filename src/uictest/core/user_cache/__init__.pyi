@@ -1,1 +1,0 @@
-from .files import read as read, turn as turn, write as write
