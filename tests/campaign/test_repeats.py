@@ -113,9 +113,22 @@ def test_only_the_first_stop_is_recorded_and_says_so(cases, monkeypatch):
     run_cases(cases(more="repeat: 3"), RunSettings(recording=RecordingRequest("all")), on_result=runs.append)
     (run,) = runs
     assert recorded == [(0, True), (1, False), (2, False)]
+    assert run.extremes == ()
     assert run.recording.metadata["seed"] == "0, the first of 3 stops"
     stop = run.result.drawn_stop
     assert run.recording["distance"][-1] == pytest.approx(stop.measures["braking_distance_m"], abs=0.5)
+
+
+def test_what_a_band_needs_changes_no_result(cases):
+    written = cases(more="repeat: 3\nseed: 5")
+    asked, unasked = [], []
+    for band_stops, heard in ((2, asked), (0, unasked)):
+        request = RecordingRequest("all", band_stops=band_stops)
+        run_cases(written, RunSettings(jobs=2, recording=request), on_result=heard.append)
+    assert [len(run.extremes) for run in (*asked, *unasked)] == [2, 0]
+    assert [document([without_names(run.result)]) for run in asked] == [
+        document([without_names(run.result)]) for run in unasked
+    ]
 
 
 @pytest.mark.parametrize(("expect", "recorded"), [("pass", False), ("fail", True)])

@@ -14,7 +14,8 @@ from uictest.report.formats import csv as tables
 from uictest.report.formats.md import markdown_summary
 from uictest.report.formats.xlsx import workbook_bytes
 from uictest.report.page import page_html
-from uictest.report.repeat_wording import drawn_sentence, repeat_sentences, stops_text
+from uictest.report.repeat_wording import band_text, drawn_sentence, repeat_sentences, stops_text
+from uictest.report.traces.band import stop_extremes, with_band
 from uictest.report.traces.trace import trace_of
 
 from .builders import HOSTILE, make_content, make_recording, make_result, make_verdict
@@ -167,6 +168,21 @@ def test_the_page_has_the_stops_of_each_case():
     assert "<title>seed 2: 500</title>" in page
     assert "sensitive to definitions or seed: braking-distance" in page
     assert "<script>" not in page.split("</h3>")[-1].split('<script type="application/json"')[0]
+
+
+def test_the_key_says_what_the_band_behind_the_drawn_stop_spans():
+    result = make_repeated("p" * 30)
+    trace, stop = trace_of(make_recording()), stop_extremes(make_recording())
+    said = "lowest and highest of the first 20 of 30 repeats, of those still running"
+    page = page_html(make_content(result, traces={result.id: with_band(trace, [stop] * 20)}))
+    assert page.count(f"{said}</label>") == 1
+    assert page.count('<path class="band role-train role-band"') == 1
+    assert '{"band":{' in page
+    assert "The band takes the lowest and the highest sample of every 50 ms." in page
+    assert band_text(result, 30) == "lowest and highest of 30 repeats, of those still running"
+    for alone in (result, make_result()):
+        page = page_html(make_content(alone, traces={alone.id: trace}))
+        assert not any(words in page for words in ("lowest and highest of", 'class="band', '{"band":'))
 
 
 def test_repeated_cases_without_a_recording_show_their_stops_as_well():

@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.judging.evaluation import AppliedDefinition
+from uictest.judging.evaluation import AppliedDefinition, RepeatedStop, Repeats
 from uictest.report import RunManifest
+from uictest.report.traces.band import stop_extremes, with_band
 from uictest.report.traces.trace import trace_of
 
 from .builders import make_content, make_recording, make_result, make_verdict
@@ -329,3 +330,41 @@ def test_lines_of_a_panel_are_told_apart_without_colours(browser: Any, stop_page
     assert max(map(len, panels)) >= 5
     assert len(key) == 8
     assert all(len(set(styles)) == len(styles) for styles in [*panels, key])
+
+
+def test_the_band_of_the_repeats_lies_behind_the_lines_over_time_alone(browser: Any, tmp_path: Path) -> None:
+    recording = make_recording()
+    extremes = [
+        stop_extremes(
+            replace(recording, channels={**recording.channels, "speed": recording["speed"] - slower})
+        )
+        for slower in (0.0, 5.0 / 3.6, 2.0 / 3.6)
+    ]
+    stops = tuple(RepeatedStop(seed, "pass", "", (make_verdict(),)) for seed in range(3))
+    result = make_result(id=CASE, repeats=Repeats("all", stops))
+    trace = with_band(trace_of(recording), extremes)
+    browser.get(written(tmp_path, make_content(result, traces={CASE: trace})).as_uri())
+    wait(browser, READY)
+    bands = "return document.querySelector('.panels-plot').plots.map(({bands}) => bands.length)"
+    assert [count for count in run(browser, bands) if count] == [5, 4]
+    span = run(
+        browser,
+        """
+        const {plot, bands, data: [x]} = document.querySelector('.panels-plot').plots[0];
+        const row = x.findIndex((time) => Math.abs(time - 10) < 1e-3);
+        const train = bands.findIndex(({ink}) => ink === 'train');
+        const [lower, upper] = [1, 2].map((edge) => plot.data[2 * train + edge]);
+        return [lower[row], upper[row], plot.series.length, plot.data.length];
+        """,
+    )
+    assert span[:2] == pytest.approx([120.0 - 36.0 - 5.0 - 0.18, 120.0 - 36.0 + 0.18], abs=0.05)
+    assert span[2] == span[3]
+    box = "document.querySelector('[data-role=band]')"
+    run(browser, f"{box}.click()")
+    assert sum(run(browser, bands)) == 0
+    run(browser, f"{box}.click()")
+    choice = "const over = document.querySelector('[data-choice=across]'); over.value = arguments[0];"
+    for over, count in (("distance", 0), ("time", 9)):
+        run(browser, f"{choice} over.dispatchEvent(new Event('change', {{bubbles: true}}))", over)
+        assert sum(run(browser, bands)) == count
+        assert run(browser, f"return {box}.disabled") == (count == 0)

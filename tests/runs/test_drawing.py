@@ -19,7 +19,7 @@ CYCLE = 0.01
 
 
 def _cases(count):
-    scenario = SimpleNamespace(controller=SimpleNamespace(cycle_time=CYCLE))
+    scenario = SimpleNamespace(controller=SimpleNamespace(cycle_time=CYCLE), repeat=1, seed=0)
     return [SimpleNamespace(id=f"case-{n}", scenario=scenario) for n in range(count)]
 
 

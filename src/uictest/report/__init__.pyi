@@ -162,6 +162,12 @@ from .text_tables import (
     html_table as html_table,
     prose as prose,
 )
+from .traces.band import (
+    BAND_STOPS as BAND_STOPS,
+    StopExtremes as StopExtremes,
+    stop_extremes as stop_extremes,
+    with_band as with_band,
+)
 from .traces.overlay_svg import overlay_svg as overlay_svg
 from .traces.quantities import (
     Panel as Panel,

@@ -91,6 +91,21 @@ def drawn_sentence(result: evaluation.CaseResult) -> str:
     return f"the stop that is recorded and drawn is the first, of seed {first.seed}: {first.outcome}"
 
 
+def band_text(result: evaluation.CaseResult, stops: int) -> str:
+    """Return what a band behind the lines of the drawn stop spans; empty where there is none.
+
+    Args:
+        result: of the case.
+        stops: that the band holds, the first ones; 0 without a band.
+
+    """
+    if result.repeats is None or not stops:
+        return ""
+    of_all = len(result.repeats.stops)
+    which = f"{stops}" if stops == of_all else f"the first {stops} of {of_all}"
+    return f"lowest and highest of {which} repeats, of those still running"
+
+
 def share_cells(result: evaluation.CaseResult) -> dict[str, Cell]:
     """Return the cells of `SHARE_COLUMNS`; none for a case with one stop."""
     repeats = result.repeats

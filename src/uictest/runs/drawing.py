@@ -48,12 +48,15 @@ class TraceCollection:
     @property
     def recording(self) -> campaign.RecordingRequest:
         """What to record while the batch runs."""
-        return replace(self.request, cases="all") if self._while_running else self.request
+        if not self._while_running:
+            return self.request
+        return replace(self.request, cases="all", band_stops=report.BAND_STOPS)
 
     def add(self, case_run: campaign.CaseRun) -> None:
         """Add the trace of a case."""
         if self._while_running and case_run.recording is not None:
-            self.traces[case_run.result.id] = report.trace_of_stop(case_run.recording, case_run.result)
+            trace = report.trace_of_stop(case_run.recording, case_run.result)
+            self.traces[case_run.result.id] = report.with_band(trace, case_run.extremes)
 
     def finish(self, done: campaign.BatchResult, jobs: int) -> dict[str, report.PlotTrace]:
         """Return the traces; simulate the drawn cases of a large batch again."""
@@ -123,7 +126,16 @@ def _interval(cases: Sequence[scenario.Case], every: float) -> float:
 def _simulated_again(
     cases: Sequence[scenario.Case], drawn: Mapping[str, evaluation.CaseResult], every: float, jobs: int
 ) -> dict[str, report.PlotTrace]:
-    return {
-        case.id: report.trace_of_stop(samples, drawn[case.id])
-        for case, samples in campaign.replay(campaign.by_id(cases, frozenset(drawn)), every=every, jobs=jobs)
-    }
+    """Return the traces; of a repeated case the first stop is drawn, before the band of those that follow."""
+    stops = [
+        stop.alone
+        for stop in campaign.stops_of(campaign.by_id(cases, frozenset(drawn)))
+        if stop.place < report.BAND_STOPS
+    ]
+    traces: dict[str, report.PlotTrace] = {}
+    extremes: dict[str, list[report.StopExtremes]] = {}
+    for case, samples in campaign.replay(stops, every=every, jobs=jobs):
+        if case.id not in traces:
+            traces[case.id] = report.trace_of_stop(samples, drawn[case.id])
+        extremes.setdefault(case.id, []).append(report.stop_extremes(samples))
+    return {case_id: report.with_band(trace, extremes[case_id]) for case_id, trace in traces.items()}

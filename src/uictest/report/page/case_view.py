@@ -21,6 +21,7 @@ from uictest.report.page.stop.mark import Mark
 from uictest.report.page.stop.marks import fault_marks, marks_of
 from uictest.report.page.stop.overlay_view import packed, panel_form, script_json
 from uictest.report.part_wording import slide_speed
+from uictest.report.repeat_wording import band_text
 from uictest.report.traces.quantities import (
     COMPARED,
     LOOPS,
@@ -37,6 +38,9 @@ from uictest.report.traces.trace import BINS, MOST_SAMPLES, Curve, PlotTrace
 from uictest.report.traces.vent_cycles import VentCycle
 from uictest.report.verdict_sentences import real_time_sentences
 
+EDGES = ("lowest", "highest")
+"""What stands before the name of a line whose band these edges have."""
+
 HeadlineMeasure = tuple[str, str, str]
 """Label, number (empty where there is none), unit."""
 
@@ -46,7 +50,8 @@ class CaseView:
     """A drawn case. `anchor` is that of its part of the page; `data` is the JSON its plots are drawn from.
 
     `explanation` is empty where the case passes; `note` says what lines show; `command` runs the case alone
-    and is empty where there is no such command.
+    and is empty where there is no such command. `band` says what the band behind the lines
+    spans and is empty without one.
     """
 
     anchor: str
@@ -61,6 +66,7 @@ class CaseView:
     note: str
     repeats: RepeatsView | None = None
     command: str = ""
+    band: str = ""
     vents: Sequence[VentCycle] = ()
 
     @property
@@ -101,6 +107,7 @@ def case_view(
         " ".join(_notes(drawn, subject, trace)),
         repeats_view(result),
         command,
+        band_text(result, trace.band_stops),
         trace.vents,
     )
 
@@ -110,6 +117,9 @@ def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotT
     for span in trace.faults:
         yield f"Fault {span.label} from {span.start:.4g} s to {span.end:.4g} s."
     yield sampling_text(trace)
+    for low, _ in list(trace.band.values())[:1]:
+        part = _milliseconds(float(low.x[1] - low.x[0]))
+        yield f"The band takes the lowest and the highest sample of every {part}."
     labels = dict.fromkeys(PLOT_QUANTITIES[key_of(name)].label for name in trace.derived)
     if labels:
         yield f"Derived from recorded speeds: {', '.join(labels)}."
@@ -188,7 +198,14 @@ def plot_data(
     """Return what the script draws a stop from; `recorded` where the stop was not simulated."""
     states = {name: Curve(each.time, each.state.astype(np.float64)) for name, each in trace.states.items()}
     steps = {name: PLOT_QUANTITIES[key_of(name)].step for name in trace.curves}
+    edges = {
+        f"{end} {name}": edge
+        for name, band in trace.band.items()
+        for end, edge in zip(EDGES, band, strict=True)
+    }
+    band = {"band": packed(edges, 0.0, {each: steps[each.split()[1]] for each in edges})} if edges else {}
     return {
+        **band,
         "id": printable(title),
         "recorded": recorded,
         "sampling": sampling_text(trace),

@@ -127,6 +127,8 @@ class PlotTrace:
         moments: id of a criterion -> when it was decided.
         faults: when faults were active.
         vents: every vent, from the samples as they were recorded.
+        band: of a repeated case, name -> what its stops span: the lower and the upper edge over time.
+        band_stops: how many stops these are.
 
     """
 
@@ -139,6 +141,8 @@ class PlotTrace:
     moments: Mapping[str, Moments] = field(default_factory=dict)
     faults: tuple[FaultSpan, ...] = ()
     vents: tuple[VentCycle, ...] = ()
+    band: Mapping[str, tuple[Curve, Curve]] = field(default_factory=dict)
+    band_stops: int = 0
 
     def valve_spans(self, n: int, wanted: Sequence[int]) -> list[tuple[float, float]]:
         """Return when (s) the valve of a wheelset is in one of some states; what follows at once is one."""
@@ -164,8 +168,7 @@ def trace_of(
 
     """
     time = record["time"]
-    channels = dict(record.channels) | _derived(record)
-    series = _in_units(_without_slides_at_rest(channels))
+    series = series_in_units(record)
     states = {name for state in STATES for name in channel_names(state)}
     rows = _drawn_rows([samples for name, samples in series.items() if name not in states])
     drawn = time[rows]
@@ -186,6 +189,11 @@ def trace_of_stop(record: recording.Recording, result: evaluation.CaseResult) ->
     """Return what is drawn of a judged case, whose drawn stop the record holds."""
     stop = result.drawn_stop
     return trace_of(record, stop.criteria, stop.wheelsets)
+
+
+def series_in_units(record: recording.Recording) -> dict[str, Series]:
+    """Return what can be drawn over time, derived series too, in the units of `PLOT_QUANTITIES`."""
+    return _in_units(_without_slides_at_rest(dict(record.channels) | _derived(record)))
 
 
 def deceleration(time: Series, speed: Series) -> Series:

@@ -30,6 +30,7 @@ from .stop import (
     Stop as Stop,
     StopRun as StopRun,
     run_stop as run_stop,
+    stops_of as stops_of,
 )
 from .threaded_map import (
     ThreadedMap as ThreadedMap,

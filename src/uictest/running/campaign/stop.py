@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from time import perf_counter
 from typing import Any, Literal, NamedTuple
 
-from uictest import rig
+from uictest import report, rig
 from uictest.controllers import ControllerError
 from uictest.core.recording import Recording
 from uictest.judging import evaluation
@@ -18,10 +18,14 @@ from uictest.rig import bench
 
 @dataclass(frozen=True, slots=True)
 class RecordingRequest:
-    """Cases to record (`failed`: those that miss their expectation), and the interval of samples, s."""
+    """Cases to record (`failed`: those that miss their expectation), and the interval of samples, s.
+
+    Of a repeated case the first stop is recorded; of so many `band_stops` the extremes over time are kept.
+    """
 
     cases: Literal["all", "failed", "none"] = "failed"
     every: float = 0.01
+    band_stops: int = 0
 
     def wants(self, result: evaluation.CaseResult) -> bool:
         """Return whether to record a case with this result."""
@@ -37,11 +41,15 @@ class RecordingRequest:
 
 @dataclass(frozen=True, slots=True)
 class CaseRun:
-    """A case's result, the recording of its stop if there is one, and the traceback of a crash."""
+    """A case's result, the recording of its stop if there is one, and the traceback of a crash.
+
+    `extremes` are those of the first stops of a repeated case, as many as were asked for.
+    """
 
     result: evaluation.CaseResult
     recording: Recording | None = None
     traceback: str = ""
+    extremes: tuple[report.StopExtremes, ...] = ()
 
 
 class Stop(NamedTuple):
@@ -87,7 +95,8 @@ def stops_of(cases: Iterable[scenario.Case]) -> Iterator[Stop]:
 def run_stop(stop: Stop, request: RecordingRequest, run: rig.RunInputs | None = None) -> StopRun:
     """Simulate and judge one stop. An exception becomes a result with the outcome `error`.
 
-    `run` runs the stop, see :func:`uictest.rig.simulate`. Of the stops of a case only the first is recorded.
+    `run` runs the stop, see :func:`uictest.rig.simulate`. Of the stops of a case only the first is recorded,
+    and of those of the band the extremes are kept.
     """
     started = perf_counter()
     case = stop.alone
@@ -108,7 +117,7 @@ def run_stop(stop: Stop, request: RecordingRequest, run: rig.RunInputs | None = 
         )
         if stop.is_repeated:
             judged = records if result.outcome != "error" else ()
-            return StopRun(stop, CaseRun(result, _with_seed(simulated.recording, stop)), judged)
+            return StopRun(stop, _of_repeated(stop, request, result, simulated.recording), judged)
         if request.wants(result) and simulated.recording is None:
             # A stop is reproducible to the bit, so it can be recorded once the case is known to have missed.
             simulated = rig.simulate(case, request.every, run)
@@ -124,7 +133,7 @@ def _interval(stop: Stop, request: RecordingRequest) -> float | None:
     misses its expectation is known when all of its stops are there.
     """
     if stop.is_repeated:
-        at_once = stop.place == 0
+        at_once = stop.place < max(request.band_stops, 1)
     else:
         at_once = request.cases == "all" or stop.case.scenario.controller.program is not None
     return request.every if at_once and request.cases != "none" else None
@@ -140,12 +149,18 @@ def _failed(case: scenario.Case, error: Exception, duration: float) -> CaseRun:
     return CaseRun(result, traceback="".join(traceback.format_exception(error)))
 
 
-def _with_seed(samples: Recording | None, stop: Stop) -> Recording | None:
-    """Return a recording that says which of the stops of its case it is."""
+def _of_repeated(
+    stop: Stop, request: RecordingRequest, result: evaluation.CaseResult, samples: Recording | None
+) -> CaseRun:
+    """Return one stop of a repeated case: the first with its recording, which says that it is the first."""
     if samples is None:
-        return None
+        return CaseRun(result)
+    extremes = (report.stop_extremes(samples),) if stop.place < request.band_stops else ()
+    if stop.place:
+        return CaseRun(result, extremes=extremes)
     which = f"{stop.seed}, the first of {stop.case.scenario.repeat} stops"
-    return replace(samples, metadata={**samples.metadata, "seed": which})
+    recording = replace(samples, metadata={**samples.metadata, "seed": which})
+    return CaseRun(result, recording, extremes=extremes)
 
 
 @dataclass(slots=True)
@@ -177,4 +192,7 @@ class CaseAssembly:
         ]
         result = evaluation.evaluate_repeats(stop.case, repeats)
         crash = next((text for run in runs if (text := run.case_run.traceback)), "")
-        return CaseRun(result, first.recording if self.request.wants(result) else None, crash)
+        recording = first.recording if self.request.wants(result) else None
+        return CaseRun(
+            result, recording, crash, tuple(each for run in runs for each in run.case_run.extremes)
+        )

@@ -7,11 +7,11 @@ for (const choice of all('input[name="theme"]'))
   });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => repaint());
 
-/* A colour of the style sheet as the browser computes it: what the plots can take. */
+/* A colour of the style sheet, or so many per cent of it, as the browser computes it: what the plots can take. */
 const probe = document.createElement("i");
 probe.hidden = true;
 document.body.append(probe);
-const colour = (name) => {
-  probe.style.color = `var(--${name})`;
+const colour = (name, share = 100) => {
+  probe.style.color = share < 100 ? `color-mix(in srgb, var(--${name}) ${share}%, transparent)` : `var(--${name})`;
   return getComputedStyle(probe).color;
 };

@@ -24,6 +24,6 @@ const unpacked = async ({ grids, lines, data }) => {
 };
 
 const stopOf = async (element) => {
-  const { over_time, panels = common.panels, ...rest } = json(element);
-  return { ...rest, panels, curves: await unpacked(over_time) };
+  const { over_time, band, panels = common.panels, ...rest } = json(element);
+  return { ...rest, panels, curves: await unpacked(over_time), band: band ? await unpacked(band) : {} };
 };

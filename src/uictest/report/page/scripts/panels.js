@@ -18,6 +18,12 @@ const lineOf = (stop, axis, { label, role, series, dotted }, alone) => ({
   x: axis.of(stop.curves[series]), y: stop.curves[series].y,
 });
 
+/* What the repeats of a stop span, behind the lines over time: over distance or speed they have no common moment. */
+const bandsOf = ({ band }, axis, lines) =>
+  (axis.name === "time" ? lines : [])
+    .map(({ role, series }) => ({ ink: role, edges: ["lowest", "highest"].map((end) => band[`${end} ${series}`]) }))
+    .filter(({ edges: [lowest] }) => lowest);
+
 /* When the valve of a wheelset is in one of some states; such states that follow at once are one span. */
 const spansOf = (stop, n, wanted) => {
   const { x, y } = stop.curves[`valve_command_${n}`] ?? { x: [], y: [] };
@@ -68,14 +74,15 @@ const rowsOf = (stop, axis, apart, hidden) => {
   const strips = common.strips
     .filter((strip) => stripBars(stop, axis, marks, strip, ROWS, false, new Set()).length)
     .map((strip) => [strip.below, stripRow(stop, axis, marks, strip, apart, hidden)]);
+  const shownLines = (panel, wheelsets) =>
+    panel.lines.filter((each) => each.series in stop.curves && inColumn(wheelsetOf(each.role), wheelsets) && !hidden.has(each.role));
   const rows = stop.panels
     .filter((panel) => panel.lines.some((each) => each.series in stop.curves))
     .flatMap((panel) => [
       {
         key: panel.key, title: `${panel.title}, ${panel.unit}`, height: 112 * panel.height, include: panel.include,
-        lines: (wheelsets) => panel.lines
-          .filter((each) => each.series in stop.curves && inColumn(wheelsetOf(each.role), wheelsets) && !hidden.has(each.role))
-          .map((each) => lineOf(stop, axis, each, apart)),
+        lines: (wheelsets) => shownLines(panel, wheelsets).map((each) => lineOf(stop, axis, each, apart)),
+        bands: (wheelsets) => (hidden.has("band") ? [] : bandsOf(stop, axis, shownLines(panel, wheelsets))),
         marks: marksIn(marks, panel.key),
       },
       ...strips.filter(([below]) => below === panel.key).map(([, row]) => row),

@@ -7,7 +7,7 @@ const chosen = (plots, name) => first(`select[data-choice="${name}"]`, plots)?.v
 
 const hideInDrawing = (plots) => {
   const hidden = [...hiddenRoles(plots)];
-  for (const path of all(".drawing .line, .drawing .magnet", plots))
+  for (const path of all(".drawing .line, .drawing .magnet, .drawing .band", plots))
     path.style.display = hidden.some((role) => path.classList.contains(`role-${role}`)) ? "none" : "";
 };
 
@@ -76,6 +76,7 @@ const drawOnce = async (plots) => {
     const whole = low <= stop.start && high >= stop.end;
     axis = axisOver(stop, choice.value);
     choice.value = axis.name;
+    for (const box of all('[data-role="band"]', plots)) box.disabled = axis.name !== "time";
     paintPanels();
     if (!whole) view.zoom(axis.at(low), axis.at(high));
   });

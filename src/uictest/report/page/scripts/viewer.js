@@ -4,7 +4,7 @@
  * A figure has `rows`, `columns` (the wheelsets of each), `start`, `end` and `across` (`title` and `tick`, the text
  * of a value on the axis). A row has a `key`, a `title`, a `height` in pixels, the values that its upright axis
  * must `include` or the `range` of the rows, from the top, that its `ticks` name, and for the wheelsets of a column its
- * `lines`, its `marks` and, if any, the bars that it lays over them. */
+ * `lines`, its `marks` and, if any, the `bands` behind the lines, between two edges, and the bars that it lays over them. */
 const canPlot = Boolean(window.uPlot && window.DecompressionStream);
 const LEFT = 46;
 const RIGHT = 8;
@@ -14,6 +14,11 @@ const AXIS = 38;
 const seriesOf = ({ label, ink, width = 1.3, dash = [] }) => ({
   label, stroke: colour(ink), width, dash, points: { show: false }, spanGaps: false,
 });
+
+/* The edges of bands are no lines of their own: they are drawn as what lies between them. */
+const BAND_SHARE = 16; /* per cent of the colour of its line */
+const edgesOf = (bands) => bands.flatMap(({ edges }) => edges);
+const betweenEdges = ({ ink }, place) => ({ series: [2 * place + 2, 2 * place + 1], fill: () => colour(ink, BAND_SHARE) });
 
 /* All lines over one x. Lines of several records, each over its own, are joined: between its points each goes on. */
 const joined = (lines, start, end) => {
@@ -135,7 +140,7 @@ const viewer = (element, { moved, pinned, ranged = () => {} }) => {
     });
   };
 
-  const options = (row, column, width, lines, marks, bars) => ({
+  const options = (row, column, width, { lines, bands, marks, bars }) => ({
     width, height: row.height, pxAlign: 0, padding: [3, RIGHT, 3, column ? RIGHT / 2 : 0], legend: { show: false },
     cursor: { x: false, y: false, points: { show: false }, drag: { x: true, y: false, dist: 5 },
       bind: { dblclick: () => () => zoom(figure.start, figure.end) } },
@@ -145,7 +150,8 @@ const viewer = (element, { moved, pinned, ranged = () => {} }) => {
       axisOf({ size: column ? 0 : LEFT, values: column ? nothing : row.ticks ? (_, at) => at.map((value) => row.ticks.get(value) ?? "") : numbersOf,
         ...(row.ticks ? { splits: () => [...row.ticks.keys()], grid: { show: row.ruled, stroke: colour("grid"), width: 1 } } : { space: 24 }) }),
     ],
-    series: [{}, ...(lines.length ? lines.map(seriesOf) : [{ show: false }])],
+    series: [{}, ...edgesOf(bands).map(() => ({ width: 0, points: { show: false } })), ...(lines.length ? lines.map(seriesOf) : [{ show: false }])],
+    bands: bands.map(betweenEdges),
     hooks: {
       drawAxes: [(plot) => paintMarks(plot, marks, MARKS_BELOW)],
       draw: [(plot) => {
@@ -159,13 +165,13 @@ const viewer = (element, { moved, pinned, ranged = () => {} }) => {
   const addPanel = (place, row, wheelsets, column, width) => {
     const cell = place.appendChild(make("div", "", { class: "panel" }));
     const [lines, marks] = [row.lines(wheelsets), row.marks?.(wheelsets, column) ?? []];
-    const bars = row.bars?.(wheelsets) ?? [];
+    const [bars, bands] = [row.bars?.(wheelsets) ?? [], row.bands?.(wheelsets) ?? []];
     const labels = cell.appendChild(make("div", "", { class: "labels" }));
     labels.style.cssText = `margin-left:${column ? RIGHT / 2 : LEFT}px`;
     const { start, end } = figure;
-    const own = { row, column, wheelsets, lines, marks, bars, labels, cell, data: joined(lines, start, end) };
+    const own = { row, column, wheelsets, lines, bands, marks, bars, labels, cell, data: joined([...edgesOf(bands), ...lines], start, end) };
     plots.push(own);
-    own.plot = new uPlot(options(row, column, width, lines, marks, bars), own.data, cell);
+    own.plot = new uPlot(options(row, column, width, own), own.data, cell);
     hold(own.plot);
   };
 
@@ -183,7 +189,7 @@ const viewer = (element, { moved, pinned, ranged = () => {} }) => {
       ],
       series: [{}, { show: false }],
     }, [[start, end], [null, null]], cell);
-    plots.push({ plot, row: {}, column, wheelsets: [], lines: [], marks: [], bars: [], data: [[start, end]], cell });
+    plots.push({ plot, row: {}, column, wheelsets: [], lines: [], bands: [], marks: [], bars: [], data: [[start, end]], cell });
   };
 
   const paint = (wanted) => {

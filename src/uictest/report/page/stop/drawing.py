@@ -77,8 +77,17 @@ def _panel(
     curves = [(line, trace.curves[line.series]) for line in lines if line.series in trace.curves]
     if curves:
         bottom = top + panel.height * _HEIGHT
-        y = Axis(*span((curve.y for _, curve in curves), panel.include), bottom, top)
+        bands = [(line, *trace.band[line.series]) for line, _ in curves if line.series in trace.band]
+        drawn = [curve for _, curve in curves] + [edge for _, *edges in bands for edge in edges]
+        y = Axis(*span((curve.y for curve in drawn), panel.include), bottom, top)
         paths = [
+            (
+                f"band role-{line.role} role-band",
+                area_over_time(time.pixels(low.x), y.pixels(low.y), y.pixels(high.y)),
+            )
+            for line, low, high in bands
+        ]
+        paths += [
             (
                 f"line role-{line.role}{' dotted' if line.dotted else ''}",
                 path_over_time(time.pixels(curve.x), y.pixels(curve.y)),
@@ -106,6 +115,19 @@ def _strip(strip: Strip, trace: PlotTrace, time: Axis, top: float) -> Iterator[D
     if paths:
         ticks = [(row.at(place), label) for place, label in strip.rows]
         yield DrawnPanel(strip.key, strip.heading, top, bottom, time.tick_marks(10), ticks, paths)
+
+
+def area_over_time(x: Samples, low: Samples, high: Samples) -> str:
+    """Return the SVG path of what lies between two edges, all in pixels, where both are known."""
+    known = np.isfinite(low) & np.isfinite(high)
+    if not known.any():
+        return ""
+    x, low, high = x[known], low[known], high[known]
+    columns = np.flatnonzero(np.diff(np.floor(x / _COLUMN), prepend=-1.0))
+    upper = np.fmin.reduceat(high, columns)  # the larger value has the smaller pixel
+    lower = np.fmax.reduceat(low, columns)
+    outline = np.column_stack([[*x[columns], *x[columns][::-1]], [*upper, *lower[::-1]]])
+    return f"{_stroke(np.rint(outline).astype(np.int64))}z"
 
 
 def path_over_time(x: Samples, y: Samples) -> str:
