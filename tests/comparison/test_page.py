@@ -49,6 +49,8 @@ def test_turned_verdicts_come_first_and_the_others_by_how_far_they_are_out(make_
     page = comparison.comparison_html(replace(found, differences=(near, far, turned)))
     first = page[page.index('id="turned"') : page.index("</section>", page.index('id="turned"'))]
     assert "outcome" in first
+    assert '<span class="word word-bad">new</span>' in first
+    assert "B - A" not in first
     assert "distance" not in first
     rows = page[page.index('id="differences"') :]
     assert rows.index("deceleration_distance_m") < rows.index("braking_distance_m")

@@ -35,6 +35,30 @@ def test_every_run_stands_in_the_index_the_newest_first_and_every_case_by_the_ne
     assert {path.name for path in reports.iterdir()} == {run.name for run in runs} | {"latest", "index.html"}
 
 
+def test_the_page_begins_with_the_verdicts_that_turned_in_the_newest_run_of_a_case(publish, reports):
+    publish(case("fixed", "fail"), case("new"), case("same"), case("worse", "fail"), case("long ago", "fail"))
+    publish(case("long ago"))
+    publish(case("fixed"), case("new", "fail"), case("same"), case("worse", "error"), case("long ago"))
+    publish(case("another"))
+    page = (reports / "index.html").read_text("utf-8")
+    section = page[page.index('<h2 id="turned">') : page.index('<h2 id="runs">')]
+    rows = [re.sub(r"<[^>]+>", " ", row).split() for row in section.split("<tr>")[2:]]
+    assert [row[:5] for row in sorted(rows)] == [
+        ["fixed", "fixed", "outcome", "fail", "pass"],
+        ["new", "new", "outcome", "pass", "fail"],
+        ["turned", "worse", "outcome", "fail", "error"],
+    ]
+    assert [row[0] for row in rows][-1] == "fixed"  # what is as expected stands last
+    assert '<a href="#case-new">new</a>' in section
+    assert page.count('<tr id="case-new">') == 1
+
+
+def test_where_no_verdict_turned_the_page_begins_with_the_runs(publish, reports):
+    publish(case("a"))
+    publish(case("a", distance=480.0))
+    assert 'id="turned"' not in (reports / "index.html").read_text("utf-8")
+
+
 def test_older_runs_are_folded_and_counted(publish, reports):
     for _ in range(21):
         publish(formats=())

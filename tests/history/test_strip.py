@@ -57,7 +57,14 @@ def test_words_say_what_the_drawing_shows():
 
 
 @pytest.mark.parametrize(
-    ("change", "text"), [(0.0, "0"), (5.5, "+5.50"), (-0.5, "-0.50"), (0.004, "+0.004"), (-1e-9, "-1e-09")]
+    ("distance", "texts"),
+    [
+        (500.0, ("0", "")),
+        (505.5, ("+5.5", "+1.1 %")),
+        (499.5, ("-0.5", "-0.1 %")),
+        (500.004, ("+0.004", "+0.0008 %")),
+        (None, ("", "")),
+    ],
 )
-def test_a_change_is_0_only_where_there_is_none(change, text):
-    assert _change(change) == text
+def test_a_change_is_0_only_where_there_is_none(distance, texts):
+    assert _change(history(("pass", 500.0), ("pass", distance))) == texts

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from uictest.core import measures
-from uictest.core.document import Column, Table
+from uictest.core.document import Column, Table, Tone
 from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.traces.quantities import WHEELSETS
@@ -22,6 +22,7 @@ from uictest.report.verdict_sentences import (
     quantity,
     result_word,
     tally,
+    tone,
 )
 
 CELSIUS: Final = "degC"
@@ -116,6 +117,28 @@ _COLUMNS: Final[tuple[Column[Difference], ...]] = (
 def differences_table(differences: Sequence[Difference], most: int | None = None) -> Table:
     """Return quantities of a run that are out of the tolerance of its baseline."""
     return Table(_COLUMNS, differences, more="more quantities are in `results.json`.", most=most)
+
+
+def is_verdict(difference: Difference) -> bool:
+    """Return whether a difference is one of an outcome or of the status of a criterion."""
+    return difference.quantity == "outcome" or difference.quantity.startswith("criterion ")
+
+
+def turn(difference: Difference) -> str:
+    """Return the word of a difference: a verdict that is missed on the second side alone is `new`."""
+    if difference.within or not is_verdict(difference):
+        return "within" if difference.within else "differs"
+    sides = str(difference.first), str(difference.second)
+    was, is_now = (tone(side) == "good" for side in sides)
+    if was == is_now or {"none", "not applicable"}.intersection(sides):
+        return "turned"
+    return "fixed" if is_now else "new"
+
+
+def turn_tone(difference: Difference) -> Tone:
+    """Return the tone of this word."""
+    word = turn(difference)
+    return "odd" if word == "turned" else "good" if word in ("fixed", "within") else "bad"
 
 
 def wheelset_quantity(measure: str, wheelset: int) -> str:

@@ -9,7 +9,11 @@ from .difference import (
     comparison_json as comparison_json,
     verdict_line as verdict_line,
 )
-from .page import comparison_html as comparison_html, variants_html as variants_html
+from .page import (
+    comparison_html as comparison_html,
+    differences_table as differences_table,
+    variants_html as variants_html,
+)
 from .paired.difference import (
     PairedDifference as PairedDifference,
     PairedGroup as PairedGroup,

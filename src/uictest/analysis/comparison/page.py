@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -32,6 +32,7 @@ from uictest.report import (
     Value,
     channel_title,
     furthest_out,
+    is_verdict,
     listed,
     number,
     printable,
@@ -40,6 +41,8 @@ from uictest.report import (
     sheet_column,
     shown_unit,
     side_text,
+    turn,
+    turn_tone,
 )
 from uictest.report.page import STEPS, Mark, OverlayView, case_anchor, forest, fragment, overlay_view, render
 
@@ -216,7 +219,7 @@ def comparison_html(comparison: Comparison) -> str:
         fragments={each.overlay.title: each.fragment for each in overlays},
         verdict_line=verdict_line(comparison),
         drawn=dumbbells(comparison.differences),
-        turned=[each for each in comparison.differences if not each.within and _is_verdict(each)],
+        turned=[each for each in comparison.differences if is_verdict(each)],
         differences_table=differences_table,
         parameters_table=parameters_table,
         relative_cell=relative_cell,
@@ -248,23 +251,24 @@ def _quantity_text(difference: Difference) -> str:
     return title if title == difference.quantity else f"{title} ({difference.quantity})"
 
 
+def _of_numbers(text: Callable[[Difference], str]) -> Callable[[Difference], str]:
+    """Return the text of a column in which verdicts and other texts have none."""
+    return lambda each: "" if isinstance(each.first, str) else text(each)
+
+
 _DIFFERENCES: Final[tuple[Column[Difference], ...]] = (
-    Column(
-        heading="verdict",
-        text=lambda each: "within" if each.within else "differs",
-        tone=lambda each: "good" if each.within else "bad",
-    ),
+    Column(heading="verdict", text=turn, tone=turn_tone),
     Column(heading="case", text=lambda each: each.case, literal=True),
     Column(heading="quantity", text=_quantity_text, literal=True),
     Column(heading="A", text=lambda each: side_text(each.first), right=True),
     Column(heading="B", text=lambda each: side_text(each.second), right=True),
-    Column(heading="B - A", text=signed_deviation, right=True),
+    Column(heading="B - A", text=_of_numbers(signed_deviation), right=True),
     Column(
         heading="% of A",
-        text=lambda each: relative_cell(each.quantity, each.first, each.second, each.unit),
+        text=_of_numbers(lambda each: relative_cell(each.quantity, each.first, each.second, each.unit)),
         right=True,
     ),
-    Column(heading="allowed", text=lambda each: number(each.allowed), right=True),
+    Column(heading="allowed", text=_of_numbers(lambda each: number(each.allowed)), right=True),
     Column(heading="unit", text=lambda each: each.unit),
     Column(heading="remark", text=lambda each: each.remark, wraps=True),
 )
@@ -280,11 +284,6 @@ def differences_table(differences: Sequence[Difference]) -> Table:
     """Return differences in the units of every page, those furthest out of tolerance first."""
     furthest = furthest_out(map(in_page_units, differences))
     return Table(_DIFFERENCES, sorted(furthest, key=lambda each: each.within))
-
-
-def _is_verdict(difference: Difference) -> bool:
-    """Return whether a difference is one of an outcome or of the status of a criterion."""
-    return difference.quantity == "outcome" or difference.quantity.startswith("criterion ")
 
 
 def parameters_table(changes: Sequence[ParameterChange]) -> Table:

@@ -53,8 +53,8 @@ class CaseHistory:
 
     @property
     def turned(self) -> bool:
-        """Whether the verdict is not the same in all runs."""
-        return len({self.entry(place).word for place in self.places}) > 1
+        """Whether the verdict of the newest run that has the case is not that of the run before it."""
+        return len({self.entry(place).word for place in self.places[-2:]}) > 1
 
     def changes(self) -> dict[int, list[str] | None]:
         """Return what changed in the inputs at each place but the first, see :func:`changed_inputs`."""

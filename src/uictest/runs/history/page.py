@@ -12,12 +12,12 @@ from typing import Final
 from urllib.parse import quote
 
 from uictest import report
+from uictest.analysis.comparison import differences_table
 from uictest.core import files
 from uictest.report.page import case_anchor, fragment, render, series_anchor
 from uictest.runs.history.case_history import (
     HEIGHT,
     CaseHistory,
-    Strip,
     case_histories,
     changed_inputs,
     runs_with_cases,
@@ -53,26 +53,6 @@ class RunRow:
     version: str
 
 
-@dataclass(frozen=True, slots=True)
-class CaseRow:
-    """A case in the table of histories; `change` and `inputs` compare the newest two runs that have it."""
-
-    history: CaseHistory
-    href: str
-    tone: str
-    strip: Strip
-    summary: str
-    change: str
-    relative: str
-    inputs: str
-    fragment: str
-
-    @property
-    def notable(self) -> bool:
-        """Whether it is not as expected, or not the same in all runs."""
-        return self.tone != "good" or self.history.turned or bool(self.history.change)
-
-
 def index_html(folder: str, listing: Listing) -> str:
     """Return the page of a folder: one document that loads nothing, and can be read without JavaScript."""
     shown = runs_with_cases(listing.runs)
@@ -88,7 +68,15 @@ def index_html(folder: str, listing: Listing) -> str:
         unfolded=_UNFOLDED,
         shown=shown,
         slots=[{"label": _slot_label(run), "href": page_href(run)} for run in shown],
-        cases=[_case_row(each) for each in histories[:_CASES_SHOWN]],
+        cases=histories[:_CASES_SHOWN],
+        strip=strip,
+        summary=summary,
+        change=_change,
+        inputs=_inputs,
+        href=_href,
+        anchor=_anchor,
+        turned=differences_table([_turn(each) for each in histories if each.turned]),
+        rows_by_case={each.id: fragment(_anchor(each)) for each in histories[:_CASES_SHOWN]},
         bounds=_bounds(listing, len(shown), len(histories)),
         unlisted=listing.unlisted[:_UNLISTED_SHOWN],
         more_unlisted=len(listing.unlisted[_UNLISTED_SHOWN:]),
@@ -143,35 +131,30 @@ def _slot_label(run: ListedRun) -> str:
     return f"{moment(run.started)} UTC · {shlex.join(run.command)}"
 
 
-def _case_row(history: CaseHistory) -> CaseRow:
-    newest = history.runs[history.places[-1]]
-    href = page_href(newest)
-    place = fragment((series_anchor if history.newest.is_series else case_anchor)(history.id))
-    return CaseRow(
-        history=history,
-        href=f"{href}#{place}" if href else "",
-        tone=report.tone(history.newest.word),
-        strip=strip(history),
-        summary=summary(history),
-        change="" if history.change is None else _change(history.change),
-        relative=_relative(history),
-        inputs=_inputs(history),
-        fragment=place,
-    )
+def _href(history: CaseHistory) -> str:
+    """Return the link to a case in the newest run that has it; empty where there is none."""
+    href = page_href(history.runs[history.places[-1]])
+    return f"{href}#{fragment(_anchor(history))}" if href else ""
 
 
-def _change(change: float) -> str:
-    """Return a change with its sign; 0 only where there is none."""
-    if change == 0.0:
-        return "0"
-    return f"{change:+.2f}" if abs(change) >= 0.005 else f"{change:+.1g}"
+def _anchor(history: CaseHistory) -> str:
+    return (series_anchor if history.newest.is_series else case_anchor)(history.id)
 
 
-def _relative(history: CaseHistory) -> str:
-    if not history.change or not history.newest.distance:
-        return ""
-    before = history.newest.distance - history.change
-    return f"{_change(100.0 * history.change / before)} %" if before else ""
+def _turn(history: CaseHistory) -> report.Difference:
+    """Return the verdict of the newest run that has the case against that of the run before it."""
+    before, now = (history.entry(place).word for place in history.places[-2:])
+    run = f"run of {moment(history.runs[history.places[-1]].started)} UTC"
+    return report.Difference(history.id, "outcome", before, now, within=False, remark=run)
+
+
+def _change(history: CaseHistory) -> tuple[str, str]:
+    """Return by how much the distance changed, m, and in per cent; empty where that is not known."""
+    change, distance = history.change, history.newest.distance
+    if not change or distance is None:
+        return "" if change is None else "0", ""
+    percent = report.relative_percent(distance - change, distance)
+    return f"{change:+.5g}", "" if percent is None else f"{report.percent_text(percent)} %"
 
 
 def _inputs(history: CaseHistory) -> str:

@@ -8,8 +8,7 @@ if (histories) {
     const sought = form.elements.text.value.toLowerCase().split(/\s+/);
     let shown = 0;
     for (const row of rows) {
-      const wanted = !form.elements.notable.checked || "notable" in row.dataset;
-      row.hidden = !(wanted && sought.every((part) => contents.get(row).includes(part)));
+      row.hidden = !sought.every((part) => contents.get(row).includes(part));
       shown += !row.hidden;
     }
     first(".count", form).textContent = `${shown} of ${rows.length} shown`;
@@ -38,6 +37,6 @@ if (histories) {
   histories.addEventListener("pointerleave", () => (label.hidden = true));
   histories.addEventListener("click", (event) => {
     const slot = slotAt(event);
-    if (slot?.href) location.href = `${slot.href}#${event.target.closest("tr").dataset.anchor}`;
+    if (slot?.href) location.href = `${slot.href}#${encodeURIComponent(event.target.closest("tr").id)}`;
   });
 }
