@@ -106,6 +106,7 @@ def test_a_wheelset_that_stands_still_too_long_fails(shipped, scenario, case, st
     assert result.outcome == "fail"
     kept = "3 of 4 wheelsets within the limit of 1 s (4 needed)"
     assert result.reason == f"locked-wheels: {kept}: 0.2, 0, 6.5, 0.1 s"
+    assert next(each for each in result.criteria if each.id == "locked-wheels").missed_by == (3,)
 
 
 def test_a_crashed_simulation_is_an_error_with_its_reason(slip_test):

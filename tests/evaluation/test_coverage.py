@@ -136,7 +136,8 @@ def test_three_known_wheelsets_can_decide_for_four_and_a_gap_leaves_what_was_see
     assert every.status == "inconclusive"
     coverage = Coverage({"locked_time": (None, GAP, None, None)})
     every = {"upper": "1 s", "wheelsets": "all", "coverage": coverage}
-    assert locked([0.0, 2.0, 0.0, 0.0], **every).status == "fail"
+    missed = locked([0.0, 2.0, 0.0, 0.0], **every)
+    assert (missed.status, missed.missed_by) == ("fail", (2,))
     assert locked([0.0, 0.5, 0.0, 0.0], **every).status == "inconclusive"
 
 

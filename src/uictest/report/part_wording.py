@@ -9,6 +9,7 @@ from typing import Final
 from uictest import controllers
 from uictest.core.units import KINDS, in_unit, value_text
 from uictest.judging import evaluation
+from uictest.report.causes import fault_sentences, is_bypassed
 from uictest.report.escaping import printable
 from uictest.report.verdict_sentences import counted
 
@@ -92,7 +93,7 @@ def controllers_text(results: Iterable[evaluation.CaseResult], uictest_version: 
         if version and evaluation.program_in(result.parts) is not None:
             version = f"version {version}"
         text = f"{name} ({version})" if version else name
-        acts[text] = acts.get(text, False) or not _bypassed(result.parts)
+        acts[text] = acts.get(text, False) or not is_bypassed(result.parts)
     return ", ".join(text if active else f"{text}, bypassed" for text, active in acts.items())
 
 
@@ -109,11 +110,6 @@ def slide_speed(results: Iterable[evaluation.CaseResult]) -> str:
         if parameter.key == "measures.moving_speed"
     }
     return printable(known.pop()) if len(known) == 1 else "moving_speed"
-
-
-def _bypassed(parts: Mapping[str, evaluation.EffectivePart]) -> bool:
-    rig = parts.get("scenario.rig")
-    return rig is not None and any(p.key == "rig.wsp" and p.written == "bypassed" for p in rig.parameters)
 
 
 def base_word(part: evaluation.EffectivePart) -> str:
@@ -159,7 +155,10 @@ def _differences(part: evaluation.EffectivePart, varied: Collection[str], told: 
 
 
 def _changes(part: evaluation.EffectivePart, above: str, varied: Collection[str] = ()) -> Iterator[str]:
-    for parameter in (each for each in part.changed if each.key not in varied):
+    yield from fault_sentences(part.changed, varied)
+    for parameter in part.changed:
+        if parameter.key in varied or parameter.key.startswith("faults."):
+            continue
         key = parameter.key.removeprefix(f"{above}.")
         yield f"{key} {parameter.written} ({base_word(part)}: {parameter.library_written or 'none'})"
     for key in part.removed:

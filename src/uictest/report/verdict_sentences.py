@@ -7,6 +7,7 @@ from typing import Final
 
 from uictest.core.document import Tone
 from uictest.judging import evaluation
+from uictest.report.causes import cause_sentences
 from uictest.report.escaping import printable
 from uictest.report.repeat_wording import repeat_sentences
 
@@ -80,6 +81,14 @@ def rig_sentence(verdicts: Iterable[evaluation.Verdict]) -> str:
     return f"checks of the rig: {'all' if held == len(checks) else f'{held} of {len(checks)}'} hold"
 
 
+def missed_by_text(verdict: evaluation.Verdict, wheelsets: int) -> str:
+    """Return which of so many wheelsets miss a criterion: `all 4 wheelsets`, `wheelset 3 only`."""
+    if len(verdict.missed_by) == wheelsets:
+        return f"all {wheelsets} wheelsets" if wheelsets > 1 else ""
+    *others, last = map(str, verdict.missed_by or ("",))
+    return f"wheelsets {', '.join(others)} and {last}" if others else last and f"wheelset {last} only"
+
+
 def verdict_sentence(verdict: evaluation.Verdict) -> str:
     """Return the verdict of a criterion on one line, with the reason, or with value, limits and margin."""
     value, margin = (quantity(size, verdict.unit) for size in (verdict.value, verdict.margin))
@@ -93,7 +102,7 @@ def definition_sentence(verdict: evaluation.Verdict) -> str:
 
 
 def explanation(result: evaluation.CaseResult, instants: Mapping[str, str] | None = None) -> list[str]:
-    """Return the reasons for an outcome: expectation, reason, and each criterion that decided it.
+    """Return the reasons for an outcome: expectation, causes, reason, each criterion that decided it.
 
     `instants` says when the values of criteria, by their ids, were taken.
     """
@@ -112,7 +121,7 @@ def explanation(result: evaluation.CaseResult, instants: Mapping[str, str] | Non
     lines = [
         f"{line} (taken at {at})" if (at := known.get(name)) else line for name, line in deciding.items()
     ]
-    return [outcome, *repeat_sentences(result), *reason, *lines, *unsettled]
+    return [outcome, *cause_sentences(result), *repeat_sentences(result), *reason, *lines, *unsettled]
 
 
 def unsettled_sentences(verdicts: Iterable[evaluation.Verdict]) -> Iterator[str]:

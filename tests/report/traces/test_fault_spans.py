@@ -21,13 +21,17 @@ def test_each_fault_has_its_own_stretches_and_a_stop_without_faults_none():
     rounded = [FaultSpan(each.label, round(each.start, 3), round(each.end, 3)) for each in spans]
     assert fault_spans(record(0.0 * TIME, leak)) == ()
     assert fault_spans(Recording({"time": TIME, "speed": 30.0 - TIME}, {"time": "s", "speed": "m/s"})) == ()
-    assert rounded == [FaultSpan(lost, 2.0, 4.0), FaultSpan(lost, 8.0, 9.9), FaultSpan(leak, 3.0, 9.9)]
+    assert rounded == [
+        FaultSpan("speed sensor of wheelset 2: lost", 2.0, 4.0),
+        FaultSpan("speed sensor of wheelset 2: lost", 8.0, 9.9),
+        FaultSpan("brake line: leak", 3.0, 9.9),
+    ]
 
 
 def test_the_page_shades_the_time():
     trace = trace_of(record(1.0 * (TIME >= 2.95), "brake-line-leak"))
     marks = list(fault_marks(trace))
     assert [(mark.plot, mark.kind, round(mark.x0 or 0.0, 3), mark.label) for mark in marks] == [
-        ("speed", "window", 3.0, "brake-line-leak"),
+        ("speed", "window", 3.0, "brake line: leak"),
         ("force", "window", 3.0, ""),
     ]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from uictest.core.measures import MEASURES, Course
 from uictest.core.units import in_unit, value_text, with_unit
@@ -17,13 +17,15 @@ from uictest.plans import scenario
 class Decision:
     """A status with the value that decided it (in the measure's unit; None where there is none) and why.
 
-    `side` is -1, 0 or 1: below, between or above the bounds.
+    `side` is -1, 0 or 1: below, between or above the bounds. `missed_by` holds the wheelsets, from 1, whose
+    values are known to miss them.
     """
 
     status: Status
     value: float | None
     reason: str
     side: int = 0
+    missed_by: tuple[int, ...] = ()
 
 
 def decide(
@@ -52,7 +54,8 @@ def decide(
         return _PartlyKnown(values, missing, course, bounds, needed, unit, where).decision()
     value = deciding(values, bounds, needed)
     status: Status = "pass" if bounds.hold(value) else "fail"
-    return _decided(status, value, bounds, _why_decided(values, value, bounds, needed, unit, where))
+    decision = _decided(status, value, bounds, _why_decided(values, value, bounds, needed, unit, where))
+    return replace(decision, missed_by=_missed_by(map(bounds.hold, values)) if len(values) > 1 else ())
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +85,8 @@ class _PartlyKnown:
             return self._decided("pass", deciding(keeping, self.bounds, self.needed), count)
         if possible < self.needed:
             count = f"{len(breaking)} {of_wheelsets} not {demand} ({self.needed} needed)"
-            return self._decided("fail", deciding(breaking, self.bounds, self.needed - possible), count)
+            decision = self._decided("fail", deciding(breaking, self.bounds, self.needed - possible), count)
+            return replace(decision, missed_by=_missed_by(holds) if len(self.values) > 1 else ())
         return self._decided("inconclusive", math.nan, f"{self.needed} {of_wheelsets} must be {demand}")
 
     def _holds(self, value: float, gap: MissingData | None) -> bool | None:
@@ -105,6 +109,10 @@ class _PartlyKnown:
         so_far = f"{_looking(with_unit(', '.join(texts), self.unit), self.where)} so far; {reasons}"
         reason = so_far if len(self.values) == 1 else f"{count}: {so_far}"
         return _decided(status, value, self.bounds, reason)
+
+
+def _missed_by(holds: Iterable[bool | None]) -> tuple[int, ...]:
+    return tuple(n for n, held in enumerate(holds, start=1) if held is False)
 
 
 def _decided(status: Status, value: float, bounds: Bounds, reason: str) -> Decision:

@@ -245,6 +245,7 @@ def verdict_of(criterion: scenario.Criterion, bounds: Bounds, decision: Decision
         reason=decision.reason,
         measure=criterion.measure,
         requirements=criterion.requirements,
+        missed_by=decision.missed_by,
     )
 
 

@@ -171,6 +171,7 @@ class Verdict:
     `requirements` holds the ids of those that the criterion verifies.
     `readings` holds what each reading of the criterion says, the deciding one first; empty where there is
     only one. `over_stops` is None but for a repeated case, in which `value` is the median over the stops.
+    `missed_by` holds the wheelsets, from 1, that miss the bounds in the one stop of a case.
     """
 
     id: str
@@ -189,6 +190,7 @@ class Verdict:
     requirements: tuple[str, ...] = ()
     over_stops: OverStops | None = None
     readings: tuple[ReadVerdict, ...] = ()
+    missed_by: tuple[int, ...] = ()
 
     @property
     def turns(self) -> bool:
@@ -215,7 +217,7 @@ def with_outcome_of(verdict: Verdict, other: Verdict) -> Verdict:
     return replace(other, definition=verdict.definition, definitions=verdict.definitions)
 
 
-WrittenVerdict = Annotated[Verdict, absent_if_empty("over_stops", "readings")]
+WrittenVerdict = Annotated[Verdict, absent_if_empty("over_stops", "readings", "missed_by")]
 """In JSON what only some verdicts have is absent from the others."""
 
 

@@ -94,7 +94,7 @@ def place_text(speed_kmh: float | None, rail: str) -> str:
     return f"{speed_kmh:g} km/h{f', {rail} rail' if rail else ''}"
 
 
-WrittenVerdict = Annotated[Verdict, absent_if_empty("requirements", "over_stops")]
+WrittenVerdict = Annotated[Verdict, absent_if_empty("requirements", "over_stops", "missed_by")]
 """In JSON what only some verdicts have is absent from the others."""
 
 

@@ -8,6 +8,7 @@ from typing import Final
 
 from uictest.judging import evaluation
 from uictest.report import series as series_views
+from uictest.report.causes import cause_sentences
 from uictest.report.content import RunContent
 from uictest.report.difference import difference_sentences
 from uictest.report.page.case_view import CaseView
@@ -25,8 +26,8 @@ _MOST_CRITERIA: Final = 10
 class Finding:
     """A case or series that is not as expected.
 
-    `missed` holds the criteria that decided it; `sentences` say the rest. `command` runs it again, and is
-    empty where there is none.
+    `causes` say what explains it, `missed` holds the criteria that decided it, `sentences` say the rest.
+    `command` runs it again, and is empty where there is none.
     """
 
     word: str
@@ -35,6 +36,7 @@ class Finding:
     missed: Sequence[Margin]
     sentences: Sequence[str]
     command: str
+    causes: Sequence[str] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +76,8 @@ def _of_case(
     commands: Mapping[str, str],
 ) -> Finding:
     missed = () if result.met else [each for each in margins[result.id].judged if _decides(each, result)]
-    sentences = content.explanation(result, _DIFFERENCES)
+    causes = cause_sentences(result)
+    sentences = [each for each in content.explanation(result, _DIFFERENCES) if each not in causes]
     if missed:
         expected = [] if result.expect == "pass" else [f"Expected: {result.expect}"]
         sentences = [*expected, *difference_sentences(content.differences(result.id), _DIFFERENCES)]
@@ -85,6 +88,7 @@ def _of_case(
         missed,
         sentences,
         commands[result.id],
+        causes,
     )
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from uictest.core import recording
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.judging import evaluation
+from uictest.report.causes import label_words
 from uictest.report.traces.moments import Moments, moments_of
 from uictest.report.traces.quantities import (
     OF_CLEANED_RAIL,
@@ -53,7 +54,7 @@ def thinned(y: Samples, bins: int) -> Rows:
 
 @dataclass(frozen=True, slots=True)
 class FaultSpan:
-    """A stretch of a stop in which one fault was active: its label, first and last time in s."""
+    """A stretch of a stop in which one fault was active: what it was, first and last time in s."""
 
     label: str
     start: float
@@ -66,7 +67,9 @@ def fault_spans(record: recording.Recording) -> tuple[FaultSpan, ...]:
     if not labels or "active_faults" not in record.channels:
         return ()
     return tuple(
-        span for place, label in enumerate(labels.split(", ")) for span in _spans(record, label, 1 << place)
+        span
+        for place, label in enumerate(labels.split(", "))
+        for span in _spans(record, label_words(label), 1 << place)
     )
 
 

@@ -9,11 +9,12 @@ from typing import Final
 from uictest.core.units import in_unit
 from uictest.judging import evaluation
 from uictest.report.page.stop.marks import Taken, taken_at
-from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS
+from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS, WHEELSETS
 from uictest.report.traces.trace import PlotTrace
 from uictest.report.verdict_sentences import (
     MOST_URGENT,
     limits,
+    missed_by_text,
     quantity,
     rig_sentence,
     without_rig_that_holds,
@@ -95,6 +96,11 @@ class Margin:
             return verdict.reason
         margin = f", margin {quantity(verdict.margin, verdict.unit)}" if verdict.margin else ""
         return f"{quantity(verdict.value, verdict.unit)}, {limits(verdict, word='')}{margin}"
+
+    @property
+    def missed_by_text(self) -> str:
+        """Which wheelsets miss it; empty for a criterion of the train."""
+        return missed_by_text(self.verdict, len(WHEELSETS)) if self.verdict.status == "fail" else ""
 
     @property
     def taken_text(self) -> str:

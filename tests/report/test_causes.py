@@ -1,0 +1,101 @@
+"""What the program knows of why a stop came out as it did, said in every report."""
+
+from __future__ import annotations
+
+import pytest
+
+from uictest.judging.evaluation import EffectivePart, Parameter, Verdict
+from uictest.plans.faults import FAULT_KINDS
+from uictest.report import case_line, run_suites
+from uictest.report.causes import cause_sentences, fault_words, label_words
+from uictest.report.formats.md import markdown_summary
+from uictest.report.page import page_html
+from uictest.report.part_wording import changed_parameters
+from uictest.report.verdict_sentences import missed_by_text
+
+from .builders import make_content, make_result, make_verdict
+
+
+def _part(kind: str, **values: str) -> EffectivePart:
+    own = tuple(Parameter(key, text, "", text, "user", differs=True) for key, text in values.items())
+    return EffectivePart(kind, kind.removeprefix("scenario").removeprefix("."), "", None, own)
+
+
+def _faults(**values: str) -> EffectivePart:
+    return _part("scenario", **{f"faults.0.{name}": text for name, text in values.items()})
+
+
+STUCK = _faults(at="6 s", wheelset="3", part="vent-valve", kind="stuck-closed")
+IN_WORDS = "injected fault: vent valve of wheelset 3: stuck closed from 6 s"
+LOCKED = make_verdict(
+    id="locked-wheels", layer="requirement", value=42.3, unit="s",
+    lower=None, upper=1.0, margin=-41.3, status="fail", missed_by=(3,),
+)  # fmt: skip
+
+
+def test_an_injected_fault_is_said_in_words_in_every_report() -> None:
+    failed = make_result(outcome="fail", criteria=(LOCKED,), parts={"scenario": STUCK})
+    content = make_content(failed)
+    (suite,) = run_suites([failed])
+    assert f"reason={IN_WORDS}; locked-wheels" in case_line(failed)
+    assert any(IN_WORDS in line for each in suite.testcases for line in each.lines)
+    assert IN_WORDS in page_html(content)
+    assert IN_WORDS in markdown_summary(content).replace("&#58;", ":")
+    assert changed_parameters({"scenario": STUCK}) == [IN_WORDS]
+
+
+def test_a_fault_has_its_value_and_its_end_and_leaves_out_what_a_sweep_varies() -> None:
+    lost = _faults(at="90 km/h", until="20 s", wheelset="1", part="speed-sensor", kind="factor", value="90 %")
+    assert cause_sentences(make_result(parts={"scenario": lost})) == [
+        "injected fault: speed sensor of wheelset 1: factor 90 % from 90 km/h until 20 s"
+    ]
+    varied = ["faults.0.at", "faults.0.until", "faults.0.wheelset"]
+    assert changed_parameters({"scenario": lost}, varied) == ["injected fault: speed sensor: factor 90 %"]
+
+
+@pytest.mark.parametrize(("part", "kind"), FAULT_KINDS)
+def test_the_label_of_a_recording_and_the_scenario_say_a_fault_alike(part: str, kind: str) -> None:
+    assert label_words(f"{part}-{kind}-2") == fault_words(part, kind, "2")
+    assert label_words(f"{part}-{kind}") == fault_words(part, kind)
+
+
+def test_a_bypassed_wsp_is_a_cause() -> None:
+    parts = {"scenario.rig": _part("scenario.rig", **{"rig.wsp": "bypassed"})}
+    assert cause_sentences(make_result(parts=parts)) == ["WSP bypassed: the controller did not act"]
+    assert cause_sentences(make_result()) == []
+
+
+def _adhesion(**changes: object) -> Verdict:
+    own = {"value": 0.124, "upper": 0.08, "lower": None, "unit": "g", "margin": -0.044, "status": "fail"}
+    return make_verdict(**{"id": "grip", "measure": "initial_adhesion", **own, **changes})
+
+
+@pytest.mark.parametrize(
+    ("verdict", "sentence"),
+    [
+        (_adhesion(), "no test: the rail is too good (initial adhesion too high)"),
+        (_adhesion(measure="sliding_share", lower=35.0, upper=None, value=0.0),
+         "no test: too few wheelsets slide, or not for long enough"),
+        (_adhesion(measure="braking_distance", lower=440.0, upper=490.0, value=400.0),
+         "no test: braking distance too low"),
+        (_adhesion(value=None), "no test: initial adhesion out of its limits"),
+        (_adhesion(layer="rig"), "no test: a check of the rig fails (grip)"),
+    ],
+)  # fmt: skip
+def test_an_invalid_stop_says_why_it_is_no_test(verdict: Verdict, sentence: str) -> None:
+    assert cause_sentences(make_result(outcome="invalid", criteria=(verdict,))) == [sentence]
+
+
+@pytest.mark.parametrize(
+    ("missed_by", "text"),
+    [
+        ((), ""),
+        ((3,), "wheelset 3 only"),
+        ((1, 4), "wheelsets 1 and 4"),
+        ((1, 2, 4), "wheelsets 1, 2 and 4"),
+        ((1, 2, 3, 4), "all 4 wheelsets"),
+    ],
+)
+def test_a_finding_says_how_many_wheelsets_miss(missed_by: tuple[int, ...], text: str) -> None:
+    verdict = make_verdict(missed_by=missed_by)
+    assert missed_by_text(verdict, 4) == text
