@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from uictest.controllers import CONTROLLERS, Controller
-from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES, note_samples
 from uictest.core.physics.air import mass_flow, orifice_law
 from uictest.core.physics.arithmetic import exp, maximum
 from uictest.rig import StopInputs
@@ -200,7 +200,7 @@ def test_every_translated_function_decides_whether_code_is_compiled_anew() -> No
         return function
 
     done = with_controllers(CHOICES, note, {})
-    for function in (run_stop, run_bench_test, run_queue):
+    for function in (run_stop, run_bench_test, run_queue, note_samples):
         translate(function, note, done)
     assert {f"{each.name.replace('-', '_')}.py" for each in CONTROLLERS.values()} < {
         file.name for file in files

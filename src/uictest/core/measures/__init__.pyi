@@ -19,6 +19,7 @@ from .measure import (
     WheelsetColumn as WheelsetColumn,
     Wheelsets as Wheelsets,
 )
+from .noted_samples import note_samples as note_samples
 from .records import (
     END_SPEEDS as END_SPEEDS,
     SLOW_SHARES as SLOW_SHARES,
@@ -37,7 +38,7 @@ from .registry import (
     stop_column_values as stop_column_values,
     wheelset_column_values as wheelset_column_values,
 )
-from .replay import Faults as Faults, Replay as Replay, samples_of as samples_of
+from .replay import Cell as Cell, Faults as Faults, Replay as Replay, samples_of as samples_of
 from .train import (
     begin_build_up as begin_build_up,
     begin_train as begin_train,

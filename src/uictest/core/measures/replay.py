@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import inf, isnan
 from types import SimpleNamespace
@@ -40,6 +40,9 @@ Channels = Mapping[str, Array]
 Faults = tuple[Array, Array, Array]
 """At every sample whether any has begun, shape (n,); whether a part of each wheelset has had one, and whether
 its speed sensor has one, shape (n, 4)."""
+Cell = tuple[str, int, int | None]
+"""A number in the records: field, number of the wheelset or 0 for the train, place where the field is a
+table."""
 _WHEELSETS: Final = (1, 2, 3, 4)
 _WHEELS: Final = 2.0
 """Of a wheelset: adhesion and wheel load are those of one."""
@@ -47,21 +50,22 @@ _WHEELS: Final = 2.0
 
 @dataclass(frozen=True, slots=True)
 class Samples:
-    """Samples of a recording as lists, which plain Python reads fastest; NaN where nothing was recorded.
+    """Samples of a recording; NaN where nothing was recorded.
 
     Args:
         train: time, distance, speed, pressures of reservoir and brake line, highest of the cylinder pressures
-            and the reference speed.
+            and the reference speed; shape (n, 7).
         wheelsets: of each one the speed, whether its valve is commanded to vent, clamping force, temperature
             of the disc surface, pressure of the tank, work of the rail, energy that the contacts turned into
-            heat, and the highest force that they could transmit.
-        faults: for each sample what :data:`Faults` hold; empty where none were recorded.
+            heat, and the highest force that they could transmit; shape (n, 4, 8).
+        faults: whether any has begun, then what else :data:`Faults` hold, for one wheelset after the other;
+            shape (n, 9), or (0, 9) where none were recorded.
 
     """
 
-    train: list[list[float]]
-    wheelsets: list[list[list[float]]]
-    faults: list[tuple[bool, list[float], list[float]]]
+    train: Array
+    wheelsets: Array
+    faults: Array
 
 
 def samples_of(
@@ -97,9 +101,9 @@ def samples_of(
         np.full_like(force, np.nan) if highest_force is None else highest_force,
     ]
     return Samples(
-        [channel.tolist() for channel in train],
-        [[channel[:, i].tolist() for channel in wheelsets] for i in range(len(_WHEELSETS))],
-        list(zip(*(each.tolist() for each in faults or ()), strict=True)),
+        np.stack(train, axis=1),
+        np.stack(wheelsets, axis=2),
+        np.empty((0, 9)) if faults is None else np.column_stack(faults),
     )
 
 
@@ -146,7 +150,7 @@ class Replay:
     )
 
     def __post_init__(self) -> None:
-        time, distance, speed, reservoir, line, *_ = (channel[0] for channel in self.samples.train)
+        time, distance, speed, reservoir, line, *_ = self.samples.train[0].tolist()
         begin_train(self.train, time, distance, speed, reservoir)
         begin_build_up(self.train, self.commanded_pressure, line)
         begin_utilisation(self.train)
@@ -167,10 +171,9 @@ class Replay:
             fields is None or not own.isdisjoint(fields)
             for own in (_OF_CONTACTS, _OF_SLIDES, _OF_PRESSURES, _TABLES)
         )
-        of_wheelsets = zip(*(zip(*channels, strict=True) for channels in self.samples.wheelsets), strict=True)
-        samples = enumerate(zip(zip(*self.samples.train, strict=True), of_wheelsets, strict=True))
-        next(samples)
-        for k, (sample, own_samples) in samples:
+        faults = self.samples.faults[1:].tolist()
+        samples = zip(self.samples.train[1:].tolist(), self.samples.wheelsets[1:].tolist(), strict=True)
+        for k, (sample, own_samples) in enumerate(samples):
             time, distance, speed, reservoir, line, cylinder, reference_speed = sample
             if time >= end:
                 break
@@ -194,9 +197,26 @@ class Replay:
             observe_train(train, definition, time, distance, speed, reservoir)
             if tables:
                 self._keep_tables()
-            if self.samples.faults:
-                self._observe_faults(k, reference_speed)
+            if faults:
+                self._observe_faults(faults[k], [own[2] for own in own_samples], reference_speed)
             yield time
+
+    def numbers(self, cells: Sequence[Cell]) -> list[float]:
+        """Return numbers in the records as they are now."""
+        return [holder[key] for holder, key in self._places(cells)]
+
+    def noted(self, cells: Sequence[Cell]) -> Array:
+        """Let the samples pass, and return numbers of the records after each but the first, a row each."""
+        places = self._places(cells)
+        passed = self.pass_samples(fields={name for name, _, _ in cells})
+        rows = [[holder[key] for holder, key in places] for _ in passed]
+        return np.array(rows, np.float64).reshape(-1, len(cells))
+
+    def _places(self, cells: Sequence[Cell]) -> list[tuple[Any, str | int]]:
+        records = [vars(record) for record in (self.train, *self.wheelsets)]
+        return [
+            (records[n], name) if place is None else (records[n][name], place) for name, n, place in cells
+        ]
 
     def stop_at(self, time: float, distance: float) -> None:
         """Feed the standstill of the train (s, m), the last of all samples."""
@@ -209,16 +229,15 @@ class Replay:
         keep_window(self.train, self.train)
         keep_slow_times(self.train, self.wheelsets, self.train, self.wheelsets)
 
-    def _observe_faults(self, k: int, reference_speed: float) -> None:
-        begun, faulty, speed_sensor_faulty = self.samples.faults[k]
+    def _observe_faults(self, faults: list[float], forces: list[float], reference_speed: float) -> None:
+        begun, *of_wheelsets = faults
         if not begun:
             return
         train, definition = self.train, self.definition
         observe_reference(train, definition, reference_speed)
-        forces = [channels[2][k] for channels in self.samples.wheelsets]
         largest = max(forces)
         for i, wheelset in enumerate(self.wheelsets):
-            own = faulty[i], speed_sensor_faulty[i], forces[i]
+            own = of_wheelsets[i], of_wheelsets[len(forces) + i], forces[i]
             observe_reaction(wheelset, train, definition, *own, largest)
 
 

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import SimpleNamespace
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest import rig
 from uictest.core.measures import (
     MEASURES,
+    Cell,
     Faults,
     Measure,
     MeasureDefinition,
@@ -56,8 +58,7 @@ class Moments:
     wheelset: int | None = None
 
 
-@dataclass(slots=True)
-class _Changes:
+class _Changes(NamedTuple):
     """Where one number of the records changed: it had `value` at last, from `time` (s) on.
 
     `grown` holds the intervals in which it grew, from the sample before to the last.
@@ -65,11 +66,7 @@ class _Changes:
 
     value: float
     time: float
-    grown: list[Interval] = field(default_factory=list)
-
-
-Cell = tuple[str, int, int | None]
-"""A number in the records: field, number of the wheelset or `TRAIN`, place where the field is a table."""
+    grown: list[Interval]
 
 
 def moments_of(
@@ -95,8 +92,8 @@ def moments_of(
     if "speed" not in record.channels or not judged:
         return {}
     replay = _replay([verdict for verdict, _ in judged], record)
-    cells = {cell for verdict, measure in judged for cell in _cells(verdict, measure)}
-    changes = _changes(replay, cells)
+    cells = {cell: None for verdict, measure in judged for cell in _cells(verdict, measure)}
+    changes = _changes(replay, list(cells))
     if "sliding_time" in record.metadata:  # more exact than the samples
         replay.train.sliding_time = float(record.metadata["sliding_time"])
     return {
@@ -149,29 +146,33 @@ def _definition(verdict: evaluation.Verdict) -> dict[str, float]:
     return {each.name: each.value for each in verdict.definitions}
 
 
-def _changes(replay: Replay, cells: Collection[Cell]) -> dict[Cell, _Changes]:
+def _changes(replay: Replay, cells: Sequence[Cell]) -> dict[Cell, _Changes]:
     """Let the samples pass and return where the numbers of the records changed."""
-    records = [vars(record) for record in (replay.train, *replay.wheelsets)]
-    previous = replay.train.end_time
-    changes, places = {}, []
-    for cell in cells:
-        name, n, place = cell
-        holder, key = (records[n], name) if place is None else (records[n][name], place)
-        changes[cell] = own = _Changes(holder[key], previous)
-        places.append((holder, key, own))
-    for time in replay.pass_samples(fields={name for name, _, _ in cells}):
-        for holder, key, own in places:
-            value = holder[key]
-            if value == own.value or math.isnan(value):
-                continue
-            has_grown = value > own.value or math.isnan(own.value)
-            if has_grown and own.grown and own.grown[-1][1] == previous:
-                own.grown[-1] = own.grown[-1][0], time
-            elif has_grown:
-                own.grown.append((previous, time))
-            own.value, own.time = value, time
-        previous = time
-    return changes
+    first = replay.numbers(cells)
+    noted = rig.noted_numbers(replay, cells)
+    time = replay.samples.train[:, 0]
+    return {cell: _changes_of(first[j], noted[:, j], time) for j, cell in enumerate(cells)}
+
+
+def _changes_of(first: float, noted: NDArray[np.float64], time: NDArray[np.float64]) -> _Changes:
+    """Return where a number changed that was `first` at the first sample, and `noted` at each after it."""
+    known = np.flatnonzero(~np.isnan(noted))
+    values = noted[known]
+    before = np.concatenate(([first], values))[:-1]
+    changes = known[values != before]
+    if not len(changes):
+        return _Changes(first, float(time[0]), [])
+    growths = known[(values > before) | np.isnan(before)]
+    grown = _joined(time[growths], time[growths + 1])
+    return _Changes(float(noted[changes[-1]]), float(time[changes[-1] + 1]), grown)
+
+
+def _joined(starts: NDArray[np.float64], ends: NDArray[np.float64]) -> list[Interval]:
+    """Return intervals in their order, as one where the next begins at the end of the one before."""
+    if not len(starts):
+        return []
+    breaks = np.flatnonzero(starts[1:] != ends[:-1])
+    return list(zip(starts[[0, *breaks + 1]].tolist(), ends[[*breaks, -1]].tolist(), strict=True))
 
 
 def _moments(

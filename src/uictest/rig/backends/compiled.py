@@ -26,6 +26,7 @@ Wrap = Callable[[Function], Any]
 _SOURCES = (
     *("core/record.py", "core/physics", "core/lanes", "controllers", "plans/faults.py", "rig"),
     *(f"core/measures/{name}.py" for name in ("records", "layouts", "train", "wheelset", "contact")),
+    "core/measures/noted_samples.py",
 )
 """Files and rooms of the package that compiled code is made from."""
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "forceinline": True}

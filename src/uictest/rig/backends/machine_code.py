@@ -10,7 +10,7 @@ made from that in some three seconds.
 
 import ctypes
 import logging
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from functools import cache
 from threading import Lock
@@ -32,11 +32,13 @@ class Unit(NamedTuple):
         name: of its file in the cache.
         titles: what people are told is compiled, by the name of the function.
         entries: returns the functions, ready to be compiled; loads the compiler.
+        beside: small functions that are in the object file of another, for this process, by its name.
     """
 
     name: str
     titles: Mapping[str, str]
     entries: Callable[[], Entries]
+    beside: Mapping[str, tuple[str, ...]] = {}
 
 
 class Target(NamedTuple):
@@ -93,9 +95,20 @@ def native_function(unit: Unit, entry: str, arguments: int) -> Callable[..., int
     with _compiling:
         if entry not in _loaded:
             engine = load_object_file(_object_code(unit, entry, host()))
-            prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_int64] * arguments)
-            _loaded[entry] = engine, prototype(engine.get_function_address(entry))
+            _loaded[entry] = engine, _function(engine, entry, arguments)
     return _loaded[entry][1]
+
+
+def loaded_beside(entry: str, name: str, arguments: int) -> Callable[..., int] | None:
+    """Return a function that is in the object file of another; None unless that was loaded."""
+    if entry not in _loaded:
+        return None
+    return _function(_loaded[entry][0], name, arguments)
+
+
+def _function(engine: Any, name: str, arguments: int) -> Callable[..., int]:
+    prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_int64] * arguments)
+    return prototype(engine.get_function_address(name))
 
 
 def object_code(unit: Unit, entry: str, target: Target) -> bytes:
@@ -137,7 +150,8 @@ def _object_code(unit: Unit, entry: str, target: Target) -> bytes:
         watcher, title = _watcher, unit.titles[entry]
         watcher(title, 0.0)
         bitcode = _bitcode_of(unit, lambda done: watcher(title, _BITCODE_SHARE * done))
-        code = object_file(bitcode, entry, target)
+        beside = () if target.in_library else unit.beside.get(entry, ())
+        code = object_file(bitcode, entry, target, beside)
         watcher(title, 1.0)
         return code
 
@@ -172,14 +186,17 @@ def _inputs(target: Target) -> bytes:
     return repr(tuple(target)).encode() + compiler_inputs()
 
 
-def object_file(bitcode: bytes, entry: str, target: Target) -> bytes:
-    """Return one entry of a unit as an object file that defines its name and needs nothing from outside."""
+def object_file(bitcode: bytes, entry: str, target: Target, beside: Collection[str] = ()) -> bytes:
+    """Return one entry of a unit as an object file that needs nothing from outside.
+
+    It defines its name and those of other entries that stand `beside` it.
+    """
     from llvmlite import binding
 
     machine = _machine(target)
     module = binding.parse_bitcode(bitcode)
     for function in module.functions:
-        if not function.is_declaration and function.name != entry:
+        if not function.is_declaration and function.name not in (entry, *beside):
             function.linkage = "internal"
     if target.in_library:
         module.get_function(entry).visibility = "hidden"

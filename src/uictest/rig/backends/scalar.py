@@ -3,7 +3,7 @@
 from typing import Any, Final
 
 from uictest.controllers import EXCHANGE
-from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES, note_samples
 from uictest.rig.backends.compiled import (
     compile_inner,
     compiled_operations,
@@ -38,13 +38,25 @@ STEP_ARGUMENTS: Final = (
 """Its arguments likewise: addresses of the parts of :data:`~uictest.rig.backends.stepped.STOP_MEMORY`, of the
 wheelsets' parameters and of the rail, points of the rail, addresses of a trace, rows that it has room for,
 steps per sample, rows that are filled. It returns the rows filled afterwards."""
+NOTE: Final = "uictest_note_samples"
+"""Name of the function that feeds a recording to the measures; it is in one object file with the stop."""
+NOTE_ARGUMENTS: Final = (
+    *(STOP_MEASURES, WHEELSET_MEASURES, PARAMETERS, "f8", int, "f8", "f8", int, "f8", int, "i8", int, "f8"),
+)
+"""Its arguments: addresses of records and tables, each table that may be of any length followed by that."""
 
 
 def _entries() -> Entries:
-    """Return both functions, of addresses and the lengths behind them."""
+    """Return the functions, of addresses and the lengths behind them."""
     model = with_controllers(CHOICES, compile_inner, compiled_operations())
-    run, step = (translate(function, compile_inner, model) for function in (run_stop, step_stop))
-    return {RUN: (_run_on_addresses(run), RUN_ARGUMENTS), STEP: (_step_on_addresses(step), STEP_ARGUMENTS)}
+    run, step, note = (
+        translate(function, compile_inner, model) for function in (run_stop, step_stop, note_samples)
+    )
+    return {
+        RUN: (_run_on_addresses(run), RUN_ARGUMENTS),
+        STEP: (_step_on_addresses(step), STEP_ARGUMENTS),
+        NOTE: (_note_on_addresses(note), NOTE_ARGUMENTS),
+    }
 
 
 def _run_on_addresses(entry: Any) -> Any:
@@ -126,6 +138,42 @@ def _step_on_addresses(entry: Any) -> Any:
     return on_addresses
 
 
+def _note_on_addresses(entry: Any) -> Any:
+    carray = compiler().carray
+
+    def on_addresses(
+        measures: Any,
+        wheelset_measures: Any,
+        definition: Any,
+        samples: Any,
+        rows: int,
+        wheelset_samples: Any,
+        faults: Any,
+        rows_with_faults: int,
+        numbers: Any,
+        size: int,
+        places: Any,
+        noted_numbers: int,
+        noted: Any,
+    ) -> Any:
+        return entry(
+            carray(measures, 1)[0],
+            carray(wheelset_measures, 4),
+            carray(definition, 1)[0],
+            carray(samples, (rows, 7)),
+            carray(wheelset_samples, (rows, 4, 8)),
+            carray(faults, (rows_with_faults, 9)),
+            carray(numbers, size),
+            carray(places, noted_numbers),
+            carray(noted, (rows - 1, noted_numbers)),
+        )
+
+    return on_addresses
+
+
 SCALAR = Unit(
-    "uictest_scalar", {RUN: "the rig for single stops", STEP: "the rig for stops in steps"}, _entries
+    "uictest_scalar",
+    {RUN: "the rig for single stops", STEP: "the rig for stops in steps"},
+    _entries,
+    {RUN: (NOTE,)},
 )

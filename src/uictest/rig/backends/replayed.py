@@ -1,0 +1,56 @@
+"""A recording fed to the measures by machine code, where a stop has been loaded together with it."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES, Cell, MeasureDefinition, Replay
+from uictest.core.record import fields_of
+from uictest.rig.backends.machine_code import address, loaded_beside
+from uictest.rig.backends.scalar import NOTE, NOTE_ARGUMENTS, RUN
+from uictest.rig.model.parameters import PARAMETERS
+
+_RECORDS = np.dtype([("train", STOP_MEASURES), ("wheelsets", WHEELSET_MEASURES, 4)])
+_NUMBER = np.dtype("f8")
+
+
+def noted_numbers(replay: Replay, cells: Sequence[Cell]) -> NDArray[np.float64]:
+    """Let the samples pass as :meth:`.Replay.noted` does, compiled if a stop was run in this process."""
+    note = loaded_beside(RUN, NOTE, len(NOTE_ARGUMENTS))
+    if note is None:
+        return replay.noted(cells)
+    samples = replay.samples
+    records, parameters = np.zeros(1, _RECORDS), np.zeros(1, PARAMETERS)
+    train, wheelsets = records["train"][0], records["wheelsets"][0]
+    for name in fields_of(MeasureDefinition):
+        parameters[name] = getattr(replay.definition, name)
+    for own, record in zip((replay.train, *replay.wheelsets), (train, *wheelsets), strict=True):
+        for name in record.dtype.names:
+            record[name] = getattr(own, name)
+    numbers = records.view(_NUMBER)
+    places = np.array([_place(cell) for cell in cells], np.int64)
+    noted = np.empty((len(samples.train) - 1, len(cells)))
+    note(
+        address(train, STOP_MEASURES),
+        address(wheelsets, WHEELSET_MEASURES, (4,)),
+        address(parameters[0], PARAMETERS),
+        *(address(samples.train, _NUMBER, (len(samples.train), 7)), len(samples.train)),
+        address(samples.wheelsets, _NUMBER, (len(samples.train), 4, 8)),
+        *(address(samples.faults, _NUMBER, (len(samples.faults), 9)), len(samples.faults)),
+        *(address(numbers, _NUMBER, (len(numbers),)), len(numbers)),
+        *(address(places, np.dtype("i8"), (len(cells),)), len(cells)),
+        address(noted, _NUMBER, noted.shape),
+    )
+    for own, record in zip((replay.train, *replay.wheelsets), (train, *wheelsets), strict=True):
+        vars(own).update((name, record[name].tolist()) for name in record.dtype.names)
+    return noted
+
+
+def _place(cell: Cell) -> int:
+    """Return where a number of the records lies among them all."""
+    name, n, place = cell
+    layout: Any = WHEELSET_MEASURES if n else STOP_MEASURES
+    start = STOP_MEASURES.itemsize + (n - 1) * WHEELSET_MEASURES.itemsize if n else 0
+    return int(start + layout.fields[name][1]) // _NUMBER.itemsize + (place or 0)
