@@ -368,3 +368,29 @@ def test_the_band_of_the_repeats_lies_behind_the_lines_over_time_alone(browser: 
         run(browser, f"{choice} over.dispatchEvent(new Event('change', {{bubbles: true}}))", over)
         assert sum(run(browser, bands)) == count
         assert run(browser, f"return {box}.disabled") == (count == 0)
+
+
+def test_cursors_and_labels_stand_at_their_instants_after_a_zoom(browser: Any, stop_page: Path) -> None:
+    browser.get(stop_page.as_uri())
+    wait(browser, READY)
+    slider = browser.find_element("css selector", ".readout input")
+    slider.send_keys("\ue011" + "\ue014" * 235)  # home, then arrow right: 8 s of 34 s
+    offsets = """
+        const {plot} = document.querySelector('.panels-plot').plots.find(({row}) => row.key === 'slide');
+        const line = plot.over.querySelector('.cursor-line');
+        const label = [...document.querySelectorAll('.label-row span')].find(
+          ({textContent}) => textContent.startsWith('3: 60'));
+        const {min, max} = plot.scales.x;
+        return [min <= 8 && max >= 8, ...[line, label].map(
+          (each) => each && !each.hidden && parseFloat(each.style.left) - plot.valToPos(8, 'x'))];
+    """
+    settled = "const done = arguments[arguments.length - 1]; requestAnimationFrame(() => setTimeout(done))"
+    found = []
+    for button in ("in", "on", "back", "back", "in", "all"):
+        run(browser, f"document.querySelector('.zoom button[value={button}]').click()")
+        browser.execute_async_script(settled)
+        found.append(run(browser, offsets))
+    assert [seen for seen, *_ in found] == [False, False, False, True, False, True]
+    at_its_instant = pytest.approx(0.0, abs=0.6)
+    for seen, line, label in found:
+        assert (line, label) == ((at_its_instant, at_its_instant) if seen else (False, None))

@@ -71,6 +71,10 @@ const viewer = (element, { moved, pinned, ranged = () => {} }) => {
   let circle = null;
 
   const inView = () => range ?? [figure.start, figure.end];
+  const marksInView = (marks) => {
+    const [low, high] = inView();
+    return marks.filter(({ x0, x1 }) => (x0 ?? low) <= high && (x1 ?? high) >= low);
+  };
 
   const putSpan = ({ plot, cell }, kind) => {
     const span = spans.get(kind);
@@ -93,6 +97,7 @@ const viewer = (element, { moved, pinned, ranged = () => {} }) => {
     ring.style.cssText = `left:${left}px;top:${top}px`;
   };
   const put = () => {
+    relabel();
     for (const each of plots) for (const kind of spans.keys()) putSpan(each, kind);
     putRing();
   };
@@ -105,7 +110,7 @@ const viewer = (element, { moved, pinned, ranged = () => {} }) => {
     range = width >= all ? null : [from, from + width];
     const [min, max] = inView();
     for (const { plot } of plots) plot.setScale("x", { min, max });
-    relabel();
+    queueMicrotask(put); /* uPlot takes a range in a microtask: until then pixels are those of the range before. */
     ranged(inView());
   };
   const followed = (plot) => {
@@ -118,15 +123,14 @@ const viewer = (element, { moved, pinned, ranged = () => {} }) => {
   const spanInView = (row) => {
     const [low, high] = inView();
     const values = plots.filter((each) => each.row === row).flatMap(({ data: [x, ...ys], marks }) => {
-      const seen = marks.filter(({ x0, x1 }) => (x0 ?? low) <= high && (x1 ?? high) >= low);
-      return [...heightsOf(seen), ...ys.flatMap((y) => extentOf(y, rowAt(x, low), rowAt(x, high) + 1))];
+      return [...heightsOf(marksInView(marks)), ...ys.flatMap((y) => extentOf(y, rowAt(x, low), rowAt(x, high) + 1))];
     });
     return spanOf(range ? values : [...values, ...row.include]);
   };
 
   const relabel = () => {
     for (const { row, column, plot, labels, marks } of plots)
-      if (labels) labels.replaceChildren(...labelsAbove(column ? "" : row.title, marks, plot.over.clientWidth,
+      if (labels) labels.replaceChildren(...labelsAbove(column ? "" : row.title, marksInView(marks), plot.over.clientWidth,
         (x) => plot.valToPos(Math.min(Math.max(x, inView()[0]), inView()[1]), "x")));
   };
 
@@ -219,7 +223,6 @@ const viewer = (element, { moved, pinned, ranged = () => {} }) => {
     element.plots = plots; /* What stands where, for whoever looks from outside. */
     queueMicrotask(() => {
       figure.ready = true;
-      relabel();
       put();
     });
   };
@@ -234,7 +237,6 @@ const viewer = (element, { moved, pinned, ranged = () => {} }) => {
       circle = place;
       putRing();
     },
-    put,
     zoom,
     inView,
     /* A part of the range in view: 0.5 is half of it; moved by a share of it. */
