@@ -9,8 +9,8 @@ import pytest
 
 import uictest
 from uictest import selftest
-from uictest.selftest import package_data
-from uictest.selftest.reference import data_digests, stored_data_digests
+from uictest.selftest import stored_answers
+from uictest.selftest.known_stops import data_digests, stored_data_digests
 
 PACKAGE = Path(uictest.__file__).parent
 CRITERIA = "plans/library/criteria/uic-541-05-appendix-b.yaml"
@@ -32,7 +32,7 @@ def package(tmp_path: Path) -> Path:
 
 
 def finding(monkeypatch: pytest.MonkeyPatch, package: Path, stops: selftest.KnownStops) -> selftest.Finding:
-    monkeypatch.setattr(package_data, "data_digests", lambda: data_digests(package))
+    monkeypatch.setattr(stored_answers, "data_digests", lambda: data_digests(package))
     check = next(each for each in selftest.all_checks(stops) if each.id == "shipped-data")
     return selftest.examine(stops, [check]).findings[0]
 

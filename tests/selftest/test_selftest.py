@@ -20,9 +20,9 @@ from hypothesis import given, strategies as st
 
 from uictest import selftest
 from uictest.core import physics, user_cache
-from uictest.selftest import environment, reference, template_stops
-from uictest.selftest.bits import answer_of
-from uictest.selftest.check import Answer, Check, NotCheckedError
+from uictest.selftest import examination, known_stops
+from uictest.selftest.known_stops import Answer, Check, NotCheckedError
+from uictest.selftest.stored_answers import answer_of
 
 STORED = json.loads(selftest.REFERENCE.read_text("utf-8"))
 NUMBERS = {
@@ -80,14 +80,14 @@ def test_a_number_that_is_missing_or_new_is_found() -> None:
 def test_a_changed_bit_of_the_rig_fails_its_stop_and_the_lanes(
     stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    stored = dict(reference.stored_numbers("dry-120"))
+    stored = dict(known_stops.stored_numbers("dry-120"))
     distance = float(stored["braking_distance"])
     stored["braking_distance"] = repr(float(np.nextafter(distance, 0.0)))
     content = {
         **STORED,
         "stops": {**STORED["stops"], "dry-120": {**STORED["stops"]["dry-120"], "numbers": stored}},
     }
-    monkeypatch.setattr(reference, "_stored", lambda: content)
+    monkeypatch.setattr(known_stops, "_stored", lambda: content)
     failed = [each for each in selftest.examine(stops).findings if each.status == "fail"]
     assert [each.id for each in failed] == ["dry-120", "lanes"]
     assert all("1 of " in each.reason and "braking_distance" in each.reason for each in failed)
@@ -195,9 +195,9 @@ def test_without_a_compiler_the_controller_in_c_is_skipped(
 def test_a_controller_from_outside_that_answers_otherwise_is_found(
     stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    files = template_stops.templates.controller_files("python")
+    files = known_stops.templates.controller_files("python")
     files["my_wsp.py"] = files["my_wsp.py"].replace('"default": 0.15', '"default": 0.16')
-    monkeypatch.setattr(template_stops.templates, "controller_files", lambda language: files)
+    monkeypatch.setattr(known_stops.templates, "controller_files", lambda language: files)
     assert status_of(stops, "python-controller") == "fail"
 
 
@@ -233,5 +233,5 @@ def test_an_installed_file_that_was_changed_or_removed_is_found(
     file.unlink()
     if content is not None:
         file.write_bytes(content)
-    monkeypatch.setattr(environment, "distribution", lambda name: own)
+    monkeypatch.setattr(examination, "distribution", lambda name: own)
     assert status_of(stops, "installed-files") == status

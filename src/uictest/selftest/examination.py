@@ -1,18 +1,111 @@
-"""Ask every question."""
+"""The examination of an installation: every check, and what surrounds them on this machine."""
 
-from collections.abc import Sequence
+import base64
+import hashlib
+import os
+import platform
+import re
+from collections.abc import Iterator, Sequence
+from importlib.metadata import PackageNotFoundError, PackagePath, distribution, version
+from pathlib import Path
+from typing import Final
 
-from uictest.selftest.air import AIR_CHECKS
-from uictest.selftest.bits import controller_checks, stop_checks
-from uictest.selftest.check import Answer, Check, NotCheckedError
-from uictest.selftest.dry_stop import DRY_STOP_CHECKS
-from uictest.selftest.environment import environment, environment_checks
-from uictest.selftest.finding import Examination, Finding, Status
-from uictest.selftest.friction import CONTACT_CHECKS, FRICTION_CHECKS
+from uictest import __version__
+from uictest.core import user_cache
+from uictest.core.lanes import fuses, register_width
+from uictest.selftest.closed_forms import AIR_CHECKS, CONTACT_CHECKS, DRY_STOP_CHECKS, FRICTION_CHECKS
+from uictest.selftest.findings import Examination, Finding, Status
 from uictest.selftest.judging import judging_checks
-from uictest.selftest.known_stops import KnownStops
-from uictest.selftest.package_data import data_checks
-from uictest.selftest.reference import reference_version
+from uictest.selftest.known_stops import Answer, Check, KnownStops, NotCheckedError, reference_version
+from uictest.selftest.stored_answers import controller_checks, data_checks, stop_checks
+
+_PACKAGES: Final = ("numpy", "scipy", "numba", "llvmlite", "pydantic", "pyyaml", "pandas", "pyarrow")
+"""Those that take part in figures and verdicts."""
+_TRIAL: Final = b"uictest selftest"
+_MOST_NAMED: Final = 5
+
+
+def environment() -> dict[str, str]:
+    """Return versions, processor and extras, by name."""
+    return {
+        "uictest": __version__,
+        "python": f"{platform.python_implementation()} {platform.python_version()}",
+        "platform": platform.platform(),
+        "processor": _processor(),
+        **{name: version(name) for name in _PACKAGES},
+        **{f"extra {name}": state for name, state in _extras()},
+    }
+
+
+def environment_checks() -> Iterator[Check]:
+    """Yield the checks of the installed files and of the cache."""
+    what = "installed files that differ from those of the package"
+    yield Check("installed-files", "environment", what, _installed_files, unit="files")
+    what = "what is written to the cache is read back"
+    yield Check("cache", "environment", what, _cache, advisory=True)
+
+
+def _processor() -> str:
+    from llvmlite import binding
+
+    fused = "" if fuses() else ", without fused multiply-add: some fifteen times slower"
+    name, cores = binding.get_host_cpu_name(), os.cpu_count()
+    return f"{platform.machine()} {name}, {cores} cores, {register_width()} lanes{fused}"
+
+
+def _extras() -> Iterator[tuple[str, str]]:
+    """Yield every optional extra of the package, and what of it is installed."""
+    own = distribution("uictest")
+    for extra in own.metadata.get_all("Provides-Extra") or ():
+        if extra == "dev":
+            continue
+        names = [
+            match.group()
+            for line in own.requires or ()
+            if f'extra == "{extra}"' in line.replace("'", '"') and (match := re.match(r"[\w.-]+", line))
+        ]
+        found = {name: _version_of(name) for name in names}
+        missing = [name for name, installed in found.items() if not installed]
+        installed = ", ".join(f"{name} {number}" for name, number in found.items() if number)
+        yield extra, f"absent: {', '.join(missing)}" if missing else f"present: {installed}"
+
+
+def _version_of(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return ""
+
+
+def _installed_files(stops: KnownStops) -> Answer:
+    files = [each for each in distribution("uictest").files or () if each.parts[0] == "uictest" and each.hash]
+    if not files:
+        raise NotCheckedError(
+            "installed from a working tree, which has no list of files: shipped-data compares its data"
+        )
+    differ = [str(each) for each in files if not _unchanged(each)]
+    return Answer(0.0, float(len(differ)), ", ".join(differ[:_MOST_NAMED]))
+
+
+def _unchanged(file: PackagePath) -> bool:
+    """Return whether an installed file has the digest that the package gives for it."""
+    assert file.hash is not None
+    try:
+        content = Path(str(file.locate())).read_bytes()
+    except OSError:
+        return False
+    digest = hashlib.new(file.hash.mode, content).digest()
+    return base64.urlsafe_b64encode(digest).rstrip(b"=").decode() == file.hash.value
+
+
+def _cache(stops: KnownStops) -> Answer:
+    user_cache.write("selftest", _TRIAL, _TRIAL)
+    found = user_cache.read("selftest", _TRIAL)
+    if found == _TRIAL:
+        return Answer("read back", "read back")
+    return Answer(
+        "read back", "nothing", "each run compiles again; set UICTEST_CACHE to a folder of your own"
+    )
 
 
 def all_checks(stops: KnownStops) -> tuple[Check, ...]:

@@ -15,8 +15,7 @@ from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.recorded import field_data
-from uictest.selftest.check import Answer, Check
-from uictest.selftest.known_stops import KnownStops
+from uictest.selftest.known_stops import Answer, Check, KnownStops
 
 _SPEED: Final = 120.0 * KILOMETRE_PER_HOUR
 _DECELERATION: Final = 1.0

@@ -13,8 +13,7 @@ from uictest.report import trace_of
 from uictest.report.page import Drawing, drawing_of, plot_data, plots_json, render, sampling_text, script_json
 from uictest.selftest.conformance.bench import Answers
 from uictest.selftest.conformance.situations import WHEELSETS
-from uictest.selftest.finding import Examination
-from uictest.selftest.report import finding_document
+from uictest.selftest.findings import Examination, finding_document
 
 _UNITS = {"speed": "m/s", "reference_speed": "m/s", "wheel_speed": "m/s", "valve_command": "1"}
 

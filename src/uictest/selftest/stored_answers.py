@@ -1,20 +1,26 @@
-"""Checks by stored bits: the known stops alone, side by side in lanes, and with a controller from outside."""
+"""Stored answers: the bits of known stops, and the data files that ship."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import partial
 from itertools import islice
 from typing import Final
 
-from uictest.selftest.check import Answer, Check
 from uictest.selftest.known_stops import (
+    Answer,
+    Check,
     KnownStops,
     Numbers,
+    c_stop,
+    data_digests,
     digest_of,
     inputs_digest,
     numbers_of_stop,
+    python_stop,
+    stored_data_digests,
+    stored_inputs,
+    stored_numbers,
+    stored_numbers_from_outside,
 )
-from uictest.selftest.reference import stored_inputs, stored_numbers, stored_numbers_from_outside
-from uictest.selftest.template_stops import c_stop, python_stop
 
 _MOST_NAMED: Final = 3
 _DIGITS: Final = 12
@@ -77,3 +83,30 @@ def answer_of(expected: Numbers, found: Numbers) -> Answer:
     )
     words = f"{len(different)} of {len(names)} numbers differ: {named}" if different else ""
     return Answer(digest_of(expected)[:_DIGITS], digest_of(found)[:_DIGITS], words)
+
+
+_MOST_FILES_NAMED: Final = 5
+
+
+def data_checks() -> Iterator[Check]:
+    """Yield the check of the shipped data, which a working tree has as an installed package does."""
+    what = "files of the library, known stops and templates that are not those of this version"
+    yield Check("shipped-data", "environment", what, _shipped_data, unit="files")
+
+
+def _shipped_data(stops: KnownStops) -> Answer:
+    differ = list(different_files(stored_data_digests(), data_digests()))
+    more = len(differ) - _MOST_FILES_NAMED
+    rest = f" and {more} more" if more > 0 else ""
+    return Answer(0.0, float(len(differ)), ", ".join(differ[:_MOST_FILES_NAMED]) + rest)
+
+
+def different_files(stored: Mapping[str, str], found: Mapping[str, str]) -> Iterator[str]:
+    """Yield the files that differ, and how."""
+    for name in sorted({*stored, *found}):
+        if name not in found:
+            yield f"{name} is missing"
+        elif name not in stored:
+            yield f"{name} is not part of it"
+        elif stored[name] != found[name]:
+            yield f"{name} was changed"
