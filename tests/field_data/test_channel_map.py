@@ -12,7 +12,7 @@ from uictest.recorded.field_data import (
     proposed_map,
     select_channels,
 )
-from uictest.recorded.field_data.channels import CHANNEL_UNITS
+from uictest.recorded.field_data.channel_map import CHANNEL_UNITS
 
 HEAD = "schema: uictest/channel-map/1\nname: mine\n"
 TIME = np.array([0.0, 1.0, 2.0])

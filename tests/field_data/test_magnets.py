@@ -36,7 +36,7 @@ def test_a_recorded_command_has_precedence_and_times_of_their_own_make_none():
 
 
 def test_magnets_of_a_stop_count_the_actuations_of_its_valves(channels, case, prepared):
-    from uictest.recorded.field_data.observation import observe
+    from uictest.recorded.field_data.judgement import observe
 
     commands = [f"valve_command_{n}" for n in (1, 2, 3, 4)]
     magnets = {name: channel for name, channel in channels.items() if name not in commands}

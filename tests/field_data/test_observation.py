@@ -9,7 +9,7 @@ from uictest.core.recording.formats import FORMATS, Dialect, writer_of
 from uictest.core.recording.formats.reader import read_here
 from uictest.judging.evaluation import evaluate
 from uictest.recorded.field_data import judge_recording, load_map, prepare, select_channels, stated_case
-from uictest.recorded.field_data.observation import observe
+from uictest.recorded.field_data.judgement import observe
 
 from .conftest import judge_stop, kept
 

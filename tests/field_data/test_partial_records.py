@@ -12,7 +12,7 @@ from uictest.core.measures import MEASURES
 from uictest.core.units import KINDS
 from uictest.plans.scenario.parts.criteria import Criteria, Criterion
 from uictest.recorded.field_data import stated_case
-from uictest.recorded.field_data.observation import observe
+from uictest.recorded.field_data.judgement import observe
 
 from .conftest import channels_of, judge_stop, kept
 

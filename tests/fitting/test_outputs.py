@@ -7,7 +7,7 @@ import yaml
 
 from uictest.plans.scenario import load
 from uictest.recorded.field_data import stated_case
-from uictest.recorded.fitting.estimate import Fit
+from uictest.recorded.fitting.fit import Fit
 from uictest.recorded.fitting.outputs import fitted_yaml, friction_of
 from uictest.recorded.fitting.stretches import Estimate
 

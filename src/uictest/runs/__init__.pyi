@@ -11,26 +11,26 @@ from .drawing import with_traces as with_traces
 from .observer import Observer as Observer, available_processors as available_processors
 from .publishing import (
     Published as Published,
+    holds_sweep as holds_sweep,
     publish_batch as publish_batch,
     publish_run as publish_run,
+    run_folder as run_folder,
+    why_no_run as why_no_run,
 )
 from .recorded import (
-    Conditions as Conditions,
-    case_of_stop as case_of_stop,
-    judge_recordings as judge_recordings,
-    recorded_batch as recorded_batch,
-)
-from .recorded_files import (
     CaseOfStop as CaseOfStop,
+    Conditions as Conditions,
     RecordedFile as RecordedFile,
+    case_of_stop as case_of_stop,
     each_file as each_file,
+    judge_recordings as judge_recordings,
     named_map as named_map,
     read_files as read_files,
     read_recorded_series as read_recorded_series,
+    recorded_batch as recorded_batch,
     stop_names as stop_names,
     triggered_map as triggered_map,
 )
-from .run_folders import holds_sweep as holds_sweep, run_folder as run_folder, why_no_run as why_no_run
 from .scenario_files import (
     DEFAULT_FOLDER as DEFAULT_FOLDER,
     InvalidInputError as InvalidInputError,

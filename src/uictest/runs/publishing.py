@@ -1,4 +1,4 @@
-"""A run from its start to its published folder."""
+"""A run from its start to its published folder, and the folders of runs that users name."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from functools import partial
 from pathlib import Path
 
 from uictest import report
-from uictest.core import files, recording
+from uictest.core import document, files, recording
+from uictest.running import chunked
 from uictest.runs import history
 from uictest.runs.batch import Batch, run_batch
 from uictest.runs.observer import Observer
@@ -87,3 +88,30 @@ def _write(folder: Path, content: report.RunContent, formats: Sequence[str]) -> 
     history.write_entry(folder, content)
     report.write_formats(folder, content, [each for each in formats if each not in report.IN_EVERY_RUN])
     return document
+
+
+def holds_sweep(folder: Path) -> bool:
+    """Return whether a folder is that of a sweep, finished or not."""
+    try:
+        manifest = chunked.ChunkStore(folder).manifest()
+    except OSError:
+        return False
+    return document.is_of(manifest, document.MANIFEST, "sweep")
+
+
+def why_no_run(folder: Path) -> str:
+    """Return why a path is no run, e.g. `there is no PATH`; empty if it looks like one."""
+    if not folder.exists():
+        return f"there is no {folder}"
+    if not folder.is_dir():
+        return f"{folder} is a file"
+    if holds_sweep(folder):
+        return f"{folder} holds a sweep"
+    return "" if (folder / report.RESULTS).is_file() else f"{folder} holds no run: it has no {report.RESULTS}"
+
+
+def run_folder(place: Path) -> Path:
+    """Return the folder of a run; `latest` may be a text file that names it, where links are impossible."""
+    if place.name == files.LATEST and not place.is_dir():
+        return files.latest_run(place.parent) or place
+    return place

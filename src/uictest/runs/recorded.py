@@ -1,20 +1,210 @@
-"""Recorded stops: the conditions that they are judged under, and the batch of them."""
+"""Recorded stops: their files, the conditions that they are judged under, and the batch of them."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from uictest import report
 from uictest.core import recording
-from uictest.plans import scenario as scenarios, series
+from uictest.core.recording import formats
+from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.plans import scenario, scenario as scenarios, series
+from uictest.plans.scenario import yaml
 from uictest.recorded import field_data
 from uictest.running import campaign
 from uictest.runs.batch import Batch, all_cases, run_batch
 from uictest.runs.observer import Observer
-from uictest.runs.recorded_files import CaseOfStop, RecordedFile, read_files, read_recorded_series
-from uictest.runs.scenario_files import InvalidInputError, is_series
+from uictest.runs.scenario_files import InvalidInputError, is_series, load_series
+
+CaseOfStop = Callable[[str, float], scenario.Case]
+"""Returns the case that a recorded stop is judged as: from its name and its initial speed, m/s."""
+Result = TypeVar("Result")
+_UNKNOWN_SPEED = 120.0 * KILOMETRE_PER_HOUR
+"""m/s, for the scenario of a record whose speed cannot be used; its result is an error at any speed."""
+_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
+_LONGEST_NAME = 80
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedFile:
+    """A file with a recorded stop.
+
+    Args:
+        path: of the file.
+        name: of the stop in the reports.
+        digest: SHA-256 of the file.
+        stop: the stop in it; None where it cannot be used.
+        defects: what is wrong with the record.
+
+    """
+
+    path: Path
+    name: str
+    digest: str
+    stop: field_data.RecordedStop | None
+    defects: tuple[field_data.Defect, ...]
+
+    def case(self, case_of: CaseOfStop, inputs: dict[str, str]) -> scenario.Case:
+        """Return the case that this stop is judged as; `inputs` are the other files read for it."""
+        speed = _UNKNOWN_SPEED if self.stop is None else float(self.stop.recording["speed"][0])
+        case = case_of(self.name, speed)
+        shown = yaml.display_name(self.path)
+        return replace(
+            case, id=self.name, path=Path(shown), inputs={**case.inputs, **inputs, shown: self.digest}
+        )
+
+
+def read_files(paths: Sequence[Path], channel_map: field_data.ChannelMap) -> list[RecordedFile]:
+    """Read every file. Raises InvalidInputError with the errors of all files that cannot be read."""
+
+    def read(path: Path) -> RecordedFile:
+        try:
+            stop = field_data.stop_in(path, channel_map)
+        except field_data.UnusableError as error:
+            return RecordedFile(path, "", field_data.digest_of(path), None, error.defects)
+        return RecordedFile(path, "", field_data.digest_of(path), stop, stop.defects)
+
+    files = each_file(paths, read)
+    return [replace(file, name=name) for file, name in zip(files, stop_names(paths), strict=True)]
+
+
+def named_map(
+    reference: str, trusted: Sequence[Path] | None = None
+) -> tuple[field_data.ChannelMap, dict[str, str]]:
+    """Return a channel map, a preset or a file, and the files read for it.
+
+    Raises InvalidInputError where there is no such map, ScenarioErrors where its file is invalid.
+    """
+    try:
+        return field_data.load_map(reference, trusted or ())
+    except KeyError:
+        known = ", ".join(field_data.presets())
+        raise InvalidInputError(
+            f"no channel map {reference!r}: name a preset ({known}) or a .yaml file"
+        ) from None
+
+
+def triggered_map(channel_map: field_data.ChannelMap, trigger: str | None) -> field_data.ChannelMap:
+    """Return a channel map with another trigger, a name or a time; None: as the map says.
+
+    Raises ValueError for a trigger that is neither.
+    """
+    from pydantic import ValidationError
+
+    if trigger is None:
+        return channel_map
+    key = "trigger_time" if any(map(str.isdigit, trigger)) else "trigger"
+    stated = {**dict(channel_map.preparation), "trigger_time": None, key: trigger}
+    try:
+        preparation = field_data.Preparation.model_validate(stated)
+    except ValidationError as error:
+        raise ValueError(f"trigger {trigger!r}: {error.errors(include_url=False)[0]['msg']}") from error
+    return channel_map.model_copy(update={"preparation": preparation})
+
+
+def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Result]:
+    """Apply `use` to every file, and return its results.
+
+    Raises InvalidInputError with every file's error, ReadingInterruptedError where reading was cut off.
+    """
+    results: list[Result] = []
+    errors: list[str] = []
+    for path in paths:
+        try:
+            results.append(use(path))
+        except (formats.UnreadableError, formats.MissingExtraError, field_data.MapError) as error:
+            errors.append(f"{path}: {error}")
+        except formats.ReadingInterruptedError:
+            raise  # not an error of the file
+        except OSError as error:
+            errors.append(f"{path}: {error.strerror or error}")
+    if errors:
+        raise InvalidInputError(*errors)
+    return results
+
+
+def stop_names(paths: Sequence[Path]) -> list[str]:
+    """Return a name for each file, safe as a file name and all different."""
+    names: list[str] = []
+    for path in paths:
+        stem = _UNSAFE.sub("-", path.stem).strip("-.")[:_LONGEST_NAME].lower() or "recording"
+        name = next(
+            n for k in range(1, len(paths) + 1) if (n := stem if k == 1 else f"{stem}-{k}") not in names
+        )
+        names.append(name)
+    return names
+
+
+def read_recorded_series(
+    paths: Sequence[Path],
+    overrides: Sequence[str] | None,
+    trusted: Sequence[Path] | None,
+    stated: Iterable[object],
+    option: str,
+) -> tuple[list[series.Series], list[RecordedFile]]:
+    """Return series with one stop for each recording, and the recordings in the order of the stops.
+
+    `stated` is what was said of recordings besides, and `option` what changes the files.
+    Raises InvalidInputError where a recording cannot be read, a stop names none, a path is none of a series,
+    or anything is stated that the file of a series says itself; and ScenarioErrors.
+    """
+    if not all(map(is_series, paths)):
+        raise InvalidInputError("name series files or recordings, not both")
+    if any(stated):
+        raise InvalidInputError(
+            "a series says itself which scenario and channel map each of its recordings has:"
+            f" state it in the file, or with {option}"
+        )
+    read = [_recorded(each, trusted) for each in load_series(paths, overrides, None, trusted)]
+    return [planned for planned, _ in read], [file for _, files in read for file in files]
+
+
+def _recorded(
+    planned: series.Series, trusted: Sequence[Path] | None
+) -> tuple[series.Series, list[RecordedFile]]:
+    """Return a series whose stops are the recordings that its file names, and these."""
+    stops: list[series.PlannedStop] = []
+    files: list[RecordedFile] = []
+    for stop in planned.stops:
+        if stop.role == "bypassed":
+            continue  # simulated beside simulated stops only
+        own, inputs = _files_of(stop, trusted)
+        names = [f"{stop.case.id}.{file.name}" for file in own]
+        named = [replace(file, name=name) for file, name in zip(own, names, strict=True)]
+        stops += [_as_recorded(stop, file, inputs) for file in named]
+        files += named
+    _require_distinct_stops(planned, stops)
+    return replace(planned, stops=tuple(stops)), files
+
+
+def _as_recorded(stop: series.PlannedStop, file: RecordedFile, inputs: dict[str, str]) -> series.PlannedStop:
+    """Return a stop as the one in a recording."""
+    return replace(stop, rail="", case=file.case(lambda name, speed: stop.case, inputs))
+
+
+def _files_of(
+    stop: series.PlannedStop, trusted: Sequence[Path] | None
+) -> tuple[list[RecordedFile], dict[str, str]]:
+    """Return the recordings of a stop, and the files read besides them."""
+    if stop.recorded is None:
+        raise InvalidInputError(
+            f"{stop.case.id} names no recording: list them under `recordings` of its stops, or"
+            " simulate the series with 'uictest run'"
+        )
+    mapped, inputs = named_map(stop.recorded.channel_map, trusted)
+    return read_files(stop.recorded.files, mapped), inputs
+
+
+def _require_distinct_stops(planned: series.Series, stops: Sequence[series.PlannedStop]) -> None:
+    seen: set[str] = set()
+    for stop in stops:
+        if stop.case.id in seen:
+            raise InvalidInputError(f"{planned.path}: a second recorded stop {stop.case.id!r}")
+        seen.add(stop.case.id)
 
 
 class Conditions(NamedTuple):

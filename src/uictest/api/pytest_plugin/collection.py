@@ -1,21 +1,149 @@
-"""Which files hold scenarios or series, and the hooks of a test run that collects them."""
+"""What a project asks to run as tests, and the reports of the session."""
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Generator, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Generator, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Final, Literal
+from typing import Any, Final, Literal
 
 import pytest
 
-from uictest import rig
+from uictest import report, rig, runs
 from uictest.api.pytest_plugin.cases import CaseItem, Changes, RigItem, ScenarioFile
-from uictest.api.pytest_plugin.reports import Reports
 from uictest.api.pytest_plugin.series_criteria import SeriesFile, SeriesItem
-from uictest.plans import scenario
+from uictest.core import recording
+from uictest.judging import evaluation, series
+from uictest.plans import scenario, series as series_plans
+from uictest.plans.scenario import yaml
+from uictest.running import campaign
+
+_ATTRIBUTE: Final = "uictest_results"
+"""Attribute of a test report: the results of its item in JSON, which pytest-xdist can send."""
+_FORMATS: Final = ("csv", "html")
+
+
+@dataclass(eq=False)
+class Reports:
+    """Collects the results of the items, those of the workers of pytest-xdist too, and writes the reports.
+
+    Args:
+        output: folder of all runs.
+        changes: with which the scenarios were loaded.
+
+    """
+
+    output: Path
+    changes: Changes
+    _results: dict[str, evaluation.CaseResult] = field(default_factory=dict)
+    _series: dict[str, series.SeriesResult] = field(default_factory=dict)
+    _files: set[Path] = field(default_factory=set)
+    _message: str = ""
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_makereport(
+        self, item: pytest.Item
+    ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+        """Attach the results of an item to the report that says how it came out."""
+        test_report = yield
+        decides = test_report.when == "call" or (test_report.when == "setup" and test_report.failed)
+        if isinstance(item, RigItem) and decides:
+            setattr(test_report, _ATTRIBUTE, item.results_document())
+        return test_report
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Collect the results of a finished item."""
+        document: Mapping[str, Any] | None = getattr(report, _ATTRIBUTE, None)
+        if document is not None:
+            self._add(document, self.changes.root / report.nodeid.partition("::")[0])
+
+    def pytest_sessionfinish(self, session: pytest.Session, exitstatus: int) -> None:
+        """Write the reports, unless this process is a worker or no item has finished."""
+        if hasattr(session.config, "workerinput") or not self._files:
+            return
+        ended = exitstatus in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED)
+        try:
+            place = self._write(complete=ended and not (session.shouldstop or session.shouldfail))
+        except (OSError, runs.InvalidInputError, yaml.ScenarioErrors) as error:
+            self._message = f"the reports were not written: {error}"
+            session.exitstatus = pytest.ExitCode.INTERNAL_ERROR
+        else:
+            self._message = f"reports in {place}"
+
+    def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
+        """Say where the reports are, or why there are none."""
+        if self._message:
+            terminalreporter.write_line(f"uictest: {self._message}")
+
+    def _add(self, document: Mapping[str, Any], file: Path) -> None:
+        self._files.add(file)
+        if "cases" in document:
+            for result in evaluation.results_of(document["cases"]):
+                self._results[result.id] = replace(result, duration=document["duration"])
+        else:
+            for judged in series.series_results_of(document["series"]):
+                self._series[judged.id] = judged
+
+    def _write(self, *, complete: bool) -> Path:
+        """Write the reports; return the folder of the run. Raises as :meth:`_load`, and OSError."""
+        cases, planned = self._load()
+        settings = campaign.RunSettings(strict=self.changes.strict)
+        batch = runs.batch_of(cases, planned, self._command(), self.changes.seed, settings)
+        completed = batch.settings.completed
+        results = [completed(self._results[case.id]) for case in cases]
+        judged = [
+            replace(each, cases=tuple(replace(stop, case=completed(stop.case)) for stop in each.cases))
+            for each in (self._series[each.id] for each in planned)
+        ]
+        content = replace(batch.content(results, judged), complete=complete)
+        every = settings.recording.every
+        recordings = _recordings_of_missed(cases, content, every)
+        content = runs.with_traces(content, batch.all_cases, recordings, every)
+        return runs.publish_run(content, recordings, self.output, _FORMATS).place
+
+    def _load(self) -> tuple[list[scenario.Case], list[series_plans.Series]]:
+        """Return the cases and series that there are results of, in the order of `uictest run`.
+
+        They are loaded together, as two files cannot have a case or a series of the same id in one run:
+        raises ScenarioErrors for cases, InvalidInputError for series.
+        """
+        paths, changes = sorted(self._files), self.changes
+        cases = runs.load_cases(
+            [path for path in paths if not runs.is_series(path)],
+            changes.overrides,
+            changes.seed,
+            [changes.root],
+        )
+        planned = runs.load_series(
+            [path for path in paths if runs.is_series(path)], changes.overrides, changes.seed, [changes.root]
+        )
+        return [case for case in cases if case.id in self._results], [
+            each for each in planned if each.id in self._series
+        ]
+
+    def _command(self) -> list[str]:
+        """Return the arguments with which `uictest` runs the same files."""
+        options = [word for text in self.changes.overrides for word in ("--set", text)]
+        if self.changes.seed is not None:
+            options += ["--seed", str(self.changes.seed)]
+        options += ["--strict"] if self.changes.strict else []
+        return ["run", *map(str, sorted(self._files)), *options]
+
+
+def _recordings_of_missed(
+    cases: Sequence[scenario.Case], content: report.RunContent, every: float
+) -> dict[str, recording.Recording]:
+    """Return recordings of the stops that are not as expected, simulated again: they come out the same.
+
+    A controller from outside may answer otherwise: its stops are not recorded.
+    """
+    missed = {result.id for result in content.results if not result.met and result.outcome != "error"}
+    again = [case for case in cases if case.id in missed and case.scenario.controller.program is None]
+    jobs = runs.available_processors()
+    return {case.id: samples for case, samples in campaign.replay(again, every=every, jobs=jobs)}
+
 
 _SCHEMA: Final = re.compile(
     rb"""(?:\A\s*\{\s*|^)["']?schema["']?\s*:\s*["']?(uictest/[^\s"'#,}]+)""", re.MULTILINE

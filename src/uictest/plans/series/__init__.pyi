@@ -1,16 +1,14 @@
-from .definition import (
+from .loading import (
+    PlannedComparison as PlannedComparison,
+    ValidationFile as ValidationFile,
+    ValidationPlan as ValidationPlan,
     load_series as load_series,
+    load_validation as load_validation,
+    plan_of_series as plan_of_series,
 )
 from .model import (
     PlannedStop as PlannedStop,
     Role as Role,
     Series as Series,
     series_schema as series_schema,
-)
-from .validation import (
-    PlannedComparison as PlannedComparison,
-    ValidationFile as ValidationFile,
-    ValidationPlan as ValidationPlan,
-    load_validation as load_validation,
-    plan_of_series as plan_of_series,
 )

@@ -1,11 +1,12 @@
 from .channel_map import (
+    WHEELSETS as WHEELSETS,
     ChannelMap as ChannelMap,
     Preparation as Preparation,
     channel_map_schema as channel_map_schema,
     load_map as load_map,
+    of_wheelsets as of_wheelsets,
     presets as presets,
 )
-from .channels import WHEELSETS as WHEELSETS, of_wheelsets as of_wheelsets
 from .judgement import (
     judge_recording as judge_recording,
     recorded_description as recorded_description,

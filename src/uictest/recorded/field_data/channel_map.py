@@ -1,9 +1,10 @@
-"""The channel map: the meaning and unit of every channel of a file, and its JSON Schema."""
+"""The channels of recorded stops, and the channel map that says where a file has them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, Field
@@ -28,7 +29,25 @@ from uictest.plans.scenario.yaml import (
     suggestion,
     validated,
 )
-from uictest.recorded.field_data.channels import CHANNEL_UNITS, WHEELSETS
+from uictest.rig import CAR_CHANNELS, WHEELSET_CHANNELS
+
+WHEELSETS: Final = (1, 2, 3, 4)
+"""Numbers of the wheelsets, from the leading end."""
+
+CHANNEL_UNITS: Final = MappingProxyType(
+    {
+        **dict(CAR_CHANNELS),
+        "brake_command": "1",
+        **{f"{name}_{n}": unit for n in WHEELSETS for name, unit in WHEELSET_CHANNELS},
+    }
+)
+"""Canonical channel -> its SI unit. Pressures are gauge, wheel speeds circumferential."""
+
+
+def of_wheelsets(kind: str) -> tuple[str, ...]:
+    """Return the channels of one kind of all wheelsets, as in `wheel_speed_1` .. `wheel_speed_4`."""
+    return tuple(f"{kind}_{n}" for n in WHEELSETS)
+
 
 SCHEMA: Final = "uictest/channel-map/1"
 DEFAULT: Final = "uictest"

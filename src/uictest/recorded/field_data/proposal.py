@@ -11,8 +11,7 @@ import numpy as np
 from uictest.core.recording import Contents, Group, Samples
 from uictest.core.recording.formats import Dialect
 from uictest.core.units import recorded_unit_size
-from uictest.recorded.field_data.channel_map import DEFAULT, load_map
-from uictest.recorded.field_data.channels import CHANNEL_UNITS, of_wheelsets
+from uictest.recorded.field_data.channel_map import CHANNEL_UNITS, DEFAULT, load_map, of_wheelsets
 from uictest.recorded.field_data.support import measures_of
 
 _COMMON = "common-names"

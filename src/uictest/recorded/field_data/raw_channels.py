@@ -24,8 +24,7 @@ from uictest.core.recording import (
 )
 from uictest.core.units import recorded_spellings, recorded_unit_size
 from uictest.plans.scenario.yaml import quoted, suggestion
-from uictest.recorded.field_data.channel_map import ChannelMap, ChannelSource
-from uictest.recorded.field_data.channels import CHANNEL_UNITS, WHEELSETS
+from uictest.recorded.field_data.channel_map import CHANNEL_UNITS, WHEELSETS, ChannelMap, ChannelSource
 
 _GROUPED = re.compile(r"[-+]?\d{1,3}(?:([., '])\d{3}(?:\1\d{3})+(?:[.,]\d+)?|([., '])\d{3}[.,]\d+)")
 _DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+")

@@ -12,8 +12,7 @@ import numpy as np
 from uictest.core.recording import TIME, Recording
 from uictest.core.recording.formats import read_contents
 from uictest.core.units import KILOMETRE_PER_HOUR
-from uictest.recorded.field_data.channel_map import ChannelMap, Preparation
-from uictest.recorded.field_data.channels import CHANNEL_UNITS
+from uictest.recorded.field_data.channel_map import CHANNEL_UNITS, ChannelMap, Preparation
 from uictest.recorded.field_data.raw_channels import Array, RawChannel, select_channels, with_valve_commands
 from uictest.recorded.field_data.sensor_defects import analogue_defects, distance_defects, speed_defects
 from uictest.recorded.field_data.time_axis import (

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from uictest.core.units import BAR, KILONEWTON
-from uictest.recorded.field_data.channels import of_wheelsets
+from uictest.recorded.field_data.channel_map import of_wheelsets
 from uictest.recorded.field_data.raw_channels import Array, RawChannel
 from uictest.recorded.field_data.time_axis import Defect, integrated
 

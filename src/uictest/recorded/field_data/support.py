@@ -31,7 +31,7 @@ from uictest.plans.scenario.yaml import (
     parse,
     single_error,
 )
-from uictest.recorded.field_data.channels import WHEELSETS
+from uictest.recorded.field_data.channel_map import WHEELSETS
 from uictest.recorded.field_data.recorded_stop import RecordedStop
 from uictest.recorded.field_data.time_axis import is_coarse
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.core.recording import LARGEST, STATES, beyond, state_kind
-from uictest.recorded.field_data.channels import CHANNEL_UNITS
+from uictest.recorded.field_data.channel_map import CHANNEL_UNITS
 from uictest.recorded.field_data.raw_channels import Array, RawChannel
 
 DefectKind = Literal[

@@ -10,8 +10,7 @@ import numpy as np
 from uictest.core.recording import BRAKE_COMMAND_TIME
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.plans.scenario.yaml import QuantityError, parse_quantity
-from uictest.recorded.field_data.channel_map import Preparation
-from uictest.recorded.field_data.channels import of_wheelsets
+from uictest.recorded.field_data.channel_map import Preparation, of_wheelsets
 from uictest.recorded.field_data.raw_channels import Array, MapError, RawChannel
 
 Channels = Mapping[str, RawChannel]

@@ -1,5 +1,4 @@
-from .cleaning_fit import CleaningFit as CleaningFit, fit_cleaning as fit_cleaning
-from .estimate import Fit as Fit, fit_stop as fit_stop
+from .fit import CleaningFit as CleaningFit, Fit as Fit, fit_cleaning as fit_cleaning, fit_stop as fit_stop
 from .outputs import (
     Agreement as Agreement,
     agreement as agreement,

@@ -18,8 +18,7 @@ from uictest.plans import library
 from uictest.plans.scenario import EXPANSION_KEYS, PART_KEYS, Case, Cleaning, Scenario
 from uictest.plans.scenario.yaml import dotted
 from uictest.recorded.field_data import RecordedStop, of_wheelsets
-from uictest.recorded.fitting.cleaning_fit import CleaningFit
-from uictest.recorded.fitting.estimate import Fit
+from uictest.recorded.fitting.fit import CleaningFit, Fit
 from uictest.rig import SimulatedStop
 
 _COMPARED = ("speed", *of_wheelsets("wheel_speed"))

@@ -2,10 +2,14 @@ from .batch import (
     BatchResult as BatchResult,
     PartsOfCases as PartsOfCases,
     RunSettings as RunSettings,
+    ThreadedMap as ThreadedMap,
     judge_cases as judge_cases,
+    map_on_threads as map_on_threads,
     parts_of_cases as parts_of_cases,
     parts_of_recorded as parts_of_recorded,
+    replay as replay,
     run_cases as run_cases,
+    shortest_cycle as shortest_cycle,
 )
 from .requirement_coverage import (
     CoveredRequirement as CoveredRequirement,
@@ -31,10 +35,4 @@ from .stop import (
     StopRun as StopRun,
     run_stop as run_stop,
     stops_of as stops_of,
-)
-from .threaded_map import (
-    ThreadedMap as ThreadedMap,
-    map_on_threads as map_on_threads,
-    replay as replay,
-    shortest_cycle as shortest_cycle,
 )

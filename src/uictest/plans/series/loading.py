@@ -1,24 +1,46 @@
-"""Read a validation file, or the recorded stops of a series, into what is run."""
+"""Read series files and validation files."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Final, Literal
 
 from pydantic import Field
 
-from uictest.plans.scenario import Case, Files, NamedFile, Override, Roots, parse_overrides
+from uictest.plans.scenario import (
+    Case,
+    Criteria,
+    Files,
+    NamedFile,
+    Override,
+    Parts,
+    Roots,
+    Variant,
+    apply_overrides,
+    case_id,
+    controller_labels,
+    expand,
+    parse_overrides,
+    short_keys,
+    without_axis,
+)
 from uictest.plans.scenario.yaml import (
+    SCENARIO_SCHEMA,
+    SERIES_SCHEMA,
     VALIDATION_SCHEMA,
     Diagnostic,
+    Document,
     Inconsistency,
     Map,
     Model,
+    Node,
     Quantity,
+    Scalar,
     ScenarioErrors,
     Sequence as List,
+    as_written,
     default,
     display_name,
     in_reading_order,
@@ -28,8 +50,71 @@ from uictest.plans.scenario.yaml import (
     require_schema,
     validated,
 )
-from uictest.plans.series.model import Recorded, Series
-from uictest.plans.series.stops import Stop, read_entry, recorded_twice
+from uictest.plans.series.model import DEFAULT_CRITERIA, Recorded, Series, SeriesFile
+from uictest.plans.series.stops import Stop, StopReader, read_entry, recorded_twice, values_set_by
+
+_NOT_A_SERIES: Final = {
+    SCENARIO_SCHEMA: "give a scenario a file name that does not end in .series.yaml",
+}
+
+
+def load_series(
+    path: Path, overrides: Sequence[str] = (), seed: int | None = None, trusted: Sequence[Path] = ()
+) -> list[Series]:
+    """Return the series of a file.
+
+    Args:
+        path: a ``*.series.yaml``.
+        overrides: ``key=value`` texts for the scenarios of all stops. A comma list or
+            ``range(first,last,step)`` makes a series of every value.
+        seed: of the first stop of every case.
+        trusted: folders that references may lead into, besides that of the file and the working folder.
+
+    Raises:
+        ScenarioErrors: with all errors of the file, or of the scenarios that it names.
+
+    """
+    files = Files(Roots.of([path], trusted))
+    tree = read_file(path, SERIES_SCHEMA)
+    require_schema(tree, SERIES_SCHEMA, hints=_NOT_A_SERIES)
+    of_command_line = parse_overrides(overrides, seed)
+    profiles, documents = _criteria(tree, Parts(files))
+    file: SeriesFile = validated(SeriesFile, {**plain(tree), "criteria": profiles}, tree)
+    inputs = {each.display: each.sha256 for each in (tree.place.document, *documents) if each.sha256}
+    common = [*values_set_by(tree, swept=False)]
+    fixed = [each for each in of_command_line if len(each.values) == 1]
+    variants = _variants(tree, of_command_line)
+    settings = [setting for variant in variants for setting in variant]
+    labels = controller_labels(settings, Parts(files))
+    short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
+    every: list[Series] = []
+    for variant in variants:
+        name = case_id(file.name, variant, short, labels)
+        own = [Override(each.key, each.value.key, (each.value.node,)) for each in variant]
+        stops = StopReader(name, file.criteria, files, common, [*own, *fixed]).stops(tree, file)
+        read = {shown: digest for stop in stops for shown, digest in stop.case.inputs.items()}
+        parameters = {each.key: as_written(each.value.node) for each in variant}
+        every.append(Series(name, Path(display_name(path)), file, parameters, stops, {**inputs, **read}))
+    return every
+
+
+def _criteria(tree: Map, parts: Parts) -> tuple[tuple[Criteria, ...], tuple[Document, ...]]:
+    """Return the profiles that a series names, and the documents that they come from."""
+    entry = tree.entries.get("criteria")
+    node: Node = Scalar(DEFAULT_CRITERIA, DEFAULT_CRITERIA, tree.place) if entry is None else entry.node
+    nodes = node.items if isinstance(node, List) else (node,)
+    resolved = [parts.resolve(each, Criteria, ("criteria",)) for each in nodes]
+    documents = tuple(document for each in resolved for document in each.documents)
+    return tuple(each.part for each in resolved), documents
+
+
+def _variants(tree: Map, of_command_line: Sequence[Override]) -> list[Variant]:
+    """Return the values by which the series of a file differ; one variant without any."""
+    for each in of_command_line:
+        if len(each.values) == 1:
+            tree = without_axis(tree, each.key)
+    varied = [each for each in of_command_line if len(each.values) > 1]
+    return expand(apply_overrides(tree, varied))
 
 
 @dataclass(frozen=True, slots=True)
