@@ -126,7 +126,7 @@ def test_copies_keep_text_unit_and_source():
 
 
 class Sample(BaseModel):
-    pressure: Annotated[Quantity, of_kind("pressure", above="0 bar", at_most="8 bar")]
+    pressure: Annotated[Quantity, of_kind("pressure", "> 0 bar .. 8 bar")]
 
 
 def message(value):

@@ -6,8 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
-
 from uictest.controllers import DEFAULT as DEFAULT_CONTROLLER
 from uictest.core.physics import LONGEST_DELAY_CYCLES
 from uictest.core.units import STANDARD_GRAVITY
@@ -37,76 +35,66 @@ from uictest.plans.scenario.parts.named_file import OutcomeOfRepeats, Repeat, Te
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, distinct_values, wheelset_value
 from uictest.plans.scenario.sections import Brake, Rail, Rig, Simulation
-from uictest.plans.scenario.yaml import (
-    DEFAULT_SOURCE,
-    Inconsistency,
-    PartReference,
-    Quantity,
-    of_kind,
-    quoted,
-)
+from uictest.plans.scenario.yaml import DEFAULT_SOURCE, Inconsistency, PartReference, Quantity, quoted
+from uictest.plans.scenario.yaml.quantity_field import field, optional, quantity
 
 
 class Scenario(TestFile):
     """One stop of the car on the rig, and what is expected of it."""
 
-    schema_id: Literal["uictest/scenario/1"] = Field(
-        alias="schema", description="What the file holds: uictest/scenario/1."
+    schema_id: Literal["uictest/scenario/1"] = field(
+        "What the file holds: uictest/scenario/1.", alias="schema"
     )
-    extends: str | None = Field(
-        default=None,
-        description="The parent: a relative path, or a scenario that ships; maps merge, lists replace.",
+    extends: str | None = optional(
+        "The parent: a relative path, or a scenario that ships; maps merge, lists replace."
     )
-    validated: str | None = Field(
-        default=None,
-        description="Relative path of the validation.json of a validation: cases outside of it are flagged.",
+    validated: str | None = optional(
+        "Relative path of the validation.json of a validation: cases outside of it are flagged."
     )
-    vehicle: Annotated[Vehicle, PartReference(Vehicle, "intercity-180")] = Field(
-        description="The vehicle: a library name, a relative path or an inline mapping."
+    vehicle: Annotated[Vehicle, PartReference(Vehicle, "intercity-180")] = field(
+        "The vehicle: a library name, a relative path or an inline mapping."
     )
-    initial_speed: Annotated[Quantity, of_kind("speed", above="1 km/h", at_most="600 km/h")] = Field(
-        description="Train speed at which the brake command is given."
+    initial_speed: Quantity = quantity(
+        "Train speed at which the brake command is given.", "speed", "> 1 km/h .. 600 km/h"
     )
-    brake: Brake = Field(description="Brake system, command and position.")
-    rail: Rail = Field(description="Rail condition, friction and gradient.")
-    rig: Rig = Field(description="Topology of the rig, compensation, WSP.")
-    controller: Annotated[Controller, PartReference(Controller, DEFAULT_CONTROLLER)] = Field(
-        description="The WSP controller under test: a library name, a relative path or an inline mapping."
+    brake: Brake = field("Brake system, command and position.")
+    rail: Rail = field("Rail condition, friction and gradient.")
+    rig: Rig = field("Topology of the rig, compensation, WSP.")
+    controller: Annotated[Controller, PartReference(Controller, DEFAULT_CONTROLLER)] = field(
+        "The WSP controller under test: a library name, a relative path or an inline mapping."
     )
-    faults: tuple[Fault, ...] = Field(
+    faults: tuple[Fault, ...] = field(
+        "Faults during the stop; where two act on one number, the later in the list acts last.",
         default=(),
         max_length=MOST_FAULTS,
-        description="Faults during the stop; where two act on one number, the later in the list acts last.",
     )
-    criteria: Annotated[tuple[Criteria, ...], PartReference(Criteria, "uictest-stop", several=True)] = Field(
-        description="One profile of criteria or a list of them."
+    criteria: Annotated[tuple[Criteria, ...], PartReference(Criteria, "uictest-stop", several=True)] = field(
+        "One profile of criteria or a list of them."
     )
-    measures: Annotated[MeasureDefinitions, PartReference(MeasureDefinitions, "standard")] = Field(
-        description="Definitions of the measures: a library name, a relative path or an inline mapping."
+    measures: Annotated[MeasureDefinitions, PartReference(MeasureDefinitions, "standard")] = field(
+        "Definitions of the measures: a library name, a relative path or an inline mapping."
     )
-    expect: Literal["pass", "fail", "invalid", "skipped"] = Field(
-        default="pass",
-        description="The expected outcome; skipped: no criterion is to judge the stop.",
+    expect: Literal["pass", "fail", "invalid", "skipped"] = field(
+        "The expected outcome; skipped: no criterion is to judge the stop.", default="pass"
     )
-    seed: int = Field(default=0, ge=0, le=2**32 - 1, strict=True, description="Seed of the sensors' noise.")
+    seed: int = field("Seed of the sensors' noise.", default=0, ge=0, le=2**32 - 1, strict=True)
     repeat: Repeat = 1
     outcome_of_repeats: OutcomeOfRepeats = "all"
-    simulation: Simulation = Field(default=Simulation(), description="Step and longest duration.")
-    matrix: dict[str, Any] | None = Field(
-        default=None,
-        description="Lists of values by dotted key; every combination is a case, first key slowest.",
+    simulation: Simulation = field("Step and longest duration.", default=Simulation())
+    matrix: dict[str, Any] | None = optional(
+        "Lists of values by dotted key; every combination is a case, first key slowest."
     )
-    zip: dict[str, Any] | None = Field(
-        default=None, description="Lists of equal length by dotted key; values at the same place make a case."
+    zip: dict[str, Any] | None = optional(
+        "Lists of equal length by dotted key; values at the same place make a case."
     )
-    include: tuple[dict[str, Any], ...] | None = Field(
-        default=None, description="Further cases, each a mapping of dotted keys to values."
+    include: tuple[dict[str, Any], ...] | None = optional(
+        "Further cases, each a mapping of dotted keys to values."
     )
-    exclude: tuple[dict[str, Any], ...] | None = Field(
-        default=None, description="Cases to leave out: those with exactly these values."
+    exclude: tuple[dict[str, Any], ...] | None = optional(
+        "Cases to leave out: those with exactly these values."
     )
-    vary: dict[str, Any] | None = Field(
-        default=None, description="What `uictest sweep` varies: lists, ranges and distributions of values."
+    vary: dict[str, Any] | None = optional(
+        "What `uictest sweep` varies: lists, ranges and distributions of values."
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:

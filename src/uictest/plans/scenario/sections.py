@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Annotated, Final, Literal
 
-from pydantic import BeforeValidator, Discriminator, Field, Tag
+from pydantic import BeforeValidator, Discriminator, Tag
 from pydantic_core import PydanticCustomError
 
 from uictest.plans.scenario.parts.brake import BrakeSystem, Caliper
@@ -17,16 +17,8 @@ from uictest.plans.scenario.parts.rail import (
     RailCondition,
 )
 from uictest.plans.scenario.parts.sensors import Sensors
-from uictest.plans.scenario.yaml import (
-    Inconsistency,
-    Model,
-    PartReference,
-    Quantity,
-    default,
-    of_kind,
-    quoted,
-    suggestion,
-)
+from uictest.plans.scenario.yaml import Inconsistency, Model, PartReference, Quantity, quoted, suggestion
+from uictest.plans.scenario.yaml.quantity_field import default, field, of_kind, optional, quantity
 
 
 def _friction_form(value: object) -> str:
@@ -34,28 +26,30 @@ def _friction_form(value: object) -> str:
     return "profile" if points or isinstance(value, dict | FrictionProfile) else "number"
 
 
+FrictionAlongTrack = Annotated[
+    Annotated[Friction, Tag("number")] | Annotated[FrictionProfile, Tag("profile")],
+    Discriminator(_friction_form),
+]
+
+
 class Brake(Model):
     """The brake of the car and the command it gets."""
 
-    system: Annotated[BrakeSystem, PartReference(BrakeSystem, "ep-disc")] = Field(
-        description="The brake system: a library name, a relative path or an inline mapping."
+    system: Annotated[BrakeSystem, PartReference(BrakeSystem, "ep-disc")] = field(
+        "The brake system: a library name, a relative path or an inline mapping."
     )
-    command: Annotated[Quantity, of_kind("share", at_least="1 %", at_most="100 %")] = Field(
-        default=default("100 %", "share"), description="Share of the full service command."
+    command: Quantity = quantity(
+        "Share of the full service command.", "share", "1 % .. 100 %", default="100 %"
     )
-    position: str = Field(
-        default="R", description="Brake position; one of the positions of the brake system."
+    position: str = field("Brake position; one of the positions of the brake system.", default="R")
+    pad: Annotated[Pad, PartReference(Pad, "constant")] = field(
+        "How pad friction varies: a library name, a relative path or an inline mapping."
     )
-    pad: Annotated[Pad, PartReference(Pad, "constant")] = Field(
-        description="How pad friction varies: a library name, a relative path or an inline mapping."
+    disc_temperature: Literal["constant", "modelled"] | None = optional(
+        "Whether the discs warm up; if left out, they do where the pad's friction depends on it."
     )
-    disc_temperature: Literal["constant", "modelled"] | None = Field(
-        default=None,
-        description="Whether the discs warm up; if left out, they do where the pad's friction depends on it.",
-    )
-    initial_disc_temperature: DiscTemperature | None = Field(
-        default=None,
-        description="Temperature of the discs at the brake command; that of the air if left out.",
+    initial_disc_temperature: DiscTemperature | None = optional(
+        "Temperature of the discs at the brake command; that of the air if left out."
     )
 
     @property
@@ -89,29 +83,21 @@ class Brake(Model):
 class Rail(Model):
     """The rail under the car."""
 
-    condition: Annotated[RailCondition, PartReference(RailCondition, "dry")] = Field(
-        description="Rail condition: dry, wet, a relative path or an inline mapping."
+    condition: Annotated[RailCondition, PartReference(RailCondition, "dry")] = field(
+        "Rail condition: dry, wet, a relative path or an inline mapping."
     )
-    friction: (
-        Annotated[
-            Annotated[Friction, Tag("number")] | Annotated[FrictionProfile, Tag("profile")],
-            Discriminator(_friction_form),
-        ]
-        | None
-    ) = Field(
-        default=None,
-        description="Initial friction coefficient, or points along the track; the condition's if left out.",
+    friction: FrictionAlongTrack | None = optional(
+        "Initial friction coefficient, or points along the track; the condition's if left out."
     )
-    friction_over_time: FactorProfile | None = Field(
-        default=None, description="Factor on the friction coefficient over time; 1 throughout if left out."
+    friction_over_time: FactorProfile | None = optional(
+        "Factor on the friction coefficient over time; 1 throughout if left out."
     )
-    cleaning: Cleaning | None = Field(
-        default=None, description="How sliding cleans the rail; as the condition says if left out."
-    )
-    gradient: Annotated[Quantity, of_kind("gradient", at_least="-60 permille", at_most="60 permille")] = (
-        Field(
-            default=default("0 permille", "gradient"), description="Gradient of the track, positive uphill."
-        )
+    cleaning: Cleaning | None = optional("How sliding cleans the rail; as the condition says if left out.")
+    gradient: Quantity = quantity(
+        "Gradient of the track, positive uphill.",
+        "gradient",
+        "-60 permille .. 60 permille",
+        default="0 permille",
     )
 
     @property
@@ -142,25 +128,25 @@ class Rail(Model):
 class Rig(Model):
     """How the rig is built up."""
 
-    topology: Literal["one-caliper", "four-caliper"] = Field(
-        default="one-caliper", description="One caliper and three tanks, or a caliper in every module."
+    topology: Literal["one-caliper", "four-caliper"] = field(
+        "One caliper and three tanks, or a caliper in every module.", default="one-caliper"
     )
-    compensation: Literal["none", "hysteresis", "cylinder", "full", "thermal"] = Field(
-        default="thermal",
-        description="What the modules without a caliper compute: hysteresis with the air of the caliper's"
+    compensation: Literal["none", "hysteresis", "cylinder", "full", "thermal"] = field(
+        "What the modules without a caliper compute: hysteresis with the air of the caliper's"
         " module (thermal); or, as in the paper, hysteresis, cylinder dynamics, both (full) or none.",
+        default="thermal",
     )
-    wsp: Literal["active", "bypassed"] = Field(
-        default="active", description="Whether the WSP valves obey the controller or always fill."
+    wsp: Literal["active", "bypassed"] = field(
+        "Whether the WSP valves obey the controller or always fill.", default="active"
     )
-    caliper: Annotated[Caliper, PartReference(Caliper, "six-inch")] = Field(
-        description="The caliper: a library name, a relative path or an inline mapping."
+    caliper: Annotated[Caliper, PartReference(Caliper, "six-inch")] = field(
+        "The caliper: a library name, a relative path or an inline mapping."
     )
-    compensation_model: Annotated[Compensation, PartReference(Compensation, "six-inch")] = Field(
-        description="The compensation: a library name, a relative path or an inline mapping."
+    compensation_model: Annotated[Compensation, PartReference(Compensation, "six-inch")] = field(
+        "The compensation: a library name, a relative path or an inline mapping."
     )
-    sensors: Annotated[Sensors, PartReference(Sensors, "standard")] = Field(
-        description="The sensors: a library name, a relative path or an inline mapping."
+    sensors: Annotated[Sensors, PartReference(Sensors, "standard")] = field(
+        "The sensors: a library name, a relative path or an inline mapping."
     )
 
 
@@ -179,13 +165,12 @@ def _no_survey(value: object) -> object:
 class Simulation(Model):
     """How the stop is simulated."""
 
-    time_step: Annotated[
-        Quantity, of_kind("time", at_least="0.01 ms", at_most="1 ms"), BeforeValidator(_no_survey)
-    ] = Field(
-        default=default("0.5 ms", "time"),
-        description="Base step; a whole number of them makes a controller cycle.",
+    time_step: Annotated[Quantity, of_kind("time", "0.01 ms .. 1 ms"), BeforeValidator(_no_survey)] = field(
+        "Base step; a whole number of them makes a controller cycle.", default=default("0.5 ms", "time")
     )
-    maximum_duration: Annotated[Quantity, of_kind("time", above="0 s", at_most="3600 s")] = Field(
-        default=default("180 s", "time"),
-        description="Simulated time after which a stop is aborted; what is undecided then is inconclusive.",
+    maximum_duration: Quantity = quantity(
+        "Simulated time after which a stop is aborted; what is undecided then is inconclusive.",
+        "time",
+        "> 0 s .. 3600 s",
+        default="180 s",
     )

@@ -41,11 +41,12 @@ from uictest.plans.scenario.yaml import (
     ScenarioErrors,
     Sequence as List,
     as_written,
-    default,
     display_name,
+    field,
     in_reading_order,
-    of_kind,
+    optional,
     plain,
+    quantity,
     read_file,
     require_schema,
     validated,
@@ -152,35 +153,35 @@ class ValidationPlan:
 class RecordedStops(Model):
     """Recorded stops that one scenario describes."""
 
-    scenario: str = Field(description="Relative path of the scenario.")
-    recordings: tuple[str, ...] = Field(min_length=1, description="Relative paths of the recorded stops.")
-    map: str = Field(
-        default="uictest", description="Channel map of the recordings: a preset or a relative path."
+    scenario: str = field("Relative path of the scenario.")
+    recordings: tuple[str, ...] = field("Relative paths of the recorded stops.", min_length=1)
+    map: str = field("Channel map of the recordings: a preset or a relative path.", default="uictest")
+    set: dict[str, Any] = field("Values by dotted key of the scenario.", default={})
+    repeat: Annotated[int, Field(ge=1, le=1000, strict=True)] | None = optional(
+        "Seeds under which each stop is simulated; the medians are compared."
     )
-    set: dict[str, Any] = Field(default={}, description="Values by dotted key of the scenario.")
-    repeat: Annotated[int, Field(ge=1, le=1000, strict=True)] | None = Field(
-        default=None, description="Seeds under which each stop is simulated; the medians are compared."
-    )
-    tuned: bool = Field(
-        default=False,
-        description="Whether numbers of the scenario were found with these recordings: they then show"
+    tuned: bool = field(
+        "Whether numbers of the scenario were found with these recordings: they then show"
         " nothing, and are listed without being counted.",
+        default=False,
     )
 
 
 class ValidationFile(NamedFile):
     """Recorded stops and the scenarios that simulate them."""
 
-    schema_id: Literal["uictest/validation/1"] = Field(
-        alias="schema", description="What the file holds: uictest/validation/1."
+    schema_id: Literal["uictest/validation/1"] = field(
+        "What the file holds: uictest/validation/1.", alias="schema"
     )
-    stops: tuple[RecordedStops, ...] = Field(description="The recorded stops.")
-    speed_tolerance: Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="50 km/h")] = Field(
-        default=default("3 km/h", "speed"),
-        description="Largest difference of a recorded initial speed from that of its scenario.",
+    stops: tuple[RecordedStops, ...] = field("The recorded stops.")
+    speed_tolerance: Quantity = quantity(
+        "Largest difference of a recorded initial speed from that of its scenario.",
+        "speed",
+        "0 km/h .. 50 km/h",
+        default="3 km/h",
     )
-    confidence: Annotated[Quantity, of_kind("share", at_least="50 %", at_most="99.99 %")] = Field(
-        default=default("95 %", "share"), description="Confidence of the intervals."
+    confidence: Quantity = quantity(
+        "Confidence of the intervals.", "share", "50 % .. 99.99 %", default="95 %"
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:

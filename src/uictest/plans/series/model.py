@@ -22,8 +22,9 @@ from uictest.plans.scenario.yaml import (
     Model,
     PartReference,
     Quantity,
-    default,
-    of_kind,
+    field,
+    optional,
+    quantity,
     quoted,
 )
 
@@ -39,20 +40,17 @@ def _entries(content: object) -> object:
 class Stops(Model):
     """Stops of one scenario, simulated or recorded."""
 
-    scenario: str = Field(description="Relative path of the scenario, or one that ships.")
-    set: dict[str, Any] = Field(
-        default={},
-        description="Values by dotted key of the scenario; a list makes one stop for each of its values.",
+    scenario: str = field("Relative path of the scenario, or one that ships.")
+    set: dict[str, Any] = field(
+        "Values by dotted key of the scenario; a list makes one stop for each of its values.", default={}
     )
-    repeat: Annotated[int, Field(ge=1, le=1000, strict=True)] | None = Field(
-        default=None, description="How often each stop is repeated under further seeds."
+    repeat: Annotated[int, Field(ge=1, le=1000, strict=True)] | None = optional(
+        "How often each stop is repeated under further seeds."
     )
-    recordings: tuple[str, ...] = Field(
-        default=(), description="Relative paths of recorded stops, for `uictest evaluate`."
+    recordings: tuple[str, ...] = field(
+        "Relative paths of recorded stops, for `uictest evaluate`.", default=()
     )
-    map: str = Field(
-        default="uictest", description="Channel map of the recordings: a preset or a relative path."
-    )
+    map: str = field("Channel map of the recordings: a preset or a relative path.", default="uictest")
 
 
 StopsField = Annotated[tuple[Stops, ...], BeforeValidator(_entries)]
@@ -61,48 +59,47 @@ StopsField = Annotated[tuple[Stops, ...], BeforeValidator(_entries)]
 class SeriesFile(TestFile):
     """A dry reference and wet stops, judged together."""
 
-    schema_id: Literal["uictest/series/1"] = Field(
-        alias="schema", description="What the file holds: uictest/series/1."
+    schema_id: Literal["uictest/series/1"] = field("What the file holds: uictest/series/1.", alias="schema")
+    repeat: Annotated[int, Field(ge=1, le=1000, strict=True)] | None = optional(
+        "How often each stop is repeated under further seeds."
     )
-    repeat: Annotated[int, Field(ge=1, le=1000, strict=True)] | None = Field(
-        default=None, description="How often each stop is repeated under further seeds."
+    set: dict[str, Any] = field(
+        "Values by dotted key of the scenarios, for all stops of the series.", default={}
     )
-    set: dict[str, Any] = Field(
-        default={}, description="Values by dotted key of the scenarios, for all stops of the series."
-    )
-    dry: StopsField = Field(
-        description="The reference: scenarios of dry stops, at least one for each initial speed."
-    )
-    wet: StopsField = Field(description="Scenarios of stops on a slippery rail.")
+    dry: StopsField = field("The reference: scenarios of dry stops, at least one for each initial speed.")
+    wet: StopsField = field("Scenarios of stops on a slippery rail.")
     criteria: Annotated[tuple[Criteria, ...], PartReference(Criteria, DEFAULT_CRITERIA, several=True)] = (
-        Field(description="One profile of criteria or a list of them.")
+        field("One profile of criteria or a list of them.")
     )
-    valid_stops: Annotated[Quantity, of_kind("share", above="0 %", at_most="100 %")] = Field(
-        default=default("80 %", "share"),
-        description="Least share of the wet stops from each speed that must count for a verdict.",
+    valid_stops: Quantity = quantity(
+        "Least share of the wet stops from each speed that must count for a verdict.",
+        "share",
+        "> 0 % .. 100 %",
+        default="80 %",
     )
-    speed_tolerance: Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="50 km/h")] = Field(
-        default=default("3 km/h", "speed"),
-        description="Largest deviation of an initial speed that counts: distances are not corrected for it.",
+    speed_tolerance: Quantity = quantity(
+        "Largest deviation of an initial speed that counts: distances are not corrected for it.",
+        "speed",
+        "0 km/h .. 50 km/h",
+        default="3 km/h",
     )
-    confidence: Annotated[Quantity, of_kind("share", at_least="50 %", at_most="99.99 %")] = Field(
-        default=default("95 %", "share"), description="Confidence of the intervals."
+    confidence: Quantity = quantity(
+        "Confidence of the intervals.", "share", "50 % .. 99.99 %", default="95 %"
     )
-    expect: Literal["pass", "fail", "invalid", "skipped"] = Field(
-        default="pass", description="The expected outcome; fail is for series that must not pass."
+    expect: Literal["pass", "fail", "invalid", "skipped"] = field(
+        "The expected outcome; fail is for series that must not pass.", default="pass"
     )
-    matrix: dict[str, Any] | None = Field(
-        default=None,
-        description="Lists of values by dotted key; every combination is a series of its own.",
+    matrix: dict[str, Any] | None = optional(
+        "Lists of values by dotted key; every combination is a series of its own."
     )
-    zip: dict[str, Any] | None = Field(
-        default=None, description="Lists of equal length by dotted key; values at the same place make one."
+    zip: dict[str, Any] | None = optional(
+        "Lists of equal length by dotted key; values at the same place make one."
     )
-    include: tuple[dict[str, Any], ...] | None = Field(
-        default=None, description="Further series, each a mapping of dotted keys to values."
+    include: tuple[dict[str, Any], ...] | None = optional(
+        "Further series, each a mapping of dotted keys to values."
     )
-    exclude: tuple[dict[str, Any], ...] | None = Field(
-        default=None, description="Series to leave out: those with exactly these values."
+    exclude: tuple[dict[str, Any], ...] | None = optional(
+        "Series to leave out: those with exactly these values."
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:

@@ -19,10 +19,12 @@ from uictest.plans.scenario.yaml import (
     Model,
     Quantity,
     Scalar,
-    default,
+    field,
     inherit,
     of_kind,
+    optional,
     plain,
+    quantity,
     quoted,
     read_file,
     single_error,
@@ -69,26 +71,26 @@ def _several(value: object) -> object:
 class ChannelSource(Model):
     """Where a channel comes from: value = sign (scale x sample + offset), in `unit`."""
 
-    source: Annotated[tuple[str, ...], BeforeValidator(_several), Field(min_length=1)] = Field(
-        description="Name in the file, or a list of names: the first one present is used; also group/name."
+    source: Annotated[tuple[str, ...], BeforeValidator(_several), Field(min_length=1)] = field(
+        "Name in the file, or a list of names: the first one present is used; also group/name."
     )
-    unit: str = Field(default="", description="Unit of the value; the file's own if left out.")
-    scale: float = Field(default=1.0, allow_inf_nan=False, description="Factor on every sample.")
-    offset: float = Field(default=0.0, allow_inf_nan=False, description="Added after scaling, in `unit`.")
-    sign: Literal[1, -1] = Field(default=1, description="-1 if the file has the opposite sign.")
-    states: dict[str, int] = Field(default={}, description="Name of a state in the file -> its number.")
+    unit: str = field("Unit of the value; the file's own if left out.", default="")
+    scale: float = field("Factor on every sample.", default=1.0, allow_inf_nan=False)
+    offset: float = field("Added after scaling, in `unit`.", default=0.0, allow_inf_nan=False)
+    sign: Literal[1, -1] = field("-1 if the file has the opposite sign.", default=1)
+    states: dict[str, int] = field("Name of a state in the file -> its number.", default={})
 
 
 class DialectSection(Model):
     """How a text file writes its table; lines are counted from one."""
 
-    delimiter: str = Field(default=",", min_length=1, max_length=1, description="Between two cells.")
-    decimal: Literal[".", ","] = Field(default=".", description="Before decimals.")
-    thousands: Literal["", ".", ",", "'", " "] = Field(default="", description="Between groups of digits.")
-    header_line: int = Field(default=0, ge=0, le=10_000, description="Line of the names; 0: the first.")
-    unit_line: int = Field(default=0, ge=0, le=10_000, description="Line of the units; 0: detected, or none.")
-    first_line: int = Field(default=0, ge=0, le=10_000, description="First line of samples; 0: the next.")
-    encoding: str = Field(default="utf-8", max_length=40, description="Encoding of the text.")
+    delimiter: str = field("Between two cells.", default=",", min_length=1, max_length=1)
+    decimal: Literal[".", ","] = field("Before decimals.", default=".")
+    thousands: Literal["", ".", ",", "'", " "] = field("Between groups of digits.", default="")
+    header_line: int = field("Line of the names; 0: the first.", default=0, ge=0, le=10_000)
+    unit_line: int = field("Line of the units; 0: detected, or none.", default=0, ge=0, le=10_000)
+    first_line: int = field("First line of samples; 0: the next.", default=0, ge=0, le=10_000)
+    encoding: str = field("Encoding of the text.", default="utf-8", max_length=40)
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield an unknown encoding, and a separator that is also the decimal sign."""
@@ -104,52 +106,52 @@ class DialectSection(Model):
 class Preparation(Model):
     """Trigger, raster, filter and standstill. No published rule exists for any of them: all are chosen."""
 
-    trigger: Trigger = Field(
-        default="auto",
-        description="What marks the brake command: a time the file states, its start, the brake command, the"
+    trigger: Trigger = field(
+        "What marks the brake command: a time the file states, its start, the brake command, the"
         " demanded pressure or the first pressure to rise; auto takes the first of these that is recorded.",
+        default="auto",
     )
-    trigger_time: Annotated[Quantity, of_kind("time", at_least="-1e10 s", at_most="1e10 s")] | None = Field(
-        default=None, description="Time of the brake command in the file; takes the place of `trigger`."
+    trigger_time: Annotated[Quantity, of_kind("time", "-1e10 s .. 1e10 s")] | None = optional(
+        "Time of the brake command in the file; takes the place of `trigger`."
     )
-    trigger_lead: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="60 s")] = Field(
-        default=default("0 s", "time"),
-        description="Time from the brake command to the event that marks it.",
+    trigger_lead: Quantity = quantity(
+        "Time from the brake command to the event that marks it.", "time", "0 s .. 60 s", default="0 s"
     )
-    trigger_pressure: Annotated[Quantity, of_kind("pressure", above="0 bar", at_most="10 bar")] = Field(
-        default=default("0.1 bar", "pressure"), description="Rise of a pressure that marks the brake command."
+    trigger_pressure: Quantity = quantity(
+        "Rise of a pressure that marks the brake command.", "pressure", "> 0 bar .. 10 bar", default="0.1 bar"
     )
-    trigger_speed: Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="600 km/h")] = Field(
-        default=default("5 km/h", "speed"), description="The train must run faster than this at the trigger."
+    trigger_speed: Quantity = quantity(
+        "The train must run faster than this at the trigger.", "speed", "0 km/h .. 600 km/h", default="5 km/h"
     )
-    raster: Annotated[Quantity, of_kind("time", at_least="0.1 ms", at_most="1 s")] = Field(
-        default=default("10 ms", "time"),
-        description="Interval of the samples that are judged; a coarser recording keeps its own.",
+    raster: Quantity = quantity(
+        "Interval of the samples that are judged; a coarser recording keeps its own.",
+        "time",
+        "0.1 ms .. 1 s",
+        default="10 ms",
     )
-    low_pass: Annotated[Quantity, of_kind("frequency", above="0 Hz", at_most="100000 Hz")] | None = Field(
-        default=None,
-        description="Corner frequency of a low-pass on every signal, second order, no delay; else none.",
+    low_pass: Annotated[Quantity, of_kind("frequency", "> 0 Hz .. 100000 Hz")] | None = optional(
+        "Corner frequency of a low-pass on every signal, second order, no delay; else none."
     )
-    standstill_speed: Annotated[Quantity, of_kind("speed", above="0 km/h", at_most="10 km/h")] = Field(
-        default=default("1 km/h", "speed"),
-        description="Below this speed, if no sample of zero follows, the train is assumed to stop at the"
+    standstill_speed: Quantity = quantity(
+        "Below this speed, if no sample of zero follows, the train is assumed to stop at the"
         " deceleration of the last half second.",
+        "speed",
+        "> 0 km/h .. 10 km/h",
+        default="1 km/h",
     )
 
 
 class ChannelMap(Model):
     """A channel map as it is written, parents merged in."""
 
-    schema_id: Literal["uictest/channel-map/1"] = Field(alias="schema", description="What the file holds.")
-    name: str = Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$", description="Name of the map.")
-    title: str = Field(default="", max_length=200, description="One line for people.")
-    channels: dict[str, Annotated[ChannelSource, BeforeValidator(_shorthand)]] = Field(
-        description="Canonical channel -> where it comes from; {n} stands for each wheelset's number."
+    schema_id: Literal["uictest/channel-map/1"] = field("What the file holds.", alias="schema")
+    name: str = field("Name of the map.", pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$")
+    title: str = field("One line for people.", default="", max_length=200)
+    channels: dict[str, Annotated[ChannelSource, BeforeValidator(_shorthand)]] = field(
+        "Canonical channel -> where it comes from; {n} stands for each wheelset's number."
     )
-    csv: DialectSection = Field(default=DialectSection(), description="Dialect of text files.")
-    preparation: Preparation = Field(
-        default=Preparation(), description="How a record is prepared before it is judged."
-    )
+    csv: DialectSection = field("Dialect of text files.", default=DialectSection())
+    preparation: Preparation = field("How a record is prepared before it is judged.", default=Preparation())
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield unknown channels, and units of another kind than their channel."""

@@ -41,8 +41,8 @@ from uictest.plans.scenario.yaml import (
     whole_file,
 )
 
-Pressure = Annotated[Quantity, of_kind("pressure", at_least="0 bar", at_most="12 bar")]
-Duration = Annotated[Quantity, of_kind("time", above="0 s", at_most="600 s")]
+Pressure = Annotated[Quantity, of_kind("pressure", "0 bar .. 12 bar")]
+Duration = Annotated[Quantity, of_kind("time", "> 0 s .. 600 s")]
 Seed = Annotated[int, Field(ge=0, le=2**32 - 1, strict=True)]
 Span = tuple[Duration, Duration]
 
@@ -99,7 +99,7 @@ class StopReplay(Section):
     """Demand and valve commands of one wheelset in the recipe's stop, simulated on its rig."""
 
     kind: Literal["stop"]
-    friction: Annotated[Quantity, of_kind("number", at_least="0.001", at_most="1")] = Field(
+    friction: Annotated[Quantity, of_kind("number", "0.001 .. 1")] = Field(
         description="Initial friction coefficient of the rail."
     )
     position: str | None = Field(default=None, description="Brake position; none: that of the recipe's stop.")

@@ -9,12 +9,13 @@ from pydantic import Field, create_model
 
 from uictest.core.units import BAR
 from uictest.plans.scenario.parts.brake import Caliper, Volume, WspValve
-from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section, of_kind, total
+from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section, total
+from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional, quantity, schema_field
 
-Coefficient = Annotated[Quantity, of_kind("number", at_least="-1e6", at_most="1e6")]
+Coefficient = Annotated[Quantity, of_kind("number", "-1e6 .. 1e6")]
 
-HeatConductance = Annotated[Quantity, of_kind("heat conductance", at_least="0 W/K", at_most="1e4 W/K")]
-ClosingPressure = Annotated[Quantity, of_kind("pressure", at_least="0.001 bar", at_most="10 bar")]
+HeatConductance = Annotated[Quantity, of_kind("heat conductance", "0 W/K .. 1e4 W/K")]
+ClosingPressure = Annotated[Quantity, of_kind("pressure", "0.001 bar .. 10 bar")]
 
 UNITY_GAIN_TOLERANCE: Final = 1e-6
 """How far the gain at rest may be from one."""
@@ -51,11 +52,11 @@ COMPENSATION_SETTINGS: Final = MappingProxyType(
 class ForceLine(Section):
     """Clamping force as a straight line over gauge pressure, where it is positive."""
 
-    slope: Annotated[
-        Quantity, of_kind("force per pressure", at_least="0.001 kN/bar", at_most="1000 kN/bar")
-    ] = Field(description="Force per pressure.")
-    intercept: Annotated[Quantity, of_kind("force", at_least="-100 kN", at_most="100 kN")] = Field(
-        description="Force at zero gauge pressure; negative, because the spring must be overcome first."
+    slope: Quantity = quantity("Force per pressure.", "force per pressure", "0.001 kN/bar .. 1000 kN/bar")
+    intercept: Quantity = quantity(
+        "Force at zero gauge pressure; negative, because the spring must be overcome first.",
+        "force",
+        "-100 kN .. 100 kN",
     )
 
     def force(self, pressure: float) -> float:
@@ -66,15 +67,17 @@ class ForceLine(Section):
 class FourPhaseHysteresis(Section):
     """Equations (4)-(7): a squeezing and a releasing line, one pair without and one with the WSP acting."""
 
-    bc_squeezing: ForceLine = Field(description="Pressure rising, WSP not acting.")
-    bc_releasing: ForceLine = Field(description="Pressure falling, WSP not acting.")
-    wsp_squeezing: ForceLine = Field(description="Pressure rising, WSP acting.")
-    wsp_releasing: ForceLine = Field(description="Pressure falling, WSP acting.")
-    transition_time: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="10 s")] = Field(
-        description="Time in which one pair of lines turns into the other, so that the force does not jump."
+    bc_squeezing: ForceLine = field("Pressure rising, WSP not acting.")
+    bc_releasing: ForceLine = field("Pressure falling, WSP not acting.")
+    wsp_squeezing: ForceLine = field("Pressure rising, WSP acting.")
+    wsp_releasing: ForceLine = field("Pressure falling, WSP acting.")
+    transition_time: Quantity = quantity(
+        "Time in which one pair of lines turns into the other, so that the force does not jump.",
+        "time",
+        "0 s .. 10 s",
     )
-    wsp_acting_time: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="60 s")] = Field(
-        description="Time of uninterrupted filling after which the WSP no longer counts as acting."
+    wsp_acting_time: Quantity = quantity(
+        "Time of uninterrupted filling after which the WSP no longer counts as acting.", "time", "0 s .. 60 s"
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
@@ -97,10 +100,8 @@ class FourPhaseHysteresis(Section):
 class CylinderDynamics(Section):
     """Equation (8): (b0 + b1/z + b2/z2 + b3/z3) / (1 + a1/z + a2/z2 + a3/z3)."""
 
-    numerator: tuple[Coefficient, Coefficient, Coefficient, Coefficient] = Field(
-        description="b0, b1, b2, b3."
-    )
-    denominator: tuple[Coefficient, Coefficient, Coefficient] = Field(description="a1, a2, a3.")
+    numerator: tuple[Coefficient, Coefficient, Coefficient, Coefficient] = field("b0, b1, b2, b3.")
+    denominator: tuple[Coefficient, Coefficient, Coefficient] = field("a1, a2, a3.")
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield an unstable denominator or a gain at rest that is not one."""
@@ -133,15 +134,15 @@ def _stable(a1: float, a2: float, a3: float) -> bool:
 class ModuleAir(Section):
     """The air of the caliper's module, followed beside a tank: ours, not an equation of the paper."""
 
-    tank_heat_conductance: HeatConductance = Field(description="From the wall of a tank to its air.")
-    caliper_heat_conductance: HeatConductance = Field(
-        description="From the wall, and the balls, of the caliper's module to its air."
+    tank_heat_conductance: HeatConductance = field("From the wall of a tank to its air.")
+    caliper_heat_conductance: HeatConductance = field(
+        "From the wall, and the balls, of the caliper's module to its air."
     )
-    swept_volume: Annotated[Quantity, of_kind("volume", at_least="0.001 L", at_most="10 L")] = Field(
-        description="Volume that the piston sweeps until the pads touch the disc."
+    swept_volume: Quantity = quantity(
+        "Volume that the piston sweeps until the pads touch the disc.", "volume", "0.001 L .. 10 L"
     )
-    closing_pressure: ClosingPressure = Field(description="At which the piston moves to the disc, gauge.")
-    opening_pressure: ClosingPressure = Field(description="At which the piston moves back, gauge.")
+    closing_pressure: ClosingPressure = field("At which the piston moves to the disc, gauge.")
+    opening_pressure: ClosingPressure = field("At which the piston moves back, gauge.")
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield a piston that would move back before it moves out."""
@@ -154,7 +155,7 @@ class ModuleAir(Section):
             )
 
 
-Tolerance = Annotated[Quantity, of_kind("share", above="0 %", at_most="100 %")]
+Tolerance = Annotated[Quantity, of_kind("share", "> 0 % .. 100 %")]
 
 
 def _numbers_of(name: str, model: type[Model], kind: Any = None) -> Any:
@@ -182,18 +183,18 @@ else:
 class RigTolerances(Section):
     """How far a rig may differ from the one that a compensation was identified for, as shares."""
 
-    caliper: CaliperTolerances = Field(description="Of the caliper.")
-    wsp_valve: ValveTolerances = Field(description="Of the WSP valve.")
-    tank_volume: Tolerance = Field(description="Of the volume of an empty tank.")
+    caliper: CaliperTolerances = field("Of the caliper.")
+    wsp_valve: ValveTolerances = field("Of the WSP valve.")
+    tank_volume: Tolerance = field("Of the volume of an empty tank.")
 
 
 class RigAsBuilt(Section):
     """The rig that a compensation was identified for, as built: without faults."""
 
-    caliper: CaliperAsBuilt = Field(description="Its caliper.")
-    wsp_valve: ValveAsBuilt = Field(description="Its WSP valves.")
-    tank_volume: Volume = Field(description="Volume of an empty tank.")
-    tolerances: RigTolerances = Field(description="How far another rig may differ from it.")
+    caliper: CaliperAsBuilt = field("Its caliper.")
+    wsp_valve: ValveAsBuilt = field("Its WSP valves.")
+    tank_volume: Volume = field("Volume of an empty tank.")
+    tolerances: RigTolerances = field("How far another rig may differ from it.")
 
 
 class Compensation(Part):
@@ -201,31 +202,22 @@ class Compensation(Part):
 
     folder: ClassVar[str] = "compensations"
 
-    schema_id: Literal["uictest/compensation/1"] = Field(
-        default="uictest/compensation/1",
-        alias="schema",
-        description="What the file holds: uictest/compensation/1.",
+    schema_id: Literal["uictest/compensation/1"] = schema_field("uictest/compensation/1")
+    sampling_time: Quantity = quantity("Sampling time of the cylinder dynamics.", "time", "0.01 ms .. 10 ms")
+    linear: ForceLine = field("Force over pressure without hysteresis, used by the setting 'none'.")
+    hysteresis: FourPhaseHysteresis = field("Four-phase hysteresis.")
+    cylinder: CylinderDynamics = field("Tank pressure to cylinder pressure.")
+    air: ModuleAir = field("Air of the caliper's module, used by the setting 'thermal'.")
+    identified_for: RigAsBuilt | None = optional(
+        "The rig that it was identified for; none: not known, so that no stop is checked for it."
     )
-    sampling_time: Annotated[Quantity, of_kind("time", at_least="0.01 ms", at_most="10 ms")] = Field(
-        description="Sampling time of the cylinder dynamics."
-    )
-    linear: ForceLine = Field(
-        description="Force over pressure without hysteresis, used by the setting 'none'."
-    )
-    hysteresis: FourPhaseHysteresis = Field(description="Four-phase hysteresis.")
-    cylinder: CylinderDynamics = Field(description="Tank pressure to cylinder pressure.")
-    air: ModuleAir = Field(description="Air of the caliper's module, used by the setting 'thermal'.")
-    identified_for: RigAsBuilt | None = Field(
-        default=None,
-        description="The rig that it was identified for; none: not known, so that no stop is checked for it.",
-    )
-    to_identify: bool = Field(
+    to_identify: bool = field(
+        "Whether the numbers only stand in: others are identified from the bench for the rig.",
         default=False,
         strict=True,
-        description="Whether the numbers only stand in: others are identified from the bench for the rig.",
     )
-    provenance: dict[str, str] = Field(
-        default_factory=dict, description="How the numbers were identified, as text by topic."
+    provenance: dict[str, str] = field(
+        "How the numbers were identified, as text by topic.", default_factory=dict
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:

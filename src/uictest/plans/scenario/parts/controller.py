@@ -15,7 +15,8 @@ from uictest.plans.scenario.parts.external_controller import (
     ControllerPart,
     ExternalController,
 )
-from uictest.plans.scenario.yaml import Inconsistency, Quantity, accepted_keys, nearest, of_kind, quoted
+from uictest.plans.scenario.yaml import Inconsistency, Quantity, accepted_keys, nearest, quoted
+from uictest.plans.scenario.yaml.quantity_field import of_kind
 
 _ALGORITHM: Final = "algorithm"
 _NAMES: Final = (_ALGORITHM, *EXTERNAL_MODELS)
@@ -89,7 +90,7 @@ def _model(controller: Declaration) -> type[BuiltInController]:
     """Return the model of a controller's parameters; those that every controller has come first."""
     fields: dict[str, Any] = {
         name: (
-            Annotated[Quantity, of_kind(declared.kind, at_least=declared.at_least, at_most=declared.at_most)],
+            Annotated[Quantity, of_kind(declared.kind, f"{declared.at_least} .. {declared.at_most}")],
             Field(description=declared.description),
         )
         for name, declared in controller.declared_parameters().items()

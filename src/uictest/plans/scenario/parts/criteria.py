@@ -3,8 +3,6 @@
 from collections.abc import Iterator, Mapping
 from typing import ClassVar, Literal
 
-from pydantic import Field
-
 from uictest.core.measures import MEASURES, Course, Measure
 from uictest.core.series_measures import SERIES_MEASURES, SeriesMeasure
 from uictest.plans.scenario.parts.measures import (
@@ -27,65 +25,50 @@ from uictest.plans.scenario.parts.reading import (
     wheelsets_problems,
 )
 from uictest.plans.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Part, quoted, suggestion
+from uictest.plans.scenario.yaml.quantity_field import field, optional, schema_field
 
 
 class Criterion(Model):
     """One bound on one measure."""
 
-    id: str = Field(pattern=ID, description="Name of the criterion in every report.")
-    title: str = Field(default="", max_length=200, description="One line for people.")
-    source: str = Field(
-        default=SCENARIO_SOURCE,
-        description="A key of the part's `sources`: where the bound is stated.",
-    )
-    clause: str = Field(
-        default="unverified", max_length=200, description="Clause of the source, or `unverified`."
-    )
-    requirements: RequirementIds = Field(
-        default=(), description="Ids of the requirements that the criterion verifies."
-    )
-    layer: Literal["rig", "validity", "requirement"] = Field(
-        description="validity: if it fails, the stop is no test; requirement: if it fails, the stop fails;"
+    id: str = field("Name of the criterion in every report.", pattern=ID)
+    title: str = field("One line for people.", default="", max_length=200)
+    source: str = field("A key of the part's `sources`: where the bound is stated.", default=SCENARIO_SOURCE)
+    clause: str = field("Clause of the source, or `unverified`.", default="unverified", max_length=200)
+    requirements: RequirementIds = field("Ids of the requirements that the criterion verifies.", default=())
+    layer: Literal["rig", "validity", "requirement"] = field(
+        "validity: if it fails, the stop is no test; requirement: if it fails, the stop fails;"
         " rig: a check of the rig, which makes the stop invalid and judges nothing else."
     )
-    applies: Applicability = Field(
+    applies: Applicability = field(
+        "Stops that the criterion applies to; of a series the wet ones that are judged.",
         default=Applicability(),
-        description="Stops that the criterion applies to; of a series the wet ones that are judged.",
     )
-    scope: Scope = Field(
-        default="stop",
-        description="stop: the criterion bounds a measure of each stop; series: one of a series of stops.",
+    scope: Scope = field(
+        "stop: the criterion bounds a measure of each stop; series: one of a series of stops.", default="stop"
     )
-    measure: MeasureName = Field(description="The measure that is bounded.")
-    lower: Bound | None = Field(
-        default=None,
-        description="Lower bound: a quantity of the measure's kind, or such as `90 % of the dry stop`.",
+    measure: MeasureName = field("The measure that is bounded.")
+    lower: Bound | None = optional(
+        "Lower bound: a quantity of the measure's kind, or such as `90 % of the dry stop`."
     )
-    upper: Bound | None = Field(
-        default=None,
-        description="Upper bound: a quantity of the measure's kind, or such as `125 % of the dry stop`.",
+    upper: Bound | None = optional(
+        "Upper bound: a quantity of the measure's kind, or such as `125 % of the dry stop`."
     )
-    strict: bool = Field(
-        default=False, strict=True, description="Whether a value at the bound itself does not pass."
+    strict: bool = field("Whether a value at the bound itself does not pass.", default=False, strict=True)
+    wheelsets: WheelsetsThatKeep = optional(
+        "For a measure of wheelsets: how many of them must keep the bounds."
     )
-    wheelsets: WheelsetsThatKeep = Field(
-        default=None, description="For a measure of wheelsets: how many of them must keep the bounds."
+    definition: Definition = field("The definitions that the measure needs.", default=Definition())
+    reading: str = field(
+        "Name of what the criterion itself reads, where there are others.", default="", max_length=100
     )
-    definition: Definition = Field(
-        default=Definition(), description="The definitions that the measure needs."
+    reading_source: str = field(
+        "A key of the part's `sources`: where that reading comes from.", default=SCENARIO_SOURCE
     )
-    reading: str = Field(
-        default="",
-        max_length=100,
-        description="Name of what the criterion itself reads, where there are others.",
-    )
-    reading_source: str = Field(
-        default=SCENARIO_SOURCE, description="A key of the part's `sources`: where that reading comes from."
-    )
-    readings: tuple[Reading, ...] = Field(
-        default=(),
-        description="Other readings of the same words, which never decide: where one comes out otherwise,"
+    readings: tuple[Reading, ...] = field(
+        "Other readings of the same words, which never decide: where one comes out otherwise,"
         " the verdict turns.",
+        default=(),
     )
 
     def read_as(self, reading: Reading) -> "Criterion":
@@ -244,12 +227,10 @@ class Criteria(Part):
 
     folder: ClassVar[str] = "criteria"
 
-    schema_id: Literal["uictest/criteria/1"] = Field(
-        default="uictest/criteria/1", alias="schema", description="What the file holds: uictest/criteria/1."
-    )
+    schema_id: Literal["uictest/criteria/1"] = schema_field("uictest/criteria/1")
     # Not min_length: pydantic would also call a list too short all of whose criteria are wrong.
-    criteria: tuple[Criterion, ...] = Field(
-        description="The criteria, judged in this order.", json_schema_extra={"minItems": 1}
+    criteria: tuple[Criterion, ...] = field(
+        "The criteria, judged in this order.", json_schema_extra={"minItems": 1}
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:

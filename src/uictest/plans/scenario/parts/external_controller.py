@@ -13,7 +13,8 @@ from pydantic_core import CoreSchema, PydanticCustomError
 
 from uictest.controllers import LONGEST_VERSION, ControllerProgram, Kind, parameter_problems
 from uictest.plans.scenario.program_files import ProgramFile
-from uictest.plans.scenario.yaml import Inconsistency, Part, Quantity, Section, default, of_kind, quoted
+from uictest.plans.scenario.yaml import Inconsistency, Part, Quantity, Section, quoted
+from uictest.plans.scenario.yaml.quantity_field import field, optional, quantity, schema_field
 
 
 class ControllerPart(Part):
@@ -21,11 +22,7 @@ class ControllerPart(Part):
 
     folder: ClassVar[str] = "controllers"
 
-    schema_id: Literal["uictest/controller/1"] = Field(
-        default="uictest/controller/1",
-        alias="schema",
-        description="What the file holds: uictest/controller/1.",
-    )
+    schema_id: Literal["uictest/controller/1"] = schema_field("uictest/controller/1")
     if TYPE_CHECKING:  # declared by the models, the first by those of controllers that are built in
         algorithm: str
         cycle_time: Quantity
@@ -66,14 +63,14 @@ def _unit(value: object) -> object:
 class DeclaredParameter(Section):
     """What a parameter is measured in, what it is where nobody gives it, and what it may be."""
 
-    default: ParameterValue = Field(description="Handed to the controller where nobody gives the parameter.")
-    unit: Annotated[str, BeforeValidator(_unit)] = Field(
-        default="", max_length=20, description="Unit of a number, for people; 1 for a pure number."
+    default: ParameterValue = field("Handed to the controller where nobody gives the parameter.")
+    unit: Annotated[str, BeforeValidator(_unit)] = field(
+        "Unit of a number, for people; 1 for a pure number.", default="", max_length=20
     )
-    range: tuple[Bound, Bound] | None = Field(
-        default=None, description="Smallest and largest value that is accepted; any if left out."
+    range: tuple[Bound, Bound] | None = optional(
+        "Smallest and largest value that is accepted; any if left out."
     )
-    description: str = Field(default="", max_length=500, description="One line for people.")
+    description: str = field("One line for people.", default="", max_length=500)
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield a number without a unit, a range upside down, and a default outside of it."""
@@ -126,29 +123,26 @@ class ExternalController(ControllerPart):
 
     kind: ClassVar[Kind]
 
-    cycle_time: Annotated[Quantity, of_kind("time", at_least="1 ms", at_most="1 s")] = Field(
-        default=default("10 ms", "time"), description="Time between two decisions."
+    cycle_time: Quantity = quantity("Time between two decisions.", "time", "1 ms .. 1 s", default="10 ms")
+    time_limit: Quantity = quantity(
+        "Longest time for one answer; a controller that takes longer ends its case as an error.",
+        "time",
+        "1 ms .. 600 s",
+        default="5 s",
     )
-    time_limit: Annotated[Quantity, of_kind("time", at_least="1 ms", at_most="600 s")] = Field(
-        default=default("5 s", "time"),
-        description="Longest time for one answer; a controller that takes longer ends its case as an error.",
-    )
-    version: str | None = Field(
-        default=None,
+    version: str | None = optional(
+        "Version of the program, for reports; default: what its file or package states, if any.",
         min_length=1,
         max_length=LONGEST_VERSION,
-        description="Version of the program, for reports; default: what its file or package states, if any.",
     )
-    parameters: dict[str, ParameterValue] = Field(
-        default_factory=dict, description="Handed to the controller as JSON, before a stop."
+    parameters: dict[str, ParameterValue] = field(
+        "Handed to the controller as JSON, before a stop.", default_factory=dict
     )
-    declared_parameters: dict[str, DeclaredParameter] = Field(
+    declared_parameters: dict[str, DeclaredParameter] = field(
+        "The parameters that it knows; default: what its file declares. Others are errors.",
         default_factory=dict,
-        description="The parameters that it knows; default: what its file declares. Others are errors.",
     )
-    free_parameters: bool = Field(
-        default=False, description="Whether parameters that nobody has declared are accepted."
-    )
+    free_parameters: bool = field("Whether parameters that nobody has declared are accepted.", default=False)
 
     @property
     def reference(self) -> str:
@@ -200,8 +194,8 @@ class PythonController(ExternalController):
     kind: ClassVar[Kind] = "python"
     tag: ClassVar[str] = "controller of kind python"
 
-    python: ProgramPath = Field(description="Path of the Python file, relative to this file.")
-    class_name: str = Field(alias="class", description="Name of the class in that file.", min_length=1)
+    python: ProgramPath = field("Path of the Python file, relative to this file.")
+    class_name: str = field("Name of the class in that file.", alias="class", min_length=1)
 
     @property
     def program_name(self) -> str:
@@ -220,7 +214,7 @@ class LibraryController(ExternalController):
     kind: ClassVar[Kind] = "library"
     tag: ClassVar[str] = "controller of kind library"
 
-    library: ProgramPath = Field(description="Path of the shared library, relative to this file.")
+    library: ProgramPath = field("Path of the shared library, relative to this file.")
 
 
 class FmuController(ExternalController):
@@ -229,11 +223,11 @@ class FmuController(ExternalController):
     kind: ClassVar[Kind] = "fmu"
     tag: ClassVar[str] = "controller of kind fmu"
 
-    fmu: ProgramPath = Field(description="Path of the FMU, relative to this file.")
-    variables: dict[str, str] = Field(
-        default_factory=dict,
-        description="Names of its variables by ours, such as wheel_speed: axle_speed_%d; %d stands for the"
+    fmu: ProgramPath = field("Path of the FMU, relative to this file.")
+    variables: dict[str, str] = field(
+        "Names of its variables by ours, such as wheel_speed: axle_speed_%d; %d stands for the"
         " number of the wheelset. A variable that is left out has our name with _%d.",
+        default_factory=dict,
     )
 
     @property
@@ -248,7 +242,7 @@ class SocketController(ExternalController):
     kind: ClassVar[Kind] = "connect"
     tag: ClassVar[str] = "controller of kind connect"
 
-    connect: Address = Field(description="Where it listens, such as tcp://127.0.0.1:5025.")
+    connect: Address = field("Where it listens, such as tcp://127.0.0.1:5025.")
 
     @property
     def program_name(self) -> str:
@@ -262,7 +256,7 @@ class RegisteredController(ExternalController):
     kind: ClassVar[Kind] = "registered"
     tag: ClassVar[str] = "controller of kind registered"
 
-    registered: str = Field(description="Name that the package has registered.", min_length=1)
+    registered: str = field("Name that the package has registered.", min_length=1)
 
     @property
     def program_name(self) -> str:

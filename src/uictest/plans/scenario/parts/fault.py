@@ -21,20 +21,20 @@ from uictest.plans.scenario.yaml import (
     Model,
     Quantity,
     QuantityError,
-    of_kind,
     parse_quantity,
     quoted,
     suggestion,
     written,
 )
+from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional
 
 _FIELDS: Final = (
-    of_kind("time", at_least="0 s", at_most="3600 s"),
-    of_kind("speed", above="0 km/h", at_most="600 km/h"),
-    of_kind("length", at_least="0 m", at_most="100 km"),
+    of_kind("time", "0 s .. 3600 s"),
+    of_kind("speed", "> 0 km/h .. 600 km/h"),
+    of_kind("length", "0 m .. 100 km"),
 )
 _HINT: Final = "write a time, a speed or a distance: 3 s, 90 km/h, 120 m"
-TIME, SPEED, DISTANCE = (field.kind.canonical for field in _FIELDS)
+TIME, SPEED, DISTANCE = (each.kind.canonical for each in _FIELDS)
 """Unit of an instant that is a time, a speed or a distance."""
 
 
@@ -44,20 +44,20 @@ def _read(value: object) -> Quantity:
     else:
         text = getattr(value, "text", value if isinstance(value, str) else str(value))
         unit = _unit_of(text)
-    for field in _FIELDS:
-        if field.kind.canonical == unit:
-            return field.validate(value)
+    for each in _FIELDS:
+        if each.kind.canonical == unit:
+            return each.validate(value)
     context = {"message": f"{quoted(text)} is no instant of a stop", "hint": _HINT}
     raise PydanticCustomError("moment", "{message}", context)
 
 
 def _unit_of(text: str) -> str:
-    for field in _FIELDS:
+    for each in _FIELDS:
         try:
-            parse_quantity(text, field.kind.name)
+            parse_quantity(text, each.kind.name)
         except QuantityError:
             continue
-        return field.kind.canonical
+        return each.kind.canonical
     return ""
 
 
@@ -106,7 +106,7 @@ def _of_the_kind(value: object, info: ValidationInfo) -> object:
         }
         raise PydanticCustomError("fault_value", "{message}", context)
     takes = declared.value
-    return of_kind(takes.kind, at_least=takes.at_least, at_most=takes.at_most).validate(value)
+    return of_kind(takes.kind, f"{takes.at_least} .. {takes.at_most}").validate(value)
 
 
 Value = Annotated[
@@ -121,24 +121,21 @@ Value = Annotated[
 class Fault(Model):
     """A fault of one part, from one instant of the stop to another."""
 
-    at: Moment = Field(
-        description="When it begins: a time since the brake command, the speed to which the train has slowed"
+    at: Moment = field(
+        "When it begins: a time since the brake command, the speed to which the train has slowed"
         " or the distance since the command; decided at the beginning of each controller cycle."
     )
-    until: Moment | None = Field(
-        default=None,
-        description="When it ends, in the same ways; with the stop if left out.",
-    )
-    wheelset: Annotated[int, Field(ge=1, le=4, strict=True)] | None = Field(
-        default=None, description="Wheelset whose part it is, 1 to 4 from the leading end."
+    until: Moment | None = optional("When it ends, in the same ways; with the stop if left out.")
+    wheelset: Annotated[int, Field(ge=1, le=4, strict=True)] | None = optional(
+        "Wheelset whose part it is, 1 to 4 from the leading end."
     )
     part: Annotated[
         str, AfterValidator(_known_part), WithJsonSchema({"type": "string", "enum": list(PARTS)})
-    ] = Field(description="What is faulty.")
+    ] = field("What is faulty.")
     kind: Annotated[
         str, AfterValidator(_known_kind), WithJsonSchema({"type": "string", "enum": list(_NAMES)})
-    ] = Field(description="How it is faulty; each part has its own kinds.")
-    value: Value | None = Field(default=None, description="The size of the fault, as its kind needs it.")
+    ] = field("How it is faulty; each part has its own kinds.")
+    value: Value | None = optional("The size of the fault, as its kind needs it.")
 
     @property
     def declared(self) -> FaultKind:

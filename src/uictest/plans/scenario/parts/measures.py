@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Final, Literal
 
-from pydantic import AfterValidator, Field, PlainSerializer, PlainValidator, ValidationInfo, WithJsonSchema
+from pydantic import AfterValidator, PlainSerializer, PlainValidator, ValidationInfo, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from uictest.core.measures import MEASURES, Measure
@@ -16,17 +16,16 @@ from uictest.plans.scenario.yaml import (
     Quantity,
     QuantityError,
     QuantityField,
-    default,
-    of_kind,
     parse_quantity,
     quoted,
     suggestion,
     written,
 )
+from uictest.plans.scenario.yaml.quantity_field import field, of_kind, quantity, schema_field
 
-Speed = Annotated[Quantity, of_kind("speed", at_least="0.001 km/h", at_most="100 km/h")]
+Speed = Annotated[Quantity, of_kind("speed", "0.001 km/h .. 100 km/h")]
 
-Share = Annotated[Quantity, of_kind("share", at_least="0.001 %", at_most="100 %")]
+Share = Annotated[Quantity, of_kind("share", "0.001 % .. 100 %")]
 
 
 class MeasureDefinitions(Part):
@@ -34,33 +33,29 @@ class MeasureDefinitions(Part):
 
     folder: ClassVar[str] = "measures"
 
-    schema_id: Literal["uictest/measures/1"] = Field(
-        default="uictest/measures/1", alias="schema", description="What the file holds: uictest/measures/1."
+    schema_id: Literal["uictest/measures/1"] = schema_field("uictest/measures/1")
+    sliding_slide: Share = field("Relative slide from which a wheelset counts as sliding.")
+    sliding_slip: Speed = field("Slip speed that a sliding wheelset must have as well.")
+    locked_speed: Speed = field("Wheel speed below which a wheelset counts as locked.")
+    moving_speed: Speed = field("Train speed above which slides, locks and decelerations are observed.")
+    deceleration_filter: Quantity = quantity(
+        "Time constant of the low-pass of the deceleration.", "time", "0 s .. 10 s"
     )
-    sliding_slide: Share = Field(description="Relative slide from which a wheelset counts as sliding.")
-    sliding_slip: Speed = Field(description="Slip speed that a sliding wheelset must have as well.")
-    locked_speed: Speed = Field(description="Wheel speed below which a wheelset counts as locked.")
-    moving_speed: Speed = Field(
-        description="Train speed above which slides, locks and decelerations are observed."
+    developed_time: Quantity = quantity(
+        "Time after the command from which the smallest deceleration is kept.", "time", "0 s .. 60 s"
     )
-    deceleration_filter: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="10 s")] = Field(
-        description="Time constant of the low-pass of the deceleration."
+    rising_share: Share = field(
+        "Share of the commanded pressure at which the brake-line pressure counts as rising."
     )
-    developed_time: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="60 s")] = Field(
-        description="Time after the command from which the smallest deceleration is kept."
+    developed_share: Share = field("Share of the commanded pressure at which the brake counts as built up.")
+    reduced_share: Share = field(
+        "Share of the brake-line pressure below which a tank counts as held down by the WSP."
     )
-    rising_share: Share = Field(
-        description="Share of the commanded pressure at which the brake-line pressure counts as rising."
-    )
-    developed_share: Share = Field(
-        description="Share of the commanded pressure at which the brake counts as built up."
-    )
-    reduced_share: Share = Field(
-        description="Share of the brake-line pressure below which a tank counts as held down by the WSP."
-    )
-    released_share: Annotated[Quantity, of_kind("share", at_least="0 %", at_most="100 %")] = Field(
-        default=default("20 %", "share"),
-        description="Share of the largest clamping force below which a wheelset is without brake force.",
+    released_share: Quantity = quantity(
+        "Share of the largest clamping force below which a wheelset is without brake force.",
+        "share",
+        "0 % .. 100 %",
+        default="20 %",
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:

@@ -6,7 +6,8 @@ from typing import Annotated, Final, Literal
 from pydantic import BeforeValidator, Discriminator, Field, Tag
 from pydantic_core import PydanticCustomError
 
-from uictest.plans.scenario.yaml import Inconsistency, Model, Quantity, of_kind, quoted
+from uictest.plans.scenario.yaml import Inconsistency, Model, Quantity, quoted
+from uictest.plans.scenario.yaml.quantity_field import field, optional, quantity
 
 REQUIREMENT_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9._:/-]{0,99}$"
 """No blank, comma or semicolon: those separate ids in lists."""
@@ -28,22 +29,18 @@ Slug = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$")]
 class NamedFile(Model):
     """A file with a name; each kind narrows `schema_id` to what it is called."""
 
-    schema_id: str = Field(
-        alias="schema", description="What the file holds and in which version, such as uictest/scenario/1."
+    schema_id: str = field(
+        "What the file holds and in which version, such as uictest/scenario/1.", alias="schema"
     )
-    name: Slug = Field(
-        description="Name in every report: lower-case letters, digits, dots, dashes and underscores."
-    )
-    title: str = Field(
-        default="", max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$", description="One line for people."
-    )
+    name: Slug = field("Name in every report: lower-case letters, digits, dots, dashes and underscores.")
+    title: str = field("One line for people.", default="", max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$")
 
 
 class DescribedFile(NamedFile):
     """A file that says what it is for."""
 
-    description: str = Field(
-        default="", max_length=5000, pattern=r"^[^\x00-\x08\x0b-\x1f\x7f]*$", description="What it is for."
+    description: str = field(
+        "What it is for.", default="", max_length=5000, pattern=r"^[^\x00-\x08\x0b-\x1f\x7f]*$"
     )
 
 
@@ -52,10 +49,10 @@ class TestFile(DescribedFile):
 
     __test__ = False
 
-    tags: tuple[Slug, ...] = Field(default=(), max_length=32, description="Words that select it (-m).")
-    requirements: RequirementIds = Field(default=(), description="Ids of the requirements that it verifies.")
-    test_case: RequirementId | None = Field(
-        default=None, description="Id of the test case in the test management tool, such as WSP-TC-7."
+    tags: tuple[Slug, ...] = field("Words that select it (-m).", default=(), max_length=32)
+    requirements: RequirementIds = field("Ids of the requirements that it verifies.", default=())
+    test_case: RequirementId | None = optional(
+        "Id of the test case in the test management tool, such as WSP-TC-7."
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
@@ -83,8 +80,8 @@ Repeat = Annotated[
 class ShareOfStops(Model):
     """A share of the stops that must come out as expected."""
 
-    at_least: Annotated[Quantity, of_kind("share", above="0 %", at_most="100 %")] = Field(
-        description="Least share of the stops that must come out as expected."
+    at_least: Quantity = quantity(
+        "Least share of the stops that must come out as expected.", "share", "> 0 % .. 100 %"
     )
 
 

@@ -4,18 +4,19 @@ import math
 from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, Tag
 
 from uictest.core.physics import MOST_PAD_POINTS, quotient_scale
 from uictest.plans.scenario.parts.rail import out_of_order
-from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section, of_kind
+from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section
+from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional, schema_field
 
-Factor = Annotated[Quantity, of_kind("number", at_least="0.1", at_most="5")]
-FrictionSpeed = Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="1000 km/h")]
-PadForce = Annotated[Quantity, of_kind("force", at_least="0 kN", at_most="500 kN")]
-SpeedOffset = Annotated[Quantity, of_kind("speed", at_least="1 km/h", at_most="1000 km/h")]
-ForceOffset = Annotated[Quantity, of_kind("force", at_least="0.1 kN", at_most="1000 kN")]
-DiscTemperature = Annotated[Quantity, of_kind("temperature", at_least="-60 degC", at_most="1200 degC")]
+Factor = Annotated[Quantity, of_kind("number", "0.1 .. 5")]
+FrictionSpeed = Annotated[Quantity, of_kind("speed", "0 km/h .. 1000 km/h")]
+PadForce = Annotated[Quantity, of_kind("force", "0 kN .. 500 kN")]
+SpeedOffset = Annotated[Quantity, of_kind("speed", "1 km/h .. 1000 km/h")]
+ForceOffset = Annotated[Quantity, of_kind("force", "0.1 kN .. 1000 kN")]
+DiscTemperature = Annotated[Quantity, of_kind("temperature", "-60 degC .. 1200 degC")]
 
 _POINTS = "Points in order, with straight lines between; the ends go on unchanged."
 
@@ -61,8 +62,8 @@ class PadTable(PadLaw):
 class PadSpeedPoint(Model):
     """The factor on pad friction at one speed."""
 
-    speed: FrictionSpeed = Field(description="Speed of the disc at the mean radius of the pads.")
-    factor: Factor = Field(description="Factor on `pad_friction` there.")
+    speed: FrictionSpeed = field("Speed of the disc at the mean radius of the pads.")
+    factor: Factor = field("Factor on `pad_friction` there.")
 
 
 class PadSpeedTable(PadTable):
@@ -70,14 +71,14 @@ class PadSpeedTable(PadTable):
 
     quantity: ClassVar[str] = "speed"
 
-    points: tuple[PadSpeedPoint, ...] = Field(min_length=1, max_length=MOST_PAD_POINTS, description=_POINTS)
+    points: tuple[PadSpeedPoint, ...] = field(_POINTS, min_length=1, max_length=MOST_PAD_POINTS)
 
 
 class PadForcePoint(Model):
     """The factor on pad friction under one clamping force."""
 
-    force: PadForce = Field(description="Clamping force of one pad.")
-    factor: Factor = Field(description="Factor on `pad_friction` there.")
+    force: PadForce = field("Clamping force of one pad.")
+    factor: Factor = field("Factor on `pad_friction` there.")
 
 
 class PadForceTable(PadTable):
@@ -85,14 +86,14 @@ class PadForceTable(PadTable):
 
     quantity: ClassVar[str] = "force"
 
-    points: tuple[PadForcePoint, ...] = Field(min_length=1, max_length=MOST_PAD_POINTS, description=_POINTS)
+    points: tuple[PadForcePoint, ...] = field(_POINTS, min_length=1, max_length=MOST_PAD_POINTS)
 
 
 class PadTemperaturePoint(Model):
     """The factor on pad friction at one temperature."""
 
-    temperature: DiscTemperature = Field(description="Temperature of the friction surface of the disc.")
-    factor: Factor = Field(description="Factor on `pad_friction` there.")
+    temperature: DiscTemperature = field("Temperature of the friction surface of the disc.")
+    factor: Factor = field("Factor on `pad_friction` there.")
 
 
 class PadTemperatureTable(PadTable):
@@ -100,9 +101,7 @@ class PadTemperatureTable(PadTable):
 
     quantity: ClassVar[str] = "temperature"
 
-    points: tuple[PadTemperaturePoint, ...] = Field(
-        min_length=1, max_length=MOST_PAD_POINTS, description=_POINTS
-    )
+    points: tuple[PadTemperaturePoint, ...] = field(_POINTS, min_length=1, max_length=MOST_PAD_POINTS)
 
 
 class PadQuotient(PadLaw):
@@ -121,17 +120,17 @@ class PadQuotient(PadLaw):
 class PadSpeedQuotient(PadQuotient):
     """Pad friction over the speed of the disc at the mean radius, as a quotient of straight lines."""
 
-    numerator: SpeedOffset = Field(description="Speed added in the numerator.")
-    denominator: SpeedOffset = Field(description="Speed added in the denominator.")
-    reference: FrictionSpeed = Field(description="Speed at which the factor is 1.")
+    numerator: SpeedOffset = field("Speed added in the numerator.")
+    denominator: SpeedOffset = field("Speed added in the denominator.")
+    reference: FrictionSpeed = field("Speed at which the factor is 1.")
 
 
 class PadForceQuotient(PadQuotient):
     """Pad friction over the clamping force of one pad, as a quotient of straight lines."""
 
-    numerator: ForceOffset = Field(description="Force added in the numerator.")
-    denominator: ForceOffset = Field(description="Force added in the denominator.")
-    reference: PadForce = Field(description="Force under which the factor is 1.")
+    numerator: ForceOffset = field("Force added in the numerator.")
+    denominator: ForceOffset = field("Force added in the denominator.")
+    reference: PadForce = field("Force under which the factor is 1.")
 
 
 def _form(value: object) -> str:
@@ -156,22 +155,17 @@ class Pad(Part):
 
     folder: ClassVar[str] = "pads"
 
-    schema_id: Literal["uictest/pad/1"] = Field(
-        default="uictest/pad/1", alias="schema", description="What the file holds: uictest/pad/1."
+    schema_id: Literal["uictest/pad/1"] = schema_field("uictest/pad/1")
+    speed: SpeedLaw | None = optional(
+        "Factor over the speed of the disc at the mean radius: points, or numerator, denominator"
+        " and reference of (v + numerator)/(v + denominator); 1 if left out."
     )
-    speed: SpeedLaw | None = Field(
-        default=None,
-        description="Factor over the speed of the disc at the mean radius: points, or numerator, denominator"
-        " and reference of (v + numerator)/(v + denominator); 1 if left out.",
+    force: ForceLaw | None = optional(
+        "Factor over the clamping force of one pad: points, or numerator, denominator and"
+        " reference of (F + numerator)/(F + denominator); 1 if left out."
     )
-    force: ForceLaw | None = Field(
-        default=None,
-        description="Factor over the clamping force of one pad: points, or numerator, denominator and"
-        " reference of (F + numerator)/(F + denominator); 1 if left out.",
-    )
-    temperature: PadTemperatureTable | None = Field(
-        default=None,
-        description="Factor over the temperature of the friction surface: points; 1 if left out.",
+    temperature: PadTemperatureTable | None = optional(
+        "Factor over the temperature of the friction surface: points; 1 if left out."
     )
 
     @property

@@ -5,28 +5,25 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
+from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section
+from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional, quantity, schema_field
 
-from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section, of_kind
-
-Friction = Annotated[Quantity, of_kind("number", at_least="0.001", at_most="1")]
-Share = Annotated[Quantity, of_kind("number", at_least="0.001", at_most="1")]
-SemiAxis = Annotated[Quantity, of_kind("length", at_least="0.1 mm", at_most="50 mm")]
+Friction = Annotated[Quantity, of_kind("number", "0.001 .. 1")]
+Share = Annotated[Quantity, of_kind("number", "0.001 .. 1")]
+SemiAxis = Annotated[Quantity, of_kind("length", "0.1 mm .. 50 mm")]
 
 
 class Contact(Section):
     """The contact ellipse of one wheel at its reference load; it grows with load (Hertz)."""
 
-    semi_axis_longitudinal: SemiAxis = Field(description="Semi-axis a along the track.")
-    semi_axis_lateral: SemiAxis = Field(description="Semi-axis b across the track.")
-    shear_modulus: Annotated[Quantity, of_kind("pressure", at_least="1e9 Pa", at_most="1e12 Pa")] = Field(
-        description="Shear modulus G of wheel and rail."
+    semi_axis_longitudinal: SemiAxis = field("Semi-axis a along the track.")
+    semi_axis_lateral: SemiAxis = field("Semi-axis b across the track.")
+    shear_modulus: Quantity = quantity("Shear modulus G of wheel and rail.", "pressure", "1e9 Pa .. 1e12 Pa")
+    kalker_coefficient: Quantity = quantity(
+        "Kalker's longitudinal creepage coefficient c11.", "number", "0.1 .. 20"
     )
-    kalker_coefficient: Annotated[Quantity, of_kind("number", at_least="0.1", at_most="20")] = Field(
-        description="Kalker's longitudinal creepage coefficient c11."
-    )
-    reference_wheel_load: Annotated[Quantity, of_kind("force", at_least="0.1 kN", at_most="500 kN")] = Field(
-        description="Wheel load at which the semi-axes hold."
+    reference_wheel_load: Quantity = quantity(
+        "Wheel load at which the semi-axes hold.", "force", "0.1 kN .. 500 kN"
     )
 
     @property
@@ -39,17 +36,19 @@ class Contact(Section):
 class Cleaning(Section):
     """How sliding cleans the rail, for itself and for the wheelsets that follow."""
 
-    energy: Annotated[Quantity, of_kind("energy per length", at_least="1 J/m", at_most="1e9 J/m")] = Field(
-        description="Wc: contact loss of a wheelset per metre of track that cleans 63 % of the rail."
+    energy: Quantity = quantity(
+        "Wc: contact loss of a wheelset per metre of track that cleans 63 % of the rail.",
+        "energy per length",
+        "1 J/m .. 1e9 J/m",
     )
-    recovered_friction: Friction = Field(
-        description="Initial friction coefficient of a clean rail; where the rail is better, nothing changes."
+    recovered_friction: Friction = field(
+        "Initial friction coefficient of a clean rail; where the rail is better, nothing changes."
     )
-    reach: Annotated[Quantity, of_kind("length", at_least="1 mm", at_most="100 m")] = Field(
-        description="Length of track over which the cleaned share follows the contact loss."
+    reach: Quantity = quantity(
+        "Length of track over which the cleaned share follows the contact loss.", "length", "1 mm .. 100 m"
     )
-    carry_over: Annotated[Quantity, of_kind("number", at_least="0", at_most="1")] = Field(
-        description="Part of what a wheelset has cleaned that the next one finds at the same place."
+    carry_over: Quantity = quantity(
+        "Part of what a wheelset has cleaned that the next one finds at the same place.", "number", "0 .. 1"
     )
 
 
@@ -58,20 +57,16 @@ class RailCondition(Part):
 
     folder: ClassVar[str] = "rails"
 
-    schema_id: Literal["uictest/rail/1"] = Field(
-        default="uictest/rail/1", alias="schema", description="What the file holds: uictest/rail/1."
+    schema_id: Literal["uictest/rail/1"] = schema_field("uictest/rail/1")
+    friction: Friction = field("Initial friction coefficient mu0, at zero slip speed.")
+    friction_ratio: Share = field("A: friction at infinite slip speed over mu0.")
+    friction_decay: Quantity = quantity(
+        "B: how fast friction falls with slip speed.", "inverse speed", "0 s/m .. 100 s/m"
     )
-    friction: Friction = Field(description="Initial friction coefficient mu0, at zero slip speed.")
-    friction_ratio: Share = Field(description="A: friction at infinite slip speed over mu0.")
-    friction_decay: Annotated[Quantity, of_kind("inverse speed", at_least="0 s/m", at_most="100 s/m")] = (
-        Field(description="B: how fast friction falls with slip speed.")
-    )
-    reduction_adhesion: Share = Field(description="kA: reduction of the creep slope in the area of adhesion.")
-    reduction_slip: Share = Field(description="kS: reduction of the creep slope in the area of slip.")
-    contact: Contact = Field(description="The contact of one wheel.")
-    cleaning: Cleaning | None = Field(
-        default=None, description="How sliding cleans the rail; it does not if left out."
-    )
+    reduction_adhesion: Share = field("kA: reduction of the creep slope in the area of adhesion.")
+    reduction_slip: Share = field("kS: reduction of the creep slope in the area of slip.")
+    contact: Contact = field("The contact of one wheel.")
+    cleaning: Cleaning | None = optional("How sliding cleans the rail; it does not if left out.")
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield reduction factors in the wrong order."""
@@ -90,22 +85,22 @@ MOST_POINTS = 64
 class FrictionPoint(Model):
     """The friction coefficient at one place of the track."""
 
-    position: Annotated[Quantity, of_kind("length", at_least="-100 km", at_most="100 km")] = Field(
-        description="Distance from where the brake command is given to the first wheelset, along the track."
+    position: Quantity = quantity(
+        "Distance from where the brake command is given to the first wheelset, along the track.",
+        "length",
+        "-100 km .. 100 km",
     )
-    friction: Friction = Field(description="Initial friction coefficient mu0 there.")
+    friction: Friction = field("Initial friction coefficient mu0 there.")
 
 
 class FrictionProfile(Model):
     """The friction coefficient along the track."""
 
-    points: tuple[FrictionPoint, ...] = Field(
-        min_length=1,
-        max_length=MOST_POINTS,
-        description="Points in order of position; the ends go on unchanged.",
+    points: tuple[FrictionPoint, ...] = field(
+        "Points in order of position; the ends go on unchanged.", min_length=1, max_length=MOST_POINTS
     )
-    interpolation: Literal["linear", "steps"] = Field(
-        default="linear", description="Straight lines between points, or each value up to the next point."
+    interpolation: Literal["linear", "steps"] = field(
+        "Straight lines between points, or each value up to the next point.", default="linear"
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
@@ -116,21 +111,17 @@ class FrictionProfile(Model):
 class FactorPoint(Model):
     """The factor on friction at one time."""
 
-    time: Annotated[Quantity, of_kind("time", at_least="0 s", at_most="3600 s")] = Field(
-        description="Time since the brake command."
-    )
-    factor: Annotated[Quantity, of_kind("number", at_least="0.001", at_most="10")] = Field(
-        description="Factor on friction then."
-    )
+    time: Quantity = quantity("Time since the brake command.", "time", "0 s .. 3600 s")
+    factor: Quantity = quantity("Factor on friction then.", "number", "0.001 .. 10")
 
 
 class FactorProfile(Model):
     """A factor on the friction coefficient over time."""
 
-    points: tuple[FactorPoint, ...] = Field(
+    points: tuple[FactorPoint, ...] = field(
+        "Points in order of time, with straight lines between; the ends go on unchanged.",
         min_length=1,
         max_length=MOST_POINTS,
-        description="Points in order of time, with straight lines between; the ends go on unchanged.",
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:

@@ -9,12 +9,13 @@ from uictest.core.identity_cache import once_per_object
 from uictest.core.measures import MEASURES, SLIDE_CLASS, SLOW_SHARE_CLASS
 from uictest.core.units import in_unit
 from uictest.plans.scenario.parts.measures import StopMeasureName
-from uictest.plans.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Quantity, of_kind, quoted
+from uictest.plans.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Quantity, quoted
+from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional, quantity
 
-_Duration = Annotated[Quantity, of_kind("time", above="0 s", at_most="10 s")]
-_Cutoff = Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="200 km/h")]
-_SlidingBelow = Annotated[Quantity, of_kind("share", at_least="85 %", at_most="95 %")]
-_EndSpeed = Annotated[Quantity, of_kind("speed", at_least="10 km/h", at_most="100 km/h")]
+_Duration = Annotated[Quantity, of_kind("time", "> 0 s .. 10 s")]
+_Cutoff = Annotated[Quantity, of_kind("speed", "0 km/h .. 200 km/h")]
+_SlidingBelow = Annotated[Quantity, of_kind("share", "85 % .. 95 %")]
+_EndSpeed = Annotated[Quantity, of_kind("speed", "10 km/h .. 100 km/h")]
 
 
 class RangedDefinition(Model):
@@ -29,9 +30,7 @@ class RangedDefinition(Model):
 
     value: Quantity
     range: tuple[Quantity, Quantity]
-    source: str = Field(
-        default=SCENARIO_SOURCE, description="A key of the part's `sources`, for value and range."
-    )
+    source: str = field("A key of the part's `sources`, for value and range.", default=SCENARIO_SOURCE)
 
     @model_validator(mode="before")
     @classmethod
@@ -72,10 +71,8 @@ class FirstPhaseDuration(RangedDefinition):
     unit: ClassVar[str] = "s"
     step: ClassVar[float | None] = None
 
-    value: _Duration = Field(description="Duration used.")
-    range: tuple[_Duration, _Duration] = Field(
-        description="Shortest and longest duration the words could mean."
-    )
+    value: _Duration = field("Duration used.")
+    range: tuple[_Duration, _Duration] = field("Shortest and longest duration the words could mean.")
 
 
 class LowSpeedCutoff(RangedDefinition):
@@ -84,8 +81,8 @@ class LowSpeedCutoff(RangedDefinition):
     unit: ClassVar[str] = "km/h"
     step: ClassVar[float | None] = SLIDE_CLASS
 
-    value: _Cutoff = Field(description="Cut-off used.")
-    range: tuple[_Cutoff, _Cutoff] = Field(description="Lowest and highest cut-off the words could mean.")
+    value: _Cutoff = field("Cut-off used.")
+    range: tuple[_Cutoff, _Cutoff] = field("Lowest and highest cut-off the words could mean.")
 
 
 class SlidingBelow(RangedDefinition):
@@ -94,10 +91,8 @@ class SlidingBelow(RangedDefinition):
     unit: ClassVar[str] = "%"
     step: ClassVar[float | None] = SLOW_SHARE_CLASS
 
-    value: _SlidingBelow = Field(description="Share used.")
-    range: tuple[_SlidingBelow, _SlidingBelow] = Field(
-        description="Lowest and highest share the words could mean."
-    )
+    value: _SlidingBelow = field("Share used.")
+    range: tuple[_SlidingBelow, _SlidingBelow] = field("Lowest and highest share the words could mean.")
 
 
 class EndSpeed(RangedDefinition):
@@ -106,25 +101,19 @@ class EndSpeed(RangedDefinition):
     unit: ClassVar[str] = "km/h"
     step: ClassVar[float | None] = SLIDE_CLASS
 
-    value: _EndSpeed = Field(description="Speed used.")
-    range: tuple[_EndSpeed, _EndSpeed] = Field(description="Lowest and highest speed the words could mean.")
+    value: _EndSpeed = field("Speed used.")
+    range: tuple[_EndSpeed, _EndSpeed] = field("Lowest and highest speed the words could mean.")
 
 
 class Definition(Model):
     """The definitions that a criterion depends on; each measure says which it needs."""
 
-    first_phase_duration: FirstPhaseDuration | None = Field(
-        default=None, description="First phase of braking, counted from the first sliding."
+    first_phase_duration: FirstPhaseDuration | None = optional(
+        "First phase of braking, counted from the first sliding."
     )
-    low_speed_cutoff: LowSpeedCutoff | None = Field(
-        default=None, description="Speed down to which slides count."
-    )
-    sliding_below: SlidingBelow | None = Field(
-        default=None, description="Share of the train's speed below which a wheelset slides."
-    )
-    end_speed: EndSpeed | None = Field(
-        default=None, description="Speed that ends the time in which sliding counts."
-    )
+    low_speed_cutoff: LowSpeedCutoff | None = optional("Speed down to which slides count.")
+    sliding_below: SlidingBelow | None = optional("Share of the train's speed below which a wheelset slides.")
+    end_speed: EndSpeed | None = optional("Speed that ends the time in which sliding counts.")
 
     def parameters(self) -> dict[str, RangedDefinition]:
         """Return the definitions that are given, by name."""
@@ -144,8 +133,8 @@ WHEELSET_COUNT = 4
 class AtLeast(Model):
     """How many wheelsets must keep the bound."""
 
-    at_least: Literal["half"] | Annotated[int, Field(ge=1, le=WHEELSET_COUNT, strict=True)] = Field(
-        description="A number of wheelsets, or `half` of them (rounded up)."
+    at_least: Literal["half"] | Annotated[int, Field(ge=1, le=WHEELSET_COUNT, strict=True)] = field(
+        "A number of wheelsets, or `half` of them (rounded up)."
     )
 
 
@@ -158,17 +147,15 @@ class Reading(Model):
     It never changes the status of the criterion: where it comes out otherwise, the verdict turns.
     """
 
-    id: str = Field(pattern=ID, description="Name of the reading in every report.")
-    source: str = Field(
-        default=SCENARIO_SOURCE, description="A key of the part's `sources`: where the reading comes from."
+    id: str = field("Name of the reading in every report.", pattern=ID)
+    source: str = field(
+        "A key of the part's `sources`: where the reading comes from.", default=SCENARIO_SOURCE
     )
-    measure: StopMeasureName = Field(description="The measure that is read.")
-    wheelsets: WheelsetsThatKeep = Field(
-        default=None, description="For a measure of wheelsets: how many of them must keep the bounds."
+    measure: StopMeasureName = field("The measure that is read.")
+    wheelsets: WheelsetsThatKeep = optional(
+        "For a measure of wheelsets: how many of them must keep the bounds."
     )
-    definition: Definition = Field(
-        default=Definition(), description="The definitions that the measure needs."
-    )
+    definition: Definition = field("The definitions that the measure needs.", default=Definition())
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield a wrong number of wheelsets, missing or unused definitions."""
@@ -210,34 +197,24 @@ def definition_problems(measure: str, definition: Definition) -> Iterator[Incons
 class NominalSpeed(Model):
     """An initial speed with the tolerance within which a stop is judged, uncorrected."""
 
-    value: Annotated[Quantity, of_kind("speed", above="0 km/h", at_most="600 km/h")] = Field(
-        description="Nominal initial speed."
-    )
-    tolerance: Annotated[Quantity, of_kind("speed", at_least="0 km/h", at_most="600 km/h")] = Field(
-        description="Largest deviation either way."
-    )
+    value: Quantity = quantity("Nominal initial speed.", "speed", "> 0 km/h .. 600 km/h")
+    tolerance: Quantity = quantity("Largest deviation either way.", "speed", "0 km/h .. 600 km/h")
 
 
 class NominalShare(Model):
     """A brake command with its tolerance."""
 
-    value: Annotated[Quantity, of_kind("share", above="0 %", at_most="100 %")] = Field(
-        description="Nominal command."
-    )
-    tolerance: Annotated[Quantity, of_kind("share", at_least="0 %", at_most="100 %")] = Field(
-        description="Largest deviation either way."
-    )
+    value: Quantity = quantity("Nominal command.", "share", "> 0 % .. 100 %")
+    tolerance: Quantity = quantity("Largest deviation either way.", "share", "0 % .. 100 %")
 
 
 class NominalGradient(Model):
     """A gradient with its tolerance."""
 
-    value: Annotated[Quantity, of_kind("gradient", at_least="-60 permille", at_most="60 permille")] = Field(
-        description="Nominal gradient, positive uphill."
+    value: Quantity = quantity(
+        "Nominal gradient, positive uphill.", "gradient", "-60 permille .. 60 permille"
     )
-    tolerance: Annotated[Quantity, of_kind("gradient", at_least="0 permille", at_most="120 permille")] = (
-        Field(description="Largest deviation either way.")
-    )
+    tolerance: Quantity = quantity("Largest deviation either way.", "gradient", "0 permille .. 120 permille")
 
 
 Nominal = NominalSpeed | NominalShare | NominalGradient
@@ -246,24 +223,16 @@ Nominal = NominalSpeed | NominalShare | NominalGradient
 class Applicability(Model):
     """Conditions of a stop under which a criterion applies; a condition that is not named is not checked."""
 
-    rail_condition: tuple[str, ...] | None = Field(
-        default=None, description="Names of rail conditions, e.g. wet."
+    rail_condition: tuple[str, ...] | None = optional("Names of rail conditions, e.g. wet.")
+    rail_condition_other_than: tuple[str, ...] | None = optional(
+        "Names of rail conditions that the criterion is not for, e.g. dry."
     )
-    rail_condition_other_than: tuple[str, ...] | None = Field(
-        default=None, description="Names of rail conditions that the criterion is not for, e.g. dry."
+    rail_cleaned: bool | None = optional(
+        "Whether sliding cleans the rail; a recorded rail answers as it does and meets either.", strict=True
     )
-    rail_cleaned: bool | None = Field(
-        default=None,
-        strict=True,
-        description="Whether sliding cleans the rail; a recorded rail answers as it does and meets either.",
-    )
-    wsp: tuple[Literal["active", "bypassed"], ...] | None = Field(
-        default=None, description="States of the WSP."
-    )
-    brake_position: tuple[str, ...] | None = Field(default=None, description="Brake positions, e.g. R.")
-    topology: tuple[Literal["one-caliper", "four-caliper"], ...] | None = Field(
-        default=None, description="Topologies of the rig."
-    )
-    initial_speed: NominalSpeed | None = Field(default=None, description="Initial speed, uncorrected.")
-    command: NominalShare | None = Field(default=None, description="Share of the full service command.")
-    gradient: NominalGradient | None = Field(default=None, description="Gradient of the track.")
+    wsp: tuple[Literal["active", "bypassed"], ...] | None = optional("States of the WSP.")
+    brake_position: tuple[str, ...] | None = optional("Brake positions, e.g. R.")
+    topology: tuple[Literal["one-caliper", "four-caliper"], ...] | None = optional("Topologies of the rig.")
+    initial_speed: NominalSpeed | None = optional("Initial speed, uncorrected.")
+    command: NominalShare | None = optional("Share of the full service command.")
+    gradient: NominalGradient | None = optional("Gradient of the track.")

@@ -2,79 +2,62 @@
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
+from uictest.plans.scenario.yaml import Part, Quantity, Section
+from uictest.plans.scenario.yaml.quantity_field import default, field, of_kind, quantity, schema_field
 
-from uictest.plans.scenario.yaml import Part, Quantity, Section, default, of_kind
-
-ErrorShare = Annotated[Quantity, of_kind("share", at_least="-50 %", at_most="50 %")]
-NoiseShare = Annotated[Quantity, of_kind("share", at_least="0 %", at_most="50 %")]
+ErrorShare = Annotated[Quantity, of_kind("share", "-50 % .. 50 %")]
+NoiseShare = Annotated[Quantity, of_kind("share", "0 % .. 50 %")]
 
 
 class SpeedSensor(Section):
     """A toothed wheel on the axle; speed from the time between teeth."""
 
-    teeth: Annotated[Quantity, of_kind("count", at_least="1", at_most="1000")] = Field(
-        description="Teeth of the wheel."
+    teeth: Quantity = quantity("Teeth of the wheel.", "count", "1 .. 1000")
+    timer_resolution: Quantity = quantity(
+        "Resolution of the timer between teeth.", "time", "1e-6 ms .. 10 ms"
     )
-    timer_resolution: Annotated[Quantity, of_kind("time", at_least="1e-6 ms", at_most="10 ms")] = Field(
-        description="Resolution of the timer between teeth."
+    minimum_speed: Quantity = quantity(
+        "Wheel speed below which the sensor reads zero.", "speed", "0.01 km/h .. 50 km/h"
     )
-    minimum_speed: Annotated[Quantity, of_kind("speed", at_least="0.01 km/h", at_most="50 km/h")] = Field(
-        description="Wheel speed below which the sensor reads zero."
-    )
-    noise: NoiseShare = Field(description="Standard deviation of the noise as a share of the reading.")
-    gain_error: ErrorShare = Field(
-        default=default("0 %", "share"), description="Error in proportion to the reading."
-    )
-    method: Literal["momentary", "whole-teeth"] = Field(
-        default="momentary",
-        description="momentary: the speed at the instant of reading; whole-teeth: that of the last whole"
+    noise: NoiseShare = field("Standard deviation of the noise as a share of the reading.")
+    gain_error: ErrorShare = field("Error in proportion to the reading.", default=default("0 %", "share"))
+    method: Literal["momentary", "whole-teeth"] = field(
+        "momentary: the speed at the instant of reading; whole-teeth: that of the last whole"
         " teeth, which is older the slower the wheel turns.",
+        default="momentary",
     )
-    eccentricity: Annotated[Quantity, of_kind("share", at_least="0 %", at_most="50 %")] = Field(
-        default=default("0 %", "share"),
-        description="Error once per turn: largest deviation as a share of the reading.",
+    eccentricity: Quantity = quantity(
+        "Error once per turn: largest deviation as a share of the reading.",
+        "share",
+        "0 % .. 50 %",
+        default="0 %",
     )
-    missing_teeth: Annotated[Quantity, of_kind("count", at_least="0", at_most="100")] = Field(
-        default=default("0", "count"),
-        description="Teeth missing in one gap of the wheel; only with method whole-teeth.",
+    missing_teeth: Quantity = quantity(
+        "Teeth missing in one gap of the wheel; only with method whole-teeth.",
+        "count",
+        "0 .. 100",
+        default="0",
     )
 
 
 class PressureSensor(Section):
     """A pressure sensor of a tank or of the reservoir."""
 
-    range: Annotated[Quantity, of_kind("pressure", at_least="0.1 bar", at_most="100 bar")] = Field(
-        description="Highest gauge pressure it reads."
-    )
-    gain_error: ErrorShare = Field(description="Error in proportion to the reading.")
-    offset: Annotated[Quantity, of_kind("pressure", at_least="-1 bar", at_most="1 bar")] = Field(
-        description="Reading at zero gauge pressure."
-    )
-    noise: Annotated[Quantity, of_kind("pressure", at_least="1e-6 bar", at_most="1 bar")] = Field(
-        description="Standard deviation of the noise."
-    )
-    resolution: Annotated[Quantity, of_kind("pressure", at_least="1e-6 bar", at_most="1 bar")] = Field(
-        description="Smallest step of the reading."
-    )
+    range: Quantity = quantity("Highest gauge pressure it reads.", "pressure", "0.1 bar .. 100 bar")
+    gain_error: ErrorShare = field("Error in proportion to the reading.")
+    offset: Quantity = quantity("Reading at zero gauge pressure.", "pressure", "-1 bar .. 1 bar")
+    noise: Quantity = quantity("Standard deviation of the noise.", "pressure", "1e-6 bar .. 1 bar")
+    resolution: Quantity = quantity("Smallest step of the reading.", "pressure", "1e-6 bar .. 1 bar")
 
 
 class Loadcell(Section):
     """One of the loadcells between pad and disc."""
 
-    range: Annotated[Quantity, of_kind("force", at_least="0.1 kN", at_most="1000 kN")] = Field(
-        description="Highest force it reads."
-    )
-    gain_error: ErrorShare = Field(description="Error in proportion to the reading.")
-    offset: Annotated[Quantity, of_kind("force", at_least="-10 kN", at_most="10 kN")] = Field(
-        description="Reading without force."
-    )
-    noise: Annotated[Quantity, of_kind("force", at_least="0.001 N", at_most="10 kN")] = Field(
-        description="Standard deviation of the noise."
-    )
-    resolution: Annotated[Quantity, of_kind("force", at_least="0.001 N", at_most="10 kN")] = Field(
-        description="Smallest step of the reading."
-    )
+    range: Quantity = quantity("Highest force it reads.", "force", "0.1 kN .. 1000 kN")
+    gain_error: ErrorShare = field("Error in proportion to the reading.")
+    offset: Quantity = quantity("Reading without force.", "force", "-10 kN .. 10 kN")
+    noise: Quantity = quantity("Standard deviation of the noise.", "force", "0.001 N .. 10 kN")
+    resolution: Quantity = quantity("Smallest step of the reading.", "force", "0.001 N .. 10 kN")
 
 
 class Sensors(Part):
@@ -82,9 +65,7 @@ class Sensors(Part):
 
     folder: ClassVar[str] = "sensors"
 
-    schema_id: Literal["uictest/sensors/1"] = Field(
-        default="uictest/sensors/1", alias="schema", description="What the file holds: uictest/sensors/1."
-    )
-    speed: SpeedSensor = Field(description="Speed sensor of a wheelset.")
-    pressure: PressureSensor = Field(description="Pressure sensors.")
-    loadcell: Loadcell = Field(description="Loadcells between pad and disc.")
+    schema_id: Literal["uictest/sensors/1"] = schema_field("uictest/sensors/1")
+    speed: SpeedSensor = field("Speed sensor of a wheelset.")
+    pressure: PressureSensor = field("Pressure sensors.")
+    loadcell: Loadcell = field("Loadcells between pad and disc.")

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Final
 
-from pydantic import AfterValidator, Discriminator, Field, Tag
+from pydantic import AfterValidator, Discriminator, Tag
 from pydantic_core import PydanticCustomError
 
 from uictest.core.measures import MEASURES, STOP_COLUMNS, WHEELSET_COLUMNS, StopColumn, column_unit
 from uictest.core.statistics import Side
 from uictest.plans.scenario.parts.wheelsets import NUMBERS
-from uictest.plans.scenario.yaml import Model, Quantity, default, of_kind, quoted, suggestion
+from uictest.plans.scenario.yaml import Model, Quantity, quoted, suggestion
+from uictest.plans.scenario.yaml.quantity_field import default, field, of_kind, optional
 
 DECELERATION: Final = "m/s2"
 _COLUMNS: Final = frozenset(
@@ -43,25 +44,24 @@ def _deceleration(column: str) -> str:
 
 
 Column = Annotated[str, AfterValidator(_column)]
-Level = Annotated[Quantity, of_kind("share", above="0 %", below="100 %")]
-Confidence = Annotated[Quantity, of_kind("share", at_least="50 %", below="100 %")]
+Level = Annotated[Quantity, of_kind("share", "> 0 % .. < 100 %")]
+Confidence = Annotated[Quantity, of_kind("share", "50 % .. < 100 %")]
 _CONFIDENCE: Final = default("95 %", "share")
 
 
 class QuantileRequest(Model):
     """Quantiles of one measure, bounded by order statistics of the draws."""
 
-    measure: Column = Field(description="A measure of the stop, or a column of summary.csv.")
-    levels: tuple[Level, ...] = Field(
+    measure: Column = field("A measure of the stop, or a column of summary.csv.")
+    levels: tuple[Level, ...] = field(
+        "List of the shares of stops that lie at or below the quantiles.",
         min_length=1,
         max_length=100,
-        description="List of the shares of stops that lie at or below the quantiles.",
         examples=[["0.1 %", "1 %", "50 %"]],
     )
-    confidence: Confidence = Field(default=_CONFIDENCE, description="Confidence of each bound.")
-    side: Side | None = Field(
-        default=None,
-        description="Bounds to compute; if left out, lower for levels below 50 %, upper above, both at 50 %.",
+    confidence: Confidence = field("Confidence of each bound.", default=_CONFIDENCE)
+    side: Side | None = optional(
+        "Bounds to compute; if left out, lower for levels below 50 %, upper above, both at 50 %."
     )
 
     def side_of(self, level: float) -> Side:
@@ -74,15 +74,14 @@ class QuantileRequest(Model):
 class KDryRequest(Model):
     """K_dry: the share of its nominal deceleration that a train reaches on dry rail, by confidence level."""
 
-    measure: Annotated[Column, AfterValidator(_deceleration)] = Field(
+    measure: Annotated[Column, AfterValidator(_deceleration)] = field(
+        "The deceleration: a measure of the stop, or a column of summary.csv, in m/s2.",
         default="developed_deceleration_mps2",
-        description="The deceleration: a measure of the stop, or a column of summary.csv, in m/s2.",
     )
-    nominal: Annotated[Quantity, of_kind("acceleration", above="0 m/s2", at_most="10 m/s2")] | None = Field(
-        default=None,
-        description="The nominal deceleration; if left out, that of the scenario with its own values.",
+    nominal: Annotated[Quantity, of_kind("acceleration", "> 0 m/s2 .. 10 m/s2")] | None = optional(
+        "The nominal deceleration; if left out, that of the scenario with its own values."
     )
-    confidence: Confidence = Field(default=_CONFIDENCE, description="Confidence of each bound.")
+    confidence: Confidence = field("Confidence of each bound.", default=_CONFIDENCE)
 
 
 def _form(value: Any) -> str:

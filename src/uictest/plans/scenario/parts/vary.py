@@ -16,6 +16,7 @@ from uictest.plans.scenario.yaml import (
     Model,
     common_unit,
 )
+from uictest.plans.scenario.yaml.quantity_field import field, optional
 
 MOST_POINTS: Final = 2**24
 FARTHEST_END: Final = 100_000
@@ -30,11 +31,11 @@ _ONE_UNIT = "write all numbers of it with the same unit"
 class Range(Model):
     """Numbers from the first to the last, given by a step or by their count."""
 
-    first: DecimalQuantityField = Field(description="First number, with its unit.")
-    last: DecimalQuantityField = Field(description="Last number; included if a step reaches it.")
-    step: DecimalQuantityField | None = Field(default=None, description="Difference between neighbours.")
-    count: Annotated[int, Field(ge=1, le=1_000_000, strict=True)] | None = Field(
-        default=None, description="How many numbers, evenly spaced, both ends included."
+    first: DecimalQuantityField = field("First number, with its unit.")
+    last: DecimalQuantityField = field("Last number; included if a step reaches it.")
+    step: DecimalQuantityField | None = optional("Difference between neighbours.")
+    count: Annotated[int, Field(ge=1, le=1_000_000, strict=True)] | None = optional(
+        "How many numbers, evenly spaced, both ends included."
     )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
@@ -60,10 +61,10 @@ class Range(Model):
 class Normal(Model):
     """A normal distribution, truncated at both ends."""
 
-    mean: DecimalQuantityField = Field(description="Mean before the ends are cut off.")
-    deviation: DecimalQuantityField = Field(description="Standard deviation before the ends are cut off.")
-    lower: DecimalQuantityField = Field(description="Smallest value.")
-    upper: DecimalQuantityField = Field(description="Largest value.")
+    mean: DecimalQuantityField = field("Mean before the ends are cut off.")
+    deviation: DecimalQuantityField = field("Standard deviation before the ends are cut off.")
+    lower: DecimalQuantityField = field("Smallest value.")
+    upper: DecimalQuantityField = field("Largest value.")
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield mixed units, a deviation that is not above zero, bounds in the wrong order."""
@@ -102,42 +103,38 @@ def _numbers(words: str, *names: str) -> BeforeValidator:
     return BeforeValidator(check)
 
 
-_TWO_BOUNDS: Final = _numbers("two bounds", "lowest", "highest")
-_THREE_VALUES: Final = _numbers("three values", "lowest", "likeliest", "highest")
+TwoBounds = Annotated[
+    tuple[DecimalQuantityField, DecimalQuantityField], _numbers("two bounds", "lowest", "highest")
+]
+ThreeValues = Annotated[
+    tuple[DecimalQuantityField, DecimalQuantityField, DecimalQuantityField],
+    _numbers("three values", "lowest", "likeliest", "highest"),
+]
 
 
 class Distribution(Model):
     """The distribution of one parameter: exactly one of five."""
 
-    uniform: Annotated[tuple[DecimalQuantityField, DecimalQuantityField], _TWO_BOUNDS] | None = Field(
-        default=None,
-        description="Smallest and largest value; everything between is equally likely.",
-        examples=[[0.08, 0.16]],
+    uniform: TwoBounds | None = optional(
+        "Smallest and largest value; everything between is equally likely.", examples=[[0.08, 0.16]]
     )
-    log_uniform: Annotated[tuple[DecimalQuantityField, DecimalQuantityField], _TWO_BOUNDS] | None = Field(
-        default=None,
+    log_uniform: TwoBounds | None = optional(
+        "Smallest and largest value, above zero; the logarithm is uniform.",
         alias="log-uniform",
-        description="Smallest and largest value, above zero; the logarithm is uniform.",
         examples=[["0.8e-8 m3/(s Pa)", "1.6e-8 m3/(s Pa)"]],
     )
-    triangular: (
-        Annotated[tuple[DecimalQuantityField, DecimalQuantityField, DecimalQuantityField], _THREE_VALUES]
-        | None
-    ) = Field(
-        default=None,
-        description="Smallest, likeliest and largest value; the density is a triangle.",
+    triangular: ThreeValues | None = optional(
+        "Smallest, likeliest and largest value; the density is a triangle.",
         examples=[["80 %", "100 %", "100 %"]],
     )
-    normal: Normal | None = Field(
-        default=None,
-        description="Normal, cut off at both ends; what lies beyond them is not drawn.",
+    normal: Normal | None = optional(
+        "Normal, cut off at both ends; what lies beyond them is not drawn.",
         examples=[{"mean": "32 t", "deviation": "0.5 t", "lower": "30 t", "upper": "34 t"}],
     )
-    choice: tuple[Any, ...] | None = Field(
-        default=None,
+    choice: tuple[Any, ...] | None = optional(
+        "Values that the key accepts, each as likely as the others.",
         min_length=1,
         max_length=10_000,
-        description="Values that the key accepts, each as likely as the others.",
         examples=[["one-caliper", "four-caliper"]],
     )
 
@@ -193,20 +190,15 @@ class Distribution(Model):
 class Sample(Model):
     """Points drawn from the distributions of several parameters."""
 
-    method: Method = Field(
+    method: Method = field(
+        "random; sobol and latin-hypercube fill space more evenly; saltelli for sensitivities.",
         default="random",
-        description="random; sobol and latin-hypercube fill space more evenly; saltelli for sensitivities.",
     )
-    size: int = Field(
-        ge=1,
-        le=MOST_POINTS,
-        strict=True,
-        description="Number of points; saltelli makes (parameters + 2) cases of each.",
+    size: int = field(
+        "Number of points; saltelli makes (parameters + 2) cases of each.", ge=1, le=MOST_POINTS, strict=True
     )
-    seed: int = Field(default=0, ge=0, le=2**32 - 1, strict=True, description="Seed of the draws.")
-    parameters: dict[str, Distribution] = Field(
-        min_length=1, max_length=64, description="Distributions by dotted key."
-    )
+    seed: int = field("Seed of the draws.", default=0, ge=0, le=2**32 - 1, strict=True)
+    parameters: dict[str, Distribution] = field("Distributions by dotted key.", min_length=1, max_length=64)
 
     @property
     def cases(self) -> int:
@@ -224,29 +216,28 @@ class Sample(Model):
             )
 
 
+Lists = dict[str, Annotated[tuple[Any, ...], Field(min_length=1)]]
+
+
 class Vary(Model):
     """What a sweep varies: one scenario, run with many values of some of its parameters.
 
     The cases are all combinations of `matrix`, `ranges`, the rows of `zip` and the points of `sample`.
     """
 
-    matrix: dict[str, Annotated[tuple[Any, ...], Field(min_length=1)]] | None = Field(
-        default=None,
-        description="Lists of values by dotted key; every combination is run, first key slowest.",
+    matrix: Lists | None = optional(
+        "Lists of values by dotted key; every combination is run, first key slowest."
     )
-    ranges: dict[str, Range] | None = Field(
-        default=None, description="Ranges of numbers by dotted key, combined like lists of `matrix`."
+    ranges: dict[str, Range] | None = optional(
+        "Ranges of numbers by dotted key, combined like lists of `matrix`."
     )
-    zip: dict[str, Annotated[tuple[Any, ...], Field(min_length=1)]] | None = Field(
-        default=None, description="Lists of equal length by dotted key; values at the same place go together."
+    zip: Lists | None = optional("Lists of equal length by dotted key; values at the same place go together.")
+    sample: Sample | None = optional("Values drawn from distributions.")
+    quantiles: Quantiles | None = optional(
+        "Quantiles of a measure over the draws of a random sample, or a list of such."
     )
-    sample: Sample | None = Field(default=None, description="Values drawn from distributions.")
-    quantiles: Quantiles | None = Field(
-        default=None,
-        description="Quantiles of a measure over the draws of a random sample, or a list of such.",
-    )
-    k_dry: KDryRequest | None = Field(
-        default=None, description="K_dry by confidence level (EBCL), from the draws of a random sample."
+    k_dry: KDryRequest | None = optional(
+        "K_dry by confidence level (EBCL), from the draws of a random sample."
     )
 
     @property

@@ -8,14 +8,13 @@ import math
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
 from uictest.plans.scenario.parts.wheelsets import ALIKE, Radius, Wheelsets
-from uictest.plans.scenario.yaml import Inconsistency, Key, Part, Quantity, Section, of_kind
+from uictest.plans.scenario.yaml import Inconsistency, Key, Part, Quantity, Section
+from uictest.plans.scenario.yaml.quantity_field import field, of_kind, quantity, schema_field
 
-Height = Annotated[Quantity, of_kind("length", at_least="1 cm", at_most="5 m")]
-Stiffness = Annotated[Quantity, of_kind("stiffness", at_least="1 kN/m", at_most="1000 MN/m")]
-Damping = Annotated[Quantity, of_kind("damping", at_least="0 N s/m", at_most="1e7 N s/m")]
+Height = Annotated[Quantity, of_kind("length", "1 cm .. 5 m")]
+Stiffness = Annotated[Quantity, of_kind("stiffness", "1 kN/m .. 1000 MN/m")]
+Damping = Annotated[Quantity, of_kind("damping", "0 N s/m .. 1e7 N s/m")]
 
 LOWEST_FREQUENCY = 0.3
 """Hz, chosen: half the lowest natural frequency of the library's cars (0.66 Hz, bounce of the CRH380A)."""
@@ -24,81 +23,73 @@ LOWEST_FREQUENCY = 0.3
 class Body(Section):
     """The car body."""
 
-    mass: Annotated[Quantity, of_kind("mass", at_least="1 t", at_most="200 t")] = Field(
-        description="Mass of the car body, loaded as tested."
+    mass: Quantity = quantity("Mass of the car body, loaded as tested.", "mass", "1 t .. 200 t")
+    pitch_inertia: Quantity = quantity(
+        "Moment of inertia in pitch about the centre of gravity.", "inertia", "1e3 kg m2 .. 1e8 kg m2"
     )
-    pitch_inertia: Annotated[Quantity, of_kind("inertia", at_least="1e3 kg m2", at_most="1e8 kg m2")] = Field(
-        description="Moment of inertia in pitch about the centre of gravity."
-    )
-    height: Height = Field(description="Height of the centre of gravity above the rail.")
+    height: Height = field("Height of the centre of gravity above the rail.")
 
 
 class Bogie(Section):
     """One of the two bogies, without its wheelsets."""
 
-    mass: Annotated[Quantity, of_kind("mass", at_least="100 kg", at_most="50 t")] = Field(
-        description="Mass of one bogie without wheelsets."
+    mass: Quantity = quantity("Mass of one bogie without wheelsets.", "mass", "100 kg .. 50 t")
+    pitch_inertia: Quantity = quantity(
+        "Moment of inertia in pitch about the centre of gravity.", "inertia", "10 kg m2 .. 1e6 kg m2"
     )
-    pitch_inertia: Annotated[Quantity, of_kind("inertia", at_least="10 kg m2", at_most="1e6 kg m2")] = Field(
-        description="Moment of inertia in pitch about the centre of gravity."
-    )
-    height: Height = Field(description="Height of the centre of gravity above the rail.")
-    half_wheelbase: Annotated[Quantity, of_kind("length", above="0.3 m", at_most="5 m")] = Field(
-        description="Half the distance between the axles of a bogie."
+    height: Height = field("Height of the centre of gravity above the rail.")
+    half_wheelbase: Quantity = quantity(
+        "Half the distance between the axles of a bogie.", "length", "> 0.3 m .. 5 m"
     )
 
 
 class Wheelset(Section):
     """One of the four wheelsets, with its brake discs."""
 
-    mass: Annotated[Quantity, of_kind("mass", at_least="100 kg", at_most="10 t")] = Field(
-        description="Mass of one wheelset with axle boxes."
+    mass: Quantity = quantity("Mass of one wheelset with axle boxes.", "mass", "100 kg .. 10 t")
+    rotational_inertia: Quantity = quantity(
+        "Moment of inertia about the axle.", "inertia", "1 kg m2 .. 1e4 kg m2"
     )
-    rotational_inertia: Annotated[Quantity, of_kind("inertia", at_least="1 kg m2", at_most="1e4 kg m2")] = (
-        Field(description="Moment of inertia about the axle.")
-    )
-    radius: Radius = Field(description="Rolling radius.")
+    radius: Radius = field("Rolling radius.")
 
 
 class PrimarySuspension(Section):
     """Springs and dampers between axle box and bogie frame, per axle box."""
 
-    longitudinal_stiffness: Stiffness = Field(description="Longitudinal stiffness per axle box.")
-    vertical_stiffness: Stiffness = Field(description="Vertical stiffness per axle box.")
-    longitudinal_damping: Damping = Field(description="Longitudinal damping per axle box.")
-    vertical_damping: Damping = Field(description="Vertical damping per axle box.")
+    longitudinal_stiffness: Stiffness = field("Longitudinal stiffness per axle box.")
+    vertical_stiffness: Stiffness = field("Vertical stiffness per axle box.")
+    longitudinal_damping: Damping = field("Longitudinal damping per axle box.")
+    vertical_damping: Damping = field("Vertical damping per axle box.")
 
 
 class SecondarySuspension(Section):
     """Springs and dampers between bogie and body, per side of a bogie."""
 
-    longitudinal_stiffness: Stiffness = Field(description="Longitudinal stiffness per side of a bogie.")
-    vertical_stiffness: Stiffness = Field(description="Vertical stiffness per side of a bogie.")
-    longitudinal_damping: Damping = Field(description="Longitudinal damping per side of a bogie.")
-    vertical_damping: Damping = Field(description="Vertical damping per side of a bogie.")
-    height: Height = Field(description="Height above the rail at which the longitudinal force acts.")
+    longitudinal_stiffness: Stiffness = field("Longitudinal stiffness per side of a bogie.")
+    vertical_stiffness: Stiffness = field("Vertical stiffness per side of a bogie.")
+    longitudinal_damping: Damping = field("Longitudinal damping per side of a bogie.")
+    vertical_damping: Damping = field("Vertical damping per side of a bogie.")
+    height: Height = field("Height above the rail at which the longitudinal force acts.")
 
 
 class TractionLink(Section):
     """The rod that carries longitudinal force between a bogie and the body."""
 
-    stiffness: Stiffness = Field(description="Longitudinal stiffness of the link of one bogie.")
-    damping: Damping = Field(description="Longitudinal damping of the link of one bogie.")
-    height: Height = Field(description="Height of the link above the rail.")
+    stiffness: Stiffness = field("Longitudinal stiffness of the link of one bogie.")
+    damping: Damping = field("Longitudinal damping of the link of one bogie.")
+    height: Height = field("Height of the link above the rail.")
 
 
 class RunningResistance(Section):
     """Resistance of the whole car: constant + linear v + quadratic v2."""
 
-    constant: Annotated[Quantity, of_kind("force", at_least="0 N", at_most="100 kN")] = Field(
-        description="Part that does not depend on speed."
+    constant: Quantity = quantity("Part that does not depend on speed.", "force", "0 N .. 100 kN")
+    linear: Quantity = quantity("Part that grows with speed.", "damping", "0 N s/m .. 10 kN s/m")
+    quadratic: Quantity = quantity(
+        "Part that grows with the square of speed (air drag).",
+        "quadratic resistance",
+        "0 N s2/m2 .. 1000 N s2/m2",
     )
-    linear: Annotated[Quantity, of_kind("damping", at_least="0 N s/m", at_most="10 kN s/m")] = Field(
-        description="Part that grows with speed."
-    )
-    quadratic: Annotated[
-        Quantity, of_kind("quadratic resistance", at_least="0 N s2/m2", at_most="1000 N s2/m2")
-    ] = Field(description="Part that grows with the square of speed (air drag).")
 
 
 class Vehicle(Part):
@@ -106,23 +97,21 @@ class Vehicle(Part):
 
     folder: ClassVar[str] = "vehicles"
 
-    schema_id: Literal["uictest/vehicle/1"] = Field(
-        default="uictest/vehicle/1", alias="schema", description="What the file holds: uictest/vehicle/1."
+    schema_id: Literal["uictest/vehicle/1"] = schema_field("uictest/vehicle/1")
+    body: Body = field("The car body.")
+    bogie: Bogie = field("One bogie; both are alike.")
+    half_pivot_distance: Quantity = quantity(
+        "Half the distance between the bogie pivots.", "length", "> 0.5 m .. 20 m"
     )
-    body: Body = Field(description="The car body.")
-    bogie: Bogie = Field(description="One bogie; both are alike.")
-    half_pivot_distance: Annotated[Quantity, of_kind("length", above="0.5 m", at_most="20 m")] = Field(
-        description="Half the distance between the bogie pivots."
-    )
-    wheelset: Wheelset = Field(description="One wheelset; `wheelsets` says where one differs.")
-    wheelsets: Wheelsets = Field(
+    wheelset: Wheelset = field("One wheelset; `wheelsets` says where one differs.")
+    wheelsets: Wheelsets = field(
+        "What single wheelsets have of their own, by their number from the leading end.",
         default_factory=lambda: dict(ALIKE),
-        description="What single wheelsets have of their own, by their number from the leading end.",
     )
-    primary: PrimarySuspension = Field(description="Primary suspension, per axle box.")
-    secondary: SecondarySuspension = Field(description="Secondary suspension, per side of a bogie.")
-    traction_link: TractionLink = Field(description="Traction rod between bogie and body, one per bogie.")
-    running_resistance: RunningResistance = Field(description="Running resistance of the whole car.")
+    primary: PrimarySuspension = field("Primary suspension, per axle box.")
+    secondary: SecondarySuspension = field("Secondary suspension, per side of a bogie.")
+    traction_link: TractionLink = field("Traction rod between bogie and body, one per bogie.")
+    running_resistance: RunningResistance = field("Running resistance of the whole car.")
 
     @property
     def wheel_radii(self) -> tuple[float, ...]:

@@ -20,15 +20,14 @@ from uictest.plans.scenario.yaml import (
     Quantity,
     Section,
     Source,
-    default,
-    of_kind,
     quoted,
 )
+from uictest.plans.scenario.yaml.quantity_field import default, field, of_kind, optional
 
 NUMBERS: Final = ("1", "2", "3", "4")
 """Numbers of the wheelsets from the leading end, as keys."""
 _ERRORS: Final = ("gain_error", "offset", "noise")
-Radius = Annotated[Quantity, of_kind("length", above="0.1 m", at_most="1 m")]
+Radius = Annotated[Quantity, of_kind("length", "> 0.1 m .. 1 m")]
 
 
 def _known(number: str) -> str:
@@ -71,33 +70,28 @@ else:
 class OwnSensors(Section):
     """The sensors of one wheelset and its module."""
 
-    speed: OwnSpeedSensor = Field(default=OwnSpeedSensor(), description="Its speed sensor.")
-    pressure: OwnPressureSensor = Field(
-        default=OwnPressureSensor(), description="The pressure sensor of its tank."
-    )
-    loadcell: OwnLoadcell = Field(default=OwnLoadcell(), description="The loadcells of its caliper.")
+    speed: OwnSpeedSensor = field("Its speed sensor.", default=OwnSpeedSensor())
+    pressure: OwnPressureSensor = field("The pressure sensor of its tank.", default=OwnPressureSensor())
+    loadcell: OwnLoadcell = field("The loadcells of its caliper.", default=OwnLoadcell())
 
 
 class OwnValues(Section):
     """What one wheelset has of its own; everything else is as on the others."""
 
-    wheel_radius: Radius | None = Field(
-        default=None, description="Rolling radius of its wheels; vehicle.wheelset.radius if left out."
+    wheel_radius: Radius | None = optional(
+        "Rolling radius of its wheels; vehicle.wheelset.radius if left out."
     )
-    configured_radius: Radius | None = Field(
-        default=None,
-        description="Radius that the WSP was configured with: measured speed is rotation times this;"
-        " vehicle.wheelset.radius if left out.",
+    configured_radius: Radius | None = optional(
+        "Radius that the WSP was configured with: measured speed is rotation times this;"
+        " vehicle.wheelset.radius if left out."
     )
-    brake_force: Annotated[Quantity, of_kind("share", at_least="0 %", at_most="300 %")] | None = Field(
-        default=None, description="Its brake force as a share of the regular one; 100 % if left out."
+    brake_force: Annotated[Quantity, of_kind("share", "0 % .. 300 %")] | None = optional(
+        "Its brake force as a share of the regular one; 100 % if left out."
     )
-    pad_friction: PadFriction | None = Field(
-        default=None, description="Friction coefficient between its pads and discs."
-    )
-    caliper: OwnCaliper = Field(default=OwnCaliper(), description="Its caliper.")
-    wsp_valve: OwnWspValve = Field(default=OwnWspValve(), description="Its WSP valve.")
-    sensors: OwnSensors = Field(default=OwnSensors(), description="Its sensors.")
+    pad_friction: PadFriction | None = optional("Friction coefficient between its pads and discs.")
+    caliper: OwnCaliper = field("Its caliper.", default=OwnCaliper())
+    wsp_valve: OwnWspValve = field("Its WSP valve.", default=OwnWspValve())
+    sensors: OwnSensors = field("Its sensors.", default=OwnSensors())
 
 
 def _completed(own: dict[str, OwnValues]) -> dict[str, OwnValues]:

@@ -41,7 +41,11 @@ from .quantity_field import (
     QUANTITY_KEYWORD as QUANTITY_KEYWORD,
     QuantityField as QuantityField,
     default as default,
+    field as field,
     of_kind as of_kind,
+    optional as optional,
+    quantity as quantity,
+    schema_field as schema_field,
     written as written,
 )
 from .reading import (

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from operator import ge, gt, le, lt
 from typing import Any, Final
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from uictest.core.units import KINDS, Kind
@@ -143,22 +143,49 @@ def written(quantity: Quantity) -> str | dict[str, str]:
     return {"value": quantity.text, "source": quantity.source}
 
 
-def of_kind(
-    name: str,
-    *,
-    above: str | None = None,
-    at_least: str | None = None,
-    at_most: str | None = None,
-    below: str | None = None,
-) -> QuantityField:
-    """Return the annotation of a field: a quantity of the named kind, within bounds like ``"4 bar"``."""
+def of_kind(name: str, span: str = "..") -> QuantityField:
+    """Return the annotation of a field: a quantity of the named kind, from one end of a span to the other.
 
-    def bound(text: str | None) -> Quantity | None:
-        return None if text is None else parse_quantity(text, name)
-
-    return QuantityField(KINDS[name], bound(above), bound(at_least), bound(at_most), bound(below))
+    Args:
+        name: of the kind.
+        span: such as ``"1 bar .. 4 bar"``; ``"> 0 s .. 10 s"`` leaves its first end out, ``"0 .. < 1"`` its
+            last. An end that is empty bounds nothing.
+    """
+    first, last = (end.strip() for end in span.split(".."))
+    ends = {
+        "above" if first.startswith(">") else "at_least": first.lstrip("> "),
+        "below" if last.startswith("<") else "at_most": last.lstrip("< "),
+    }
+    return QuantityField(
+        KINDS[name], **{key: parse_quantity(text, name) for key, text in ends.items() if text}
+    )
 
 
 def default(text: str, name: str) -> Quantity:
     """The default of a field, written as a user would write it."""
     return parse_quantity(text, name, DEFAULT_SOURCE)
+
+
+def field(description: str, **settings: Any) -> Any:
+    """Return a field of a model: what people are told of it, and what pydantic takes for a field."""
+    return Field(description=description, **settings)
+
+
+def optional(description: str, **settings: Any) -> Any:
+    """Return a field that is None where a file leaves it out."""
+    return Field(default=None, description=description, **settings)
+
+
+def quantity(description: str, kind: str, span: str, *, default: str | None = None) -> Any:
+    """Return a field that is a quantity of a kind, within a span; `default` is written like its ends."""
+    unset: dict[str, Any] = {}
+    if default is not None:
+        unset["default"] = parse_quantity(default, kind, DEFAULT_SOURCE)
+    declared: Any = Field(description=description, **unset)
+    declared.metadata.append(of_kind(kind, span))
+    return declared
+
+
+def schema_field(name: str) -> Any:
+    """Return the field that says which schema a file has; a mapping inside a file leaves it out."""
+    return Field(default=name, alias="schema", description=f"What the file holds: {name}.")
