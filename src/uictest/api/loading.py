@@ -19,9 +19,7 @@ from uictest.api.arguments import (
 )
 from uictest.api.results import Results
 from uictest.core import recording
-from uictest.core.recording import formats
 from uictest.plans import scenario, series
-from uictest.recorded import field_data
 from uictest.running import campaign
 
 
@@ -157,29 +155,13 @@ def read_recording(
 
     """
     path = Path(file)
-    if str(channel_map) != _AS_WRITTEN:
-        mapped, _ = runs.named_map(str(channel_map), as_paths(trust))
-        return runs.each_file([path], lambda each: _stop(each, mapped))[0]
-    return runs.each_file([path], _as_written)[0]
-
-
-def _as_written(path: Path) -> recording.Recording:
-    if path.suffix == ".parquet":
-        try:
-            return recording.read_parquet(path)
-        except ValueError as error:
-            raise formats.UnreadableError(str(error)) from error
-    return recording.recording_of(formats.read_contents(path), {"source": path.name})
-
-
-def _stop(path: Path, channel_map: field_data.ChannelMap) -> recording.Recording:
-    try:
-        stop = field_data.stop_in(path, channel_map)
-    except field_data.UnusableError as error:
-        raise formats.UnreadableError(str(error)) from error
+    if str(channel_map) == _AS_WRITTEN:
+        return runs.each_file([path], runs.read_recording)[0]
+    mapped, _ = runs.named_map(str(channel_map), as_paths(trust))
+    stop = runs.each_file([path], lambda each: runs.read_stop(each, mapped))[0]
     facts = {**stop.choices, "defects": "; ".join(map(str, stop.defects)) or "none"}
-    channels, units = stop.recording.channels, stop.recording.units
-    return recording.Recording(channels, units, {**stop.recording.metadata, **facts})
+    samples = stop.recording
+    return recording.Recording(samples.channels, samples.units, {**samples.metadata, **facts})
 
 
 def read_results(place: PathName) -> Results:

@@ -107,7 +107,7 @@ def evaluate(
     def conditions() -> runs.Conditions:
         case_of = _case_of(scenario, select, [*statements, *overrides], folders)
         mapped, inputs = runs.named_map(str(channel_map), folders)
-        return runs.Conditions(runs.triggered_map(mapped, trigger), inputs, case_of)
+        return runs.Conditions(mapped.triggered_by(trigger), inputs, case_of)
 
     said = (scenario, select, *statements, trigger)
     batch, _ = runs.recorded_batch(

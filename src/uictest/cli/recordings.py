@@ -42,7 +42,7 @@ def channel_map(
     """
     loaded, inputs = runs.named_map(reference, trusted)
     with rejected("--trigger"):
-        return runs.triggered_map(loaded, trigger), inputs
+        return loaded.triggered_by(trigger), inputs
 
 
 def one_case(

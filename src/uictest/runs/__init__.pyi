@@ -27,9 +27,10 @@ from .recorded import (
     named_map as named_map,
     read_files as read_files,
     read_recorded_series as read_recorded_series,
+    read_recording as read_recording,
+    read_stop as read_stop,
     recorded_batch as recorded_batch,
     stop_names as stop_names,
-    triggered_map as triggered_map,
 )
 from .scenario_files import (
     DEFAULT_FOLDER as DEFAULT_FOLDER,

@@ -12,7 +12,7 @@ from uictest import report
 from uictest.core import recording
 from uictest.core.recording import formats
 from uictest.core.units import KILOMETRE_PER_HOUR
-from uictest.plans import scenario, scenario as scenarios, series
+from uictest.plans import scenario, series
 from uictest.plans.scenario import yaml
 from uictest.recorded import field_data
 from uictest.running import campaign
@@ -88,24 +88,6 @@ def named_map(
         ) from None
 
 
-def triggered_map(channel_map: field_data.ChannelMap, trigger: str | None) -> field_data.ChannelMap:
-    """Return a channel map with another trigger, a name or a time; None: as the map says.
-
-    Raises ValueError for a trigger that is neither.
-    """
-    from pydantic import ValidationError
-
-    if trigger is None:
-        return channel_map
-    key = "trigger_time" if any(map(str.isdigit, trigger)) else "trigger"
-    stated = {**dict(channel_map.preparation), "trigger_time": None, key: trigger}
-    try:
-        preparation = field_data.Preparation.model_validate(stated)
-    except ValidationError as error:
-        raise ValueError(f"trigger {trigger!r}: {error.errors(include_url=False)[0]['msg']}") from error
-    return channel_map.model_copy(update={"preparation": preparation})
-
-
 def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Result]:
     """Apply `use` to every file, and return its results.
 
@@ -125,6 +107,24 @@ def each_file(paths: Sequence[Path], use: Callable[[Path], Result]) -> list[Resu
     if errors:
         raise InvalidInputError(*errors)
     return results
+
+
+def read_recording(path: Path) -> recording.Recording:
+    """Return a recording as it is written, whatever its format. For :func:`each_file`."""
+    if path.suffix != ".parquet":
+        return recording.recording_of(formats.read_contents(path), {"source": path.name})
+    try:
+        return recording.read_parquet(path)
+    except ValueError as error:
+        raise formats.UnreadableError(str(error).removeprefix(f"{path}: ")) from error
+
+
+def read_stop(path: Path, channel_map: field_data.ChannelMap) -> field_data.RecordedStop:
+    """Return the stop in a recording. For :func:`each_file`."""
+    try:
+        return field_data.stop_in(path, channel_map)
+    except field_data.UnusableError as error:
+        raise formats.UnreadableError(str(error)) from error
 
 
 def stop_names(paths: Sequence[Path]) -> list[str]:
@@ -173,8 +173,7 @@ def _recorded(
         if stop.role == "bypassed":
             continue  # simulated beside simulated stops only
         own, inputs = _files_of(stop, trusted)
-        names = [f"{stop.case.id}.{file.name}" for file in own]
-        named = [replace(file, name=name) for file, name in zip(own, names, strict=True)]
+        named = [replace(file, name=f"{stop.case.id}.{file.name}") for file in own]
         stops += [_as_recorded(stop, file, inputs) for file in named]
         files += named
     _require_distinct_stops(planned, stops)
@@ -216,7 +215,7 @@ class Conditions(NamedTuple):
 
 
 def case_of_stop(
-    case: scenarios.Case | None,
+    case: scenario.Case | None,
     statements: Sequence[str],
     trusted: Sequence[Path] | None,
     how: Callable[[Sequence[str]], str],
@@ -253,7 +252,7 @@ def recorded_batch(
     :class:`campaign.RunSettings`. Raises InvalidInputError, ScenarioErrors.
     """
     planned: Sequence[series.Series] = ()
-    cases: Sequence[scenarios.Case] = ()
+    cases: Sequence[scenario.Case] = ()
     if any(map(is_series, paths)):
         planned, files = read_recorded_series(paths, overrides, trusted, stated, option)
     else:
@@ -265,7 +264,7 @@ def recorded_batch(
     parts = campaign.parts_of_recorded(everything)
     inputs = {name: digest for case in everything for name, digest in case.inputs.items()}
 
-    def judge(case: scenarios.Case) -> campaign.CaseRun:
+    def judge(case: scenario.Case) -> campaign.CaseRun:
         file = stops[case.id]
         if file.stop is None:
             return campaign.CaseRun(field_data.unusable_result(case, file.defects))

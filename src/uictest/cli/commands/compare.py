@@ -13,8 +13,7 @@ from uictest import report, runs
 from uictest.analysis import comparison
 from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbose, tolerances_of
 from uictest.cli.output import ExitCode, data, message, terminal_width
-from uictest.core import files, recording
-from uictest.core.recording import formats
+from uictest.core import files
 
 
 def compare(
@@ -86,9 +85,9 @@ def _compared(
     places = [runs.run_folder(place) for place in (first, second)]
     if any(place.is_dir() for place in places):
         return _runs(places[0], places[1], tolerances, channels)
-    recordings = _recording(places[0]), _recording(places[1])
+    one, other = runs.each_file(places, runs.read_recording)
     try:
-        return comparison.compare_recordings(*recordings, _names(first, second), tolerances, channels or ())
+        return comparison.compare_recordings(one, other, _names(first, second), tolerances, channels or ())
     except ValueError as error:
         raise runs.InvalidInputError(f"--channel: {error}") from error
 
@@ -106,19 +105,6 @@ def _runs(
         return comparison.with_overlays(compared, first, second, channels, tolerances)
     except (OSError, ValueError) as error:
         raise runs.InvalidInputError(f"cannot compare as runs: {error}") from error
-
-
-def _recording(path: Path) -> recording.Recording:
-    try:
-        if path.suffix == ".parquet":
-            return recording.read_parquet(path)
-    except ValueError as error:
-        raise runs.InvalidInputError(f"{error}") from error
-    except OSError as error:
-        raise runs.InvalidInputError(f"{path}: {error.strerror or error}") from error
-    return runs.each_file(
-        [path], lambda file: recording.recording_of(formats.read_contents(file), {"source": file.name})
-    )[0]
 
 
 def _names(first: Path, second: Path) -> tuple[str, str]:

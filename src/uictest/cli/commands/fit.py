@@ -105,7 +105,7 @@ def fit(
     _require_fitting_together(files, with_pads=with_pads, with_cleaning=with_cleaning)
     mapped, _ = recordings.channel_map(map_name, trusted, trigger)
     case = recordings.one_case(scenario, expression, overrides or (), trusted)
-    stops = runs.each_file(files, lambda path: _stop(path, mapped))
+    stops = runs.each_file(files, lambda path: runs.read_stop(path, mapped))
     places = _places(breaks or ())
     result = _fit(files, stops, case, places, with_pads=with_pads, with_cleaning=with_cleaning)
     named = dict(zip(runs.stop_names(files), stops, strict=True))
@@ -149,13 +149,6 @@ def _fit(
         return fitting.fit_stop(stops[0], case.scenario, places, with_pads=with_pads)
     except fitting.FitError as error:
         raise runs.InvalidInputError(f"{', '.join(map(str, files))}: {error}") from error
-
-
-def _stop(path: Path, mapped: field_data.ChannelMap) -> field_data.RecordedStop:
-    try:
-        return field_data.stop_in(path, mapped)
-    except field_data.UnusableError as error:
-        raise formats.UnreadableError(str(error)) from error
 
 
 def _places(texts: Sequence[str]) -> list[float]:

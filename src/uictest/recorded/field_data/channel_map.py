@@ -7,7 +7,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, ValidationError
 
 from uictest.core.recording.formats import Dialect
 from uictest.core.units import recorded_spellings, recorded_unit_size
@@ -181,6 +181,18 @@ class ChannelMap(Model):
             numbers = WHEELSETS if NUMBER in name else ()
             spelled_out |= {name.replace(NUMBER, str(n)): _numbered(source, n) for n in numbers}
         return spelled_out | {name: s for name, s in self.channels.items() if NUMBER not in name}
+
+    def triggered_by(self, trigger: str | None) -> ChannelMap:
+        """Return the map with another trigger, a name or a time; None: as it says. Raises ValueError."""
+        if trigger is None:
+            return self
+        key = "trigger_time" if any(map(str.isdigit, trigger)) else "trigger"
+        stated = {**dict(self.preparation), "trigger_time": None, key: trigger}
+        try:
+            preparation = Preparation.model_validate(stated)
+        except ValidationError as error:
+            raise ValueError(f"trigger {trigger!r}: {error.errors(include_url=False)[0]['msg']}") from error
+        return self.model_copy(update={"preparation": preparation})
 
 
 def presets() -> tuple[str, ...]:
