@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 import typer
 
-from uictest.cli.app import application
+from uictest.cli.entry import application
 
 REPOSITORY = Path(__file__).parents[2]
 _CODE = re.compile(r"^```[^\n]*\n(.*?)^```|((?:^    \S[^\n]*\n)+)", re.MULTILINE | re.DOTALL)

@@ -139,7 +139,7 @@ def failed_last(
 def _newest_run(output: Path) -> Path | None:
     """Return the newest run of scenarios: `latest`, or the newest other folder if that judged recordings."""
     latest = files.latest_run(output)
-    if latest is None or not _is_of_recordings(latest):
+    if latest is None or _command(latest) != "evaluate":
         return latest
     manifests = sorted(output.glob("*/manifest.json"), key=_age, reverse=True)
     return next((file.parent for file in manifests if _command(file.parent) == "run"), None)
@@ -148,10 +148,6 @@ def _newest_run(output: Path) -> Path | None:
 def _age(manifest: Path) -> tuple[str, int]:
     """Return the key that sorts runs by their start: the second in the name, then the time of the file."""
     return manifest.parent.name.partition("-")[0], manifest.stat().st_mtime_ns
-
-
-def _is_of_recordings(run: Path) -> bool:
-    return _command(run) == "evaluate"
 
 
 def _command(run: Path) -> str:

@@ -7,6 +7,7 @@ import io
 import os
 import shutil
 import sys
+from collections.abc import Callable
 from enum import IntEnum
 from typing import TextIO
 
@@ -62,6 +63,14 @@ def data(text: str) -> bool:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return False
     return True
+
+
+def append_summary(append: Callable[[], None]) -> None:
+    """Append to the step summary of a CI service. What it sums up is written already: a failure is shown."""
+    try:
+        append()
+    except OSError as error:
+        message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
 
 
 def terminal_width(stream: TextIO) -> int | None:

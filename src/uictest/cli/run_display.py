@@ -9,7 +9,7 @@ from time import perf_counter
 
 from uictest import report, runs
 from uictest.cli.options import Format
-from uictest.cli.output import coloured, data, interactive, message
+from uictest.cli.output import append_summary, coloured, data, interactive, message
 from uictest.cli.progress import TerminalObserver
 from uictest.core import files
 from uictest.judging import evaluation, series
@@ -177,19 +177,11 @@ def publish_and_show(
     if published is None:
         message("uictest: interrupted before the first case was finished; there is nothing to report")
         return None
-    _append_step_summary(published.content)
+    append_summary(lambda: report.append_step_summary(published.content))
     _show_published(published, junit, display)
     if not display.quiet:
         _sum_up(batch, published, perf_counter() - started)
     return published
-
-
-def _append_step_summary(content: report.RunContent) -> None:
-    # The run is published already: a failure to write the summary does not undo it.
-    try:
-        report.append_step_summary(content)
-    except OSError as error:
-        message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
 
 
 def _show_published(published: runs.Published, junit: Path | None, display: Display) -> None:

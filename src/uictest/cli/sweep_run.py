@@ -14,7 +14,7 @@ from uictest import report, runs
 from uictest.analysis import summaries
 from uictest.cli.cases import malformed
 from uictest.cli.options import Format, rejected
-from uictest.cli.output import ExitCode, data, message, terminal_width
+from uictest.cli.output import ExitCode, append_summary, data, message, terminal_width
 from uictest.cli.progress import Advance, TerminalObserver, sweep_progress
 from uictest.core import files
 from uictest.plans import sweeps
@@ -209,7 +209,7 @@ def _run_and_show(run: runs.SweepRun, shown: Format, junit: Path | None, *, quie
         return ExitCode.MET
     if problem := history.refresh_index(run.folder.parent):
         message(f"uictest: {problem}")
-    _append_step_summary(finished.content)
+    append_summary(lambda: report.append_sweep_step_summary(finished.content))
     if junit is not None:
         suite = report.sweep_suite(finished.result, run.selection.plan.file)
         files.write_to(junit, report.junit_text([suite]))
@@ -217,16 +217,9 @@ def _run_and_show(run: runs.SweepRun, shown: Format, junit: Path | None, *, quie
     if shown is Format.GITHUB:
         show_annotations(finished.content)
     if not quiet:
-        _sum_up(run, finished.result, started)
+        seconds = perf_counter() - started
+        message(f"uictest: {report.sweep_tally(finished.result)} in {seconds:.1f} s; results in {run.folder}")
     return _exit_code(finished.result)
-
-
-def _append_step_summary(content: report.SweepContent) -> None:
-    # The results are written already: a failure to write the step summary does not undo them.
-    try:
-        report.append_sweep_step_summary(content)
-    except OSError as error:
-        message(f"uictest: GITHUB_STEP_SUMMARY cannot be written: {error}")
 
 
 def _report_finished_chunks(run: runs.SweepRun) -> None:
@@ -246,9 +239,3 @@ def _exit_code(result: report.SweepResult) -> ExitCode:
     if result.outcomes["error"]:
         return ExitCode.ERROR
     return ExitCode.MET if result.met == result.cases else ExitCode.MISSED
-
-
-def _sum_up(run: runs.SweepRun, result: report.SweepResult, started: float) -> None:
-    """Report on stderr the counts of the sweep and the folder of its files."""
-    seconds = perf_counter() - started
-    message(f"uictest: {report.sweep_tally(result)} in {seconds:.1f} s; results in {run.folder}")

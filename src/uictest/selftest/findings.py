@@ -4,7 +4,7 @@ import json
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
-from typing import Any, Final, Literal
+from typing import Final, Literal
 
 from uictest.core.document import Column, Document, Lines, Suite, Table, Testcase, TestcaseStatus
 from uictest.report import counted
@@ -69,16 +69,17 @@ SCHEMA: Final = "uictest/selftest/2"
 _TAGS: Final[Mapping[str, TestcaseStatus]] = {"fail": "failure", "error": "error", "skipped": "skipped"}
 
 
-def _within(finding: Finding) -> str:
-    return f"{finding.tolerance:.0e}" if finding.tolerance else "exact"
-
-
 _COLUMNS: Final[tuple[Column[Finding], ...]] = (
     Column(heading="check", text=lambda each: each.id),
     Column(heading="verdict", text=lambda each: each.status),
     Column(heading="expected", text=lambda each: _expected(each), rank=1, right=True),
     Column(heading="found", text=lambda each: _text(each, each.found), rank=1, right=True),
-    Column(heading="within", text=_within, rank=3, right=True),
+    Column(
+        heading="within",
+        text=lambda each: f"{each.tolerance:.0e}" if each.tolerance else "exact",
+        rank=3,
+        right=True,
+    ),
     Column(heading="unit", text=lambda each: each.unit, rank=3),
     Column(heading="requirement", text=lambda each: each.requirement, rank=2),
 )
@@ -110,7 +111,10 @@ def findings_json(examination: Examination) -> str:
         "kind": examination.kind,
         "status": examination.status,
         "about": dict(examination.about),
-        "checks": [_plain(each) for each in examination.findings],
+        "checks": [
+            {**asdict(each), "expected": _number(each.expected), "found": _number(each.found)}
+            for each in examination.findings
+        ],
     }
     return json.dumps(content, indent=2, allow_nan=False)
 
@@ -126,10 +130,6 @@ def _outcome(finding: Finding) -> tuple[TestcaseStatus, list[str]]:
     answers = f"expected {_expected(finding)}, found {_text(finding, finding.found)} {finding.unit}".rstrip()
     lines = [finding.reason, f"{finding.requirement}: {answers}"]
     return _TAGS.get(finding.status, "passed"), [line for line in lines if line]
-
-
-def _plain(finding: Finding) -> dict[str, Any]:
-    return {**asdict(finding), "expected": _number(finding.expected), "found": _number(finding.found)}
 
 
 def _number(value: Answer) -> Answer:

@@ -22,7 +22,8 @@ def check(
 ) -> ExitCode:
     """Validate scenario, sweep and series files and what they refer to. Every error comes with its place."""
     places = runs.scenario_paths(paths)
-    errors, counts = _scenarios([path for path in places if not _is_of_other_kind(path)], trusted or ())
+    scenarios = [path for path in places if not (runs.is_sweep(path) or runs.is_series(path))]
+    errors, counts = _scenarios(scenarios, trusted or ())
     sweep_paths, series_paths = list(runs.sweep_files(places)), list(runs.series_files(places))
     for path, load in [
         *((each, _load_sweep) for each in sweep_paths),
@@ -81,10 +82,6 @@ def _reference_problem(path: str) -> str:
     except runs.InvalidInputError as error:
         return "; ".join(error.messages)
     return ""
-
-
-def _is_of_other_kind(path: Path) -> bool:
-    return runs.is_sweep(path) or runs.is_series(path)
 
 
 def _require_fit(cases: Iterable[scenario.Case]) -> None:

@@ -10,8 +10,8 @@ from typing import Annotated, Any
 import typer
 
 from uictest.cli import options
-from uictest.cli.app import command
 from uictest.cli.commands.selftest import show_findings
+from uictest.cli.entry import command
 from uictest.cli.output import ExitCode
 from uictest.core import files
 from uictest.plans import scenario

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from uictest import runs
-from uictest.cli.app import command
+from uictest.cli.entry import command
 from uictest.cli.identify_options import (
     ActingTime,
     Base,

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from uictest import runs
-from uictest.cli.app import command
+from uictest.cli.entry import command
 from uictest.cli.options import trusted_folders
 from uictest.cli.output import ExitCode, data
 from uictest.plans import library as library_files, scenario

@@ -138,7 +138,8 @@ def list_requirements(
 
     Raises InvalidInputError.
     """
-    listed = _listed(request.file)
+    file = request.file
+    listed = None if file is None else frozenset(scenario.read_requirement_list(file))
     coverage = campaign.requirement_coverage(cases, tuple(listed or ()), of_series)
     rows = [(_status(each, listed), each) for each in coverage]
     if shown is PlainFormat.JSON:
@@ -148,10 +149,6 @@ def list_requirements(
     message(_tally([status for status, _ in rows]))
     uncovered = any(status == "uncovered" for status, _ in rows)
     return ExitCode.MISSED if request.fail_uncovered and uncovered else ExitCode.MET
-
-
-def _listed(file: Path | None) -> frozenset[str] | None:
-    return None if file is None else frozenset(scenario.read_requirement_list(file))
 
 
 def _status(requirement: campaign.CoveredRequirement, listed: frozenset[str] | None) -> Status:

@@ -114,7 +114,9 @@ def judge_recording(case: scenario.Case, stop: RecordedStop) -> tuple[CaseResult
     """
     observed = observe(stop, case.scenario)
     result = evaluate(case, observed.measures, observed.wheelset_measures, coverage=observed.coverage)
-    preparation = {**stop.choices, **_defects(stop.defects)}
+    preparation = dict(stop.choices)
+    if stop.defects:
+        preparation["defects"] = "; ".join(map(str, stop.defects))
     criteria = tuple(
         replace(verdict, definition={**verdict.definition, **preparation}) for verdict in result.criteria
     )
@@ -134,10 +136,6 @@ def _metadata(case: scenario.Case, stop: RecordedStop, observed: Observed) -> It
 def unusable_result(case: scenario.Case, defects: tuple[Defect, ...]) -> CaseResult:
     """Return the result of a record that cannot be used at all: an error that names every defect."""
     return error_result(case, "; ".join(map(str, defects)))
-
-
-def _defects(defects: tuple[Defect, ...]) -> dict[str, str]:
-    return {"defects": "; ".join(map(str, defects))} if defects else {}
 
 
 _ASSUMED = " (assumed: not stated)"

@@ -192,16 +192,14 @@ def resampled(channel: RawChannel, times: Array, raster: float) -> Array:
     slack = _SLACK * usual_interval(channel.time)
     before = np.searchsorted(channel.time, times + slack, side="right") - 1
     inside = (times >= channel.time[0] - slack) & (times <= channel.time[-1] + slack)
-    values = _held(channel, before) if channel.is_state else np.interp(times, channel.time, channel.samples)
-    on_sample = np.abs(times - channel.time[np.clip(before, 0, None)]) <= slack
-    values = np.where(on_sample, channel.samples[np.clip(before, 0, None)], values)
+    last = np.clip(before, 0, None)
+    held = channel.samples[last]
+    values = held if channel.is_state else np.interp(times, channel.time, channel.samples)
+    on_sample = np.abs(times - channel.time[last]) <= slack
+    values = np.where(on_sample, held, values)
     interval = np.clip(before, 0, len(channel.time) - 2)
     lost = gaps(channel.time, raster)[interval] & ~on_sample
     return np.where(inside & ~lost, values, np.nan)
-
-
-def _held(channel: RawChannel, before: NDArray[np.intp]) -> Array:
-    return np.asarray(channel.samples[np.clip(before, 0, None)])
 
 
 def integrated(speed: RawChannel, raster: float) -> RawChannel:

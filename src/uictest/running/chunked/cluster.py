@@ -66,11 +66,8 @@ def _with_cluster_errors(address: str, results: Iterator[tuple[int, bytes]]) -> 
     try:
         yield from results
     except _errors() as error:
-        raise ClusterError(f"{address}: {_summary_of(error)}") from error
-
-
-def _summary_of(error: Exception) -> str:
-    return f"{type(error).__name__}: {error}".partition("\n")[0]
+        summary = f"{type(error).__name__}: {error}".partition("\n")[0]
+        raise ClusterError(f"{address}: {summary}") from error
 
 
 def _silence_distributed() -> None:
@@ -143,15 +140,13 @@ def _run_chunk(token: str, program: str, plan: Plan, indices: NDArray[np.int64])
 def _require_programs(plan: Plan) -> None:
     for program in programs_of(plan):
         path = Path(program.location)
-        if program.sha256 and not (path.is_file() and _sha256(path) == program.sha256):
+        if program.sha256 and not (
+            path.is_file() and hashlib.sha256(path.read_bytes()).hexdigest() == program.sha256
+        ):
             raise RuntimeError(
                 f"the worker does not have {path} as it is here: a controller from outside must lie"
                 " at the same path on every machine of the cluster"
             )
-
-
-def _sha256(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 _WORKERS: Final = rig.Workers()

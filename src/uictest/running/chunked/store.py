@@ -80,7 +80,8 @@ def manifest_differences(
         if first == second or name in ("file", "schema", "kind"):
             continue
         if isinstance(first, Mapping) and isinstance(second, Mapping):
-            yield f"{name}: {', '.join(_changed(first, second))}"
+            changed = (key for key in dict.fromkeys((*first, *second)) if first.get(key) != second.get(key))
+            yield f"{name}: {', '.join(changed)}"
         elif name in _DIGESTS:
             yield _DIGESTS[name]
         else:
@@ -94,10 +95,6 @@ def _decisive(manifest: Mapping[str, Any], name: str) -> Any:
     if name != "inputs" or "cases_sha256" not in manifest or not isinstance(entry, Mapping):
         return entry
     return {key: digest for key, digest in entry.items() if key != Path(str(manifest.get("file"))).name}
-
-
-def _changed(one: Mapping[str, Any], other: Mapping[str, Any]) -> list[str]:
-    return [key for key in dict.fromkeys((*one, *other)) if one.get(key) != other.get(key)]
 
 
 def _words(value: Any) -> str:

@@ -52,7 +52,7 @@ def measure_columns() -> list[str]:
 
 def wheelset_columns(name: str) -> tuple[str, ...]:
     """Return the columns of a measure of wheelsets, leading wheelset first."""
-    return tuple(f"{name}_{k}" for k in _numbers())
+    return tuple(f"{name}_{k}" for k in range(1, WHEELSETS + 1))
 
 
 def row_schema(plan: Plan) -> pa.Schema:
@@ -128,10 +128,6 @@ def repeated_cases(table: pa.Table) -> int:
         return 0
     steps = table.column(TIME_STEP_COLUMN).to_numpy()
     return int(np.count_nonzero(steps == REGULAR_STEP / SIZES["ms"]))
-
-
-def _numbers() -> range:
-    return range(1, WHEELSETS + 1)
 
 
 SURVEY_TABLE = "survey_step.csv"
