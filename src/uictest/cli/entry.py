@@ -14,7 +14,7 @@ import typer
 from typer.core import TyperGroup
 
 from uictest import __version__, runs
-from uictest.cli.options import TRUSTED_FOLDERS, CommandLine
+from uictest.cli.options import TRUSTED_FOLDERS, CommandLine, option
 from uictest.cli.output import ExitCode, data, lost_data, message, use_safe_encoding
 from uictest.plans import scenario
 
@@ -112,7 +112,7 @@ def _main(
     context: typer.Context,
     version: Annotated[
         bool,
-        typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version and exit."),
+        option("--version", "Show the version and exit.", callback=_show_version, is_eager=True),
     ] = False,
 ) -> None:
     """Batch test runner for a simulated railway brake rig: scenarios in, verdicts and reports out."""

@@ -4,76 +4,56 @@ import math
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from uictest import runs
+from uictest.cli.options import argument, option
 
-Recording = Annotated[
-    Path, typer.Argument(metavar="RECORDING", help="Parquet, CSV or another measurement file.")
-]
+Recording = Annotated[Path, argument("RECORDING", "Parquet, CSV or another measurement file.")]
 Output = Annotated[
     Path | None,
-    typer.Option("-o", "--output", metavar="FILE", help="Compensation file to write [default: none]."),
+    option("-o --output FILE", "Compensation file to write [default: none]."),
 ]
 Base = Annotated[
     str,
-    typer.Option("--base", metavar="NAME|FILE", help="Compensation whose other numbers are kept."),
+    option("--base NAME|FILE", "Compensation whose other numbers are kept."),
 ]
 Name = Annotated[
     str,
-    typer.Option(
-        "--name",
-        metavar="NAME",
-        help="Name of the compensation in FILE [default: from the file name of RECORDING].",
+    option(
+        "--name NAME",
+        "Name of the compensation in FILE [default: from the file name of RECORDING].",
         show_default=False,
     ),
 ]
 HeldOut = Annotated[
-    float, typer.Option("--held-out", min=0.05, max=0.5, help="Share of the record held out from the fit.")
+    float, option("--held-out", "Share of the record held out from the fit.", min=0.05, max=0.5)
 ]
-PressureChannel = Annotated[
-    str, typer.Option("--pressure", metavar="CHANNEL", help="Channel of the brake cylinder pressure.")
-]
-ForceChannel = Annotated[
-    str, typer.Option("--force", metavar="CHANNEL", help="Channel of the clamping force.")
-]
+PressureChannel = Annotated[str, option("--pressure CHANNEL", "Channel of the brake cylinder pressure.")]
+ForceChannel = Annotated[str, option("--force CHANNEL", "Channel of the clamping force.")]
 CommandChannel = Annotated[
     str,
-    typer.Option(
-        "--command", metavar="CHANNEL", help="Channel of the valve command (0 fill, 1 hold, 2 vent)."
-    ),
+    option("--command CHANNEL", "Channel of the valve command (0 fill, 1 hold, 2 vent)."),
 ]
 Intervals = Annotated[
     list[str] | None,
-    typer.Option(
-        "--wsp",
-        metavar="FROM..TO",
-        help="Time in s in which the WSP acts, instead of --command. May be repeated.",
-    ),
+    option("--wsp FROM..TO", "Time in s in which the WSP acts, instead of --command. May be repeated."),
 ]
 ActingTime = Annotated[
     float,
-    typer.Option(
-        "--acting-time", min=0.0, max=60.0, help="Filling time in s after which the WSP no longer acts."
-    ),
+    option("--acting-time", "Filling time in s after which the WSP no longer acts.", min=0.0, max=60.0),
 ]
 TransitionTime = Annotated[
     float,
-    typer.Option(
-        "--transition-time", min=0.0, max=10.0, help="Time in s from one pair of lines to the other."
-    ),
+    option("--transition-time", "Time in s from one pair of lines to the other.", min=0.0, max=10.0),
 ]
-TankChannel = Annotated[str, typer.Option("--input", metavar="CHANNEL", help="Channel of the tank pressure.")]
+TankChannel = Annotated[str, option("--input CHANNEL", "Channel of the tank pressure.")]
 CylinderChannel = Annotated[
     str,
-    typer.Option("--output-channel", metavar="CHANNEL", help="Channel of the brake cylinder pressure."),
+    option("--output-channel CHANNEL", "Channel of the brake cylinder pressure."),
 ]
-LineChannel = Annotated[
-    str, typer.Option("--line", metavar="CHANNEL", help="Channel of the brake line's pressure.")
-]
+LineChannel = Annotated[str, option("--line CHANNEL", "Channel of the brake line's pressure.")]
 RigOverrides = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="Set a key of the rig of the record. May be repeated."),
+    option("--set KEY=VALUE", "Set a key of the rig of the record. May be repeated."),
 ]
 
 

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated, Any, Final
 
 import typer
 
@@ -46,6 +46,18 @@ class Recorded(StrEnum):
     NONE = "none"
 
 
+def option(spelling: str, meaning: str, **settings: Any) -> Any:
+    """Return an option by how `--help` spells it, such as `-o --output DIR`, and what it does."""
+    words = spelling.split()
+    names = [word for word in words if word.startswith("-")]
+    return typer.Option(*names, metavar=" ".join(words[len(names) :]) or None, help=meaning, **settings)
+
+
+def argument(spelling: str, meaning: str, **settings: Any) -> Any:
+    """Return an argument by how `--help` spells it, such as `FILE...`, and what it is."""
+    return typer.Argument(metavar=spelling, help=meaning, **settings)
+
+
 def _jobs(text: str) -> int:
     if text == "auto":
         return runs.available_processors()
@@ -56,55 +68,47 @@ def _jobs(text: str) -> int:
 
 Paths = Annotated[
     list[Path] | None,
-    typer.Argument(
-        metavar="[PATH]...", help="Scenario files or folders [default: scenarios].", show_default=False
-    ),
+    argument("[PATH]...", "Scenario files or folders [default: scenarios].", show_default=False),
 ]
 Expression = Annotated[
     str | None,
-    typer.Option(
-        "-k",
-        metavar="EXPR",
-        help="Select cases whose id, file name or tag contains EXPR; combine words with and, or, not, ( ).",
+    option(
+        "-k EXPR",
+        "Select cases whose id, file name or tag contains EXPR; combine words with and, or, not, ( ).",
     ),
 ]
 Draw = Annotated[
     str | None,
-    typer.Option(
-        "--draw",
-        metavar="EXPR",
-        help="Draw the cases that match in index.html, as with -k, up to 60 of them; then others, up to 18.",
+    option(
+        "--draw EXPR",
+        "Draw the cases that match in index.html, as with -k, up to 60 of them; then others, up to 18.",
     ),
 ]
 Tag = Annotated[
     str | None,
-    typer.Option(
-        "-m", metavar="TAG", help="Select cases with this tag; combine tags with and, or, not, ( )."
-    ),
+    option("-m TAG", "Select cases with this tag; combine tags with and, or, not, ( )."),
 ]
 Overrides = Annotated[
     list[str] | None,
-    typer.Option(
-        "--set",
-        metavar="KEY=VALUE",
-        help="Set a key in every scenario; a list (a,b) or range(a,b,step) sweeps it. May be repeated.",
+    option(
+        "--set KEY=VALUE",
+        "Set a key in every scenario; a list (a,b) or range(a,b,step) sweeps it. May be repeated.",
     ),
 ]
 Seed = Annotated[
-    int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="Seed of the sensor noise in every case.")
+    int | None, option("--seed", "Seed of the sensor noise in every case.", min=0, max=2**32 - 1)
 ]
 InProcess = Annotated[
     bool,
-    typer.Option(
+    option(
         "--in-process",
-        help="Run controllers from outside in this process: faster, but a crash or a hang ends everything.",
+        "Run controllers from outside in this process: faster, but a crash or a hang ends everything.",
     ),
 ]
 RealTime = Annotated[
     bool,
-    typer.Option(
-        "--real-time",
-        help="Pace controllers at a socket by the clock; a missed deadline makes a stop invalid.",
+    option(
+        "--real-time", "Pace controllers at a socket by the clock; a missed deadline makes a stop invalid."
     ),
 ]
 TRUSTED_FOLDERS: Final = "UICTEST_TRUST"
@@ -122,94 +126,80 @@ def trusted_folders(named: list[Path] | None = None) -> list[Path]:
 
 Trusted = Annotated[
     list[Path] | None,
-    typer.Option(
-        "--trust",
-        metavar="DIR",
+    option(
+        "--trust DIR",
+        "Allow references into this folder, besides the folders of the given files, the working"
+        f" folder and those of {TRUSTED_FOLDERS}. May be repeated.",
         exists=True,
         file_okay=False,
         callback=trusted_folders,
-        help="Allow references into this folder, besides the folders of the given files, the working"
-        f" folder and those of {TRUSTED_FOLDERS}. May be repeated.",
     ),
 ]
 Validated = Annotated[
     Path | None,
-    typer.Option(
-        "--validated",
-        metavar="FILE",
-        help="Flag the cases outside of what was validated: validation.json of 'uictest validate'; in place"
+    option(
+        "--validated FILE",
+        "Flag the cases outside of what was validated: validation.json of 'uictest validate'; in place"
         " of what scenarios name.",
     ),
 ]
 Strict = Annotated[
     bool,
-    typer.Option(
+    option(
         "--strict",
-        help="Exit 1 also where a criterion that applies is inconclusive, or a verdict turns within the range"
+        "Exit 1 also where a criterion that applies is inconclusive, or a verdict turns within the range"
         " of a definition.",
     ),
 ]
-Verbose = Annotated[bool, typer.Option("-v", "--verbose", help="More detail.", show_default=False)]
-Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="Show only cases that are not as expected.")]
+Verbose = Annotated[bool, option("-v --verbose", "More detail.", show_default=False)]
+Quiet = Annotated[bool, option("-q --quiet", "Show only cases that are not as expected.")]
 Output = Annotated[
     Path,
-    typer.Option("-o", "--output", metavar="DIR", help="Folder for reports; each run gets a folder in it."),
+    option("-o --output DIR", "Folder for reports; each run gets a folder in it."),
 ]
 KeptRuns = Annotated[
     int | None,
-    typer.Option(
-        "--keep",
-        metavar="N",
-        min=1,
-        help="Afterwards remove older folders of this command beyond the N newest; names each.",
+    option(
+        "--keep N", "Afterwards remove older folders of this command beyond the N newest; names each.", min=1
     ),
 ]
-ExitFirst = Annotated[bool, typer.Option("-x", help="Stop at the first case that is not as expected.")]
+ExitFirst = Annotated[bool, option("-x", "Stop at the first case that is not as expected.")]
 MaxFail = Annotated[
     int | None,
-    typer.Option("--maxfail", metavar="N", min=1, help="Stop after N cases that are not as expected."),
+    option("--maxfail N", "Stop after N cases that are not as expected.", min=1),
 ]
-DryRun = Annotated[bool, typer.Option("--dry-run", help="List the selected cases without running them.")]
-JUnitFile = Annotated[
-    Path | None, typer.Option("--junitxml", metavar="FILE", help="Also write the JUnit XML to FILE.")
-]
-Jobs = Annotated[int, typer.Option("-n", "--jobs", metavar="N|auto", parser=_jobs, help="Number of threads.")]
+DryRun = Annotated[bool, option("--dry-run", "List the selected cases without running them.")]
+JUnitFile = Annotated[Path | None, option("--junitxml FILE", "Also write the JUnit XML to FILE.")]
+Jobs = Annotated[int, option("-n --jobs N|auto", "Number of threads.", parser=_jobs)]
 RunFormat = Annotated[
     Format,
-    typer.Option(
+    option(
         "--format",
-        help="Output on stdout: text (a table or lines), json (results.json) or github (lines, annotations).",
+        "Output on stdout: text (a table or lines), json (results.json) or github (lines, annotations).",
     ),
 ]
 CheckFormat = Annotated[
     Format,
-    typer.Option("--format", help="Output on stdout: text (none), json (the errors), github (annotations)."),
+    option("--format", "Output on stdout: text (none), json (the errors), github (annotations)."),
 ]
-ListFormat = Annotated[PlainFormat, typer.Option("--format", help="Output on stdout: text or json.")]
+ListFormat = Annotated[PlainFormat, option("--format", "Output on stdout: text or json.")]
 RecordingChoice = Annotated[
     Recorded,
-    typer.Option("--record", help="Keep recordings of all cases, those not as expected, or none."),
+    option("--record", "Keep recordings of all cases, those not as expected, or none."),
 ]
 RecordRate = Annotated[
     float,
-    typer.Option(
-        "--record-rate", metavar="HZ", min=1.0, max=100e3, help="Samples per second of a recording."
-    ),
+    option("--record-rate HZ", "Samples per second of a recording.", min=1.0, max=100e3),
 ]
 Reports = Annotated[
     str,
-    typer.Option(
-        "--report",
-        metavar="FORMATS",
-        help=f"Reports to write, joined by commas: {', '.join(report.format_names())}.",
-    ),
+    option("--report FORMATS", f"Reports to write, joined by commas: {', '.join(report.format_names())}."),
 ]
 ToleranceTexts = Annotated[
     list[str] | None,
-    typer.Option(
-        "--tolerance",
-        metavar="[NAME=]VALUE",
-        help="Allowed difference: 0.5 (absolute), 1% (of the range); NAME may contain *. May be repeated.",
+    option(
+        "--tolerance [NAME=]VALUE",
+        "Allowed difference: 0.5 (absolute), 1% (of the range); NAME may contain *. May be repeated.",
     ),
 ]
 

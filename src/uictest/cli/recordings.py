@@ -7,28 +7,23 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from uictest import runs
 from uictest.cli.cases import malformed
-from uictest.cli.options import rejected
+from uictest.cli.options import argument, option, rejected
 from uictest.plans import scenario
 from uictest.recorded import field_data
 from uictest.rig import bench
 
-Files = Annotated[list[Path], typer.Argument(metavar="FILE...", help="Recordings.", show_default=False)]
+Files = Annotated[list[Path], argument("FILE...", "Recordings.", show_default=False)]
 MapName = Annotated[
     str,
-    typer.Option(
-        "--map", metavar="NAME|FILE", help="Channel map: a preset (uictest, common-names) or a YAML file."
-    ),
+    option("--map NAME|FILE", "Channel map: a preset (uictest, common-names) or a YAML file."),
 ]
 Trigger = Annotated[
     str | None,
-    typer.Option(
-        "--trigger",
-        metavar="HOW|TIME",
-        help="Brake command at: auto, stated, start, command, demand, pressure, or a time such as '12.3 s'.",
+    option(
+        "--trigger HOW|TIME",
+        "Brake command at: auto, stated, start, command, demand, pressure, or a time such as '12.3 s'.",
     ),
 ]
 

@@ -7,10 +7,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from uictest import runs
-from uictest.cli.options import trusted_folders
+from uictest.cli.options import argument, option, trusted_folders
 from uictest.cli.output import ExitCode, data, message
 from uictest.cli.progress import compilation_shown
 from uictest.core import recording
@@ -24,34 +22,28 @@ _FORMATS = {".parquet": "parquet", ".csv": "csv"}
 
 Recipe = Annotated[
     str | None,
-    typer.Argument(
-        metavar="[RECIPE]",
-        help="Recipe of the library, in 'uictest library list', or a .yaml file.",
-        show_default=False,
+    argument(
+        "[RECIPE]", "Recipe of the library, in 'uictest library list', or a .yaml file.", show_default=False
     ),
 ]
 TraceFile = Annotated[
     Path | None,
-    typer.Option("--trace", metavar="FILE", help="Recording whose pressure is demanded, instead of RECIPE."),
+    option("--trace FILE", "Recording whose pressure is demanded, instead of RECIPE."),
 ]
-PressureChannel = Annotated[
-    str, typer.Option("--pressure", metavar="CHANNEL", help="Channel of the demanded pressure in --trace.")
-]
+PressureChannel = Annotated[str, option("--pressure CHANNEL", "Channel of the demanded pressure in --trace.")]
 CommandChannel = Annotated[
     str | None,
-    typer.Option("--command", metavar="CHANNEL", help="Channel of the valve command in --trace."),
+    option("--command CHANNEL", "Channel of the valve command in --trace."),
 ]
 RigOverrides = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="KEY=VALUE", help="Set a key of the rig. May be repeated."),
+    option("--set KEY=VALUE", "Set a key of the rig. May be repeated."),
 ]
 Output = Annotated[
     Path | None,
-    typer.Option(
-        "-o",
-        "--output",
-        metavar="FILE",
-        help="Recording to write, .parquet or .csv [default: RECIPE.parquet].",
+    option(
+        "-o --output FILE",
+        "Recording to write, .parquet or .csv [default: RECIPE.parquet].",
         show_default=False,
     ),
 ]

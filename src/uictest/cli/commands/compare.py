@@ -11,36 +11,37 @@ import typer
 
 from uictest import report, runs
 from uictest.analysis import comparison
-from uictest.cli.options import ListFormat, PlainFormat, ToleranceTexts, Verbose, tolerances_of
+from uictest.cli.options import (
+    ListFormat,
+    PlainFormat,
+    ToleranceTexts,
+    Verbose,
+    argument,
+    option,
+    tolerances_of,
+)
 from uictest.cli.output import ExitCode, data, message, terminal_width
 from uictest.core import files
 
 
 def compare(
-    first: Annotated[Path, typer.Argument(metavar="A", help="Folder of a run, or a recording.")],
-    second: Annotated[
-        Path | None, typer.Argument(metavar="B", help="Another run or recording.", show_default=False)
-    ] = None,
+    first: Annotated[Path, argument("A", "Folder of a run, or a recording.")],
+    second: Annotated[Path | None, argument("B", "Another run or recording.", show_default=False)] = None,
     tolerance: ToleranceTexts = None,
     channels: Annotated[
         list[str] | None,
-        typer.Option(
-            "--channel",
-            metavar="NAME",
-            help="Draw this channel on the page; NAME may contain *. May be repeated.",
-        ),
+        option("--channel NAME", "Draw this channel on the page; NAME may contain *. May be repeated."),
     ] = None,
     over: Annotated[
         list[str] | None,
-        typer.Option(
-            "--over",
-            metavar="KEY",
-            help="Compare the variants of run A that differ in KEY, such as controller. May be repeated.",
+        option(
+            "--over KEY",
+            "Compare the variants of run A that differ in KEY, such as controller. May be repeated.",
         ),
     ] = None,
     page: Annotated[
         Path | None,
-        typer.Option("--html", metavar="FILE", help="Also write a page, with overlay plots of A and B."),
+        option("--html FILE", "Also write a page, with overlay plots of A and B."),
     ] = None,
     shown: ListFormat = PlainFormat.TEXT,
     verbose: Verbose = False,

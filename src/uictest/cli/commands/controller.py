@@ -12,6 +12,7 @@ import typer
 from uictest.cli import options
 from uictest.cli.commands.selftest import show_findings
 from uictest.cli.entry import command
+from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode
 from uictest.core import files
 from uictest.plans import scenario
@@ -22,29 +23,23 @@ controller = typer.Typer(rich_markup_mode=None, help="Check WSP controllers with
 
 Reference = Annotated[
     str,
-    typer.Argument(
-        metavar="FILE",
-        help="Part or scenario (.yaml), program (.py, .so, .dll, .fmu), tcp://HOST:PORT, or a name.",
-    ),
+    argument("FILE", "Part or scenario (.yaml), program (.py, .so, .dll, .fmu), tcp://HOST:PORT, or a name."),
 ]
 ClassName = Annotated[
     str,
-    typer.Option("--class", metavar="NAME", help="Class of a Python file [default: the one with a step]."),
+    option("--class NAME", "Class of a Python file [default: the one with a step]."),
 ]
 Settings = Annotated[
     list[str] | None,
-    typer.Option(
-        "--set", metavar="NAME=VALUE", help="Set a parameter of a controller from outside. May be repeated."
-    ),
+    option("--set NAME=VALUE", "Set a parameter of a controller from outside. May be repeated."),
 ]
 TimeLimit = Annotated[
     float | None,
-    typer.Option(
-        "--time-limit",
-        metavar="SECONDS",
+    option(
+        "--time-limit SECONDS",
+        "Longest time for one answer [default: that of the controller, 5 s].",
         min=0.001,
         max=600.0,
-        help="Longest time for one answer [default: that of the controller, 5 s].",
     ),
 ]
 
@@ -59,9 +54,7 @@ def check(
     junit: options.JUnitFile = None,
     page: Annotated[
         Path | None,
-        typer.Option(
-            "--html", metavar="FILE", help="Also write a page, with plots of the situations it misses."
-        ),
+        option("--html FILE", "Also write a page, with plots of the situations it misses."),
     ] = None,
     shown: options.ListFormat = options.PlainFormat.TEXT,
 ) -> ExitCode:

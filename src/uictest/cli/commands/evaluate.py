@@ -11,18 +11,17 @@ import typer
 from uictest import report, runs
 from uictest.cli import options, recordings, run_display
 from uictest.cli.earlier_runs import keep_newest, named_paths
+from uictest.cli.options import option
 from uictest.cli.output import ExitCode, data, message, of_run
 from uictest.core import recording
 from uictest.core.recording import formats
 from uictest.recorded import field_data
 from uictest.running import campaign
 
-Listing = Annotated[
-    bool, typer.Option("--list", help="List the channels of the files and the channel map that fits.")
-]
+Listing = Annotated[bool, option("--list", "List the channels of the files and the channel map that fits.")]
 ScenarioFile = Annotated[
     Path | None,
-    typer.Option("--scenario", metavar="FILE", help="Scenario with the test conditions and the criteria."),
+    option("--scenario FILE", "Scenario with the test conditions and the criteria."),
 ]
 
 

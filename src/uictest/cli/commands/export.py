@@ -10,6 +10,7 @@ from typing import Annotated, Final
 import typer
 
 from uictest import __version__, runs
+from uictest.cli.options import option
 from uictest.cli.output import ExitCode, data
 from uictest.cli.recordings import Files
 from uictest.core import recording
@@ -24,23 +25,17 @@ def export(
     files: Files,
     formats: Annotated[
         list[str] | None,
-        typer.Option(
-            "--to",
-            metavar="FORMAT",
-            help="Formats, joined by commas: mdf (or mf4), tdms, mat, csv, parquet."
+        option(
+            "--to FORMAT",
+            "Formats, joined by commas: mdf (or mf4), tdms, mat, csv, parquet."
             " Not needed where -o names a file.",
         ),
     ] = None,
     output: Annotated[
         Path,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="DIR|FILE",
-            help="Folder for the files, or a file whose suffix is a format.",
-        ),
+        option("-o --output DIR|FILE", "Folder for the files, or a file whose suffix is a format."),
     ] = Path(),
-    force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.")] = False,
+    force: Annotated[bool, option("--force", "Overwrite existing files.")] = False,
 ) -> ExitCode:
     """Write recordings as MDF 4.10, TDMS, MAT 5, CSV or Parquet. Prints the names of the files."""
     targets = _targets(files, formats or [], output)

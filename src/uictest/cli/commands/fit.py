@@ -13,6 +13,7 @@ import typer
 
 from uictest import controllers, report, rig, runs
 from uictest.cli import options, recordings
+from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode, data, message
 from uictest.cli.progress import compilation_shown
 from uictest.core import files
@@ -31,28 +32,22 @@ _CONFIDENCE_OF_CLEANING = (
 
 RecordedStopFiles = Annotated[
     list[Path],
-    typer.Argument(
-        metavar="FILE...", help="Recording of the stop; several with --cleaning.", show_default=False
-    ),
+    argument("FILE...", "Recording of the stop; several with --cleaning.", show_default=False),
 ]
 ScenarioFile = Annotated[
     Path,
-    typer.Option("--scenario", metavar="FILE", help="Scenario to start from: vehicle, brake, rail."),
+    option("--scenario FILE", "Scenario to start from: vehicle, brake, rail."),
 ]
 Breaks = Annotated[
     list[str] | None,
-    typer.Option(
-        "--break", metavar="PLACE", help="Where the friction changes, e.g. '100 m'. May be repeated."
-    ),
+    option("--break PLACE", "Where the friction changes, e.g. '100 m'. May be repeated."),
 ]
-WithPads = Annotated[bool, typer.Option("--pads", help="Also fit the friction of the brake pads.")]
+WithPads = Annotated[bool, option("--pads", "Also fit the friction of the brake pads.")]
 WithCleaning = Annotated[
     bool,
-    typer.Option("--cleaning", help="Also fit how sliding cleans the rail, to all recordings together."),
+    option("--cleaning", "Also fit how sliding cleans the rail, to all recordings together."),
 ]
-Output = Annotated[
-    Path, typer.Option("-o", "--output", metavar="DIR", help="Folder for fits; each fit gets a folder in it.")
-]
+Output = Annotated[Path, option("-o --output DIR", "Folder for fits; each fit gets a folder in it.")]
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,7 @@ import typer
 
 from uictest import report, runs
 from uictest.cli.commands.schema import schema_text
+from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode, message
 from uictest.core import files
 from uictest.plans import library, templates
@@ -44,21 +45,19 @@ CONTROLLER = "controller"
 
 What = Annotated[
     Path,
-    typer.Argument(
-        metavar="[DIR | controller]",
-        help="Folder for scenarios/ and schema/; or the word controller, with --python or --c.",
+    argument(
+        "[DIR | controller]",
+        "Folder for scenarios/ and schema/; or the word controller, with --python or --c.",
     ),
 ]
 PythonFolder = Annotated[
     Path | None,
-    typer.Option("--python", metavar="DIR", help="Write a first WSP controller in Python to DIR."),
+    option("--python DIR", "Write a first WSP controller in Python to DIR."),
 ]
 Shipped = Annotated[
-    bool, typer.Option("--scenarios", help="Copy the scenarios, sweeps and series that ship with uictest.")
+    bool, option("--scenarios", "Copy the scenarios, sweeps and series that ship with uictest.")
 ]
-CFolder = Annotated[
-    Path | None, typer.Option("--c", metavar="DIR", help="Write a first WSP controller in C to DIR.")
-]
+CFolder = Annotated[Path | None, option("--c DIR", "Write a first WSP controller in C to DIR.")]
 
 
 def init(

@@ -10,7 +10,7 @@ import typer
 
 from uictest import runs
 from uictest.cli.entry import command
-from uictest.cli.options import trusted_folders
+from uictest.cli.options import argument, trusted_folders
 from uictest.cli.output import ExitCode, data
 from uictest.plans import library as library_files, scenario
 from uictest.plans.scenario import yaml
@@ -35,7 +35,7 @@ def list_parts() -> ExitCode:
 def show_part(
     reference: Annotated[
         str,
-        typer.Argument(metavar="PART", help="Part of the library (vehicles/intercity-180), or its file."),
+        argument("PART", "Part of the library (vehicles/intercity-180), or its file."),
     ],
 ) -> ExitCode:
     """Show every number of a part with unit, mark (stated, published, identified or chosen) and source.

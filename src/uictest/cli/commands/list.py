@@ -22,7 +22,17 @@ from uictest.cli.cases import (
     series_json,
     series_lines,
 )
-from uictest.cli.options import Expression, ListFormat, Overrides, Paths, PlainFormat, Tag, Trusted, Verbose
+from uictest.cli.options import (
+    Expression,
+    ListFormat,
+    Overrides,
+    Paths,
+    PlainFormat,
+    Tag,
+    Trusted,
+    Verbose,
+    option,
+)
 from uictest.cli.output import ExitCode, data, message, terminal_width
 from uictest.core.document import Column, Table
 from uictest.plans import scenario, series, sweeps
@@ -38,19 +48,18 @@ def list_cases(
     trusted: Trusted = None,
     requirements: Annotated[
         bool,
-        typer.Option("--requirements", help="List requirements and what verifies them instead of cases."),
+        option("--requirements", "List requirements and what verifies them instead of cases."),
     ] = False,
     requirement_list: Annotated[
         Path | None,
-        typer.Option(
-            "--requirement-list",
-            metavar="FILE",
-            help="All requirements (text, CSV or YAML): with --requirements, shows those not covered, too.",
+        option(
+            "--requirement-list FILE",
+            "All requirements (text, CSV or YAML): with --requirements, shows those not covered, too.",
         ),
     ] = None,
     fail_uncovered: Annotated[
         bool,
-        typer.Option("--fail-uncovered", help="With --requirements: exit with 1 if one is not covered."),
+        option("--fail-uncovered", "With --requirements: exit with 1 if one is not covered."),
     ] = False,
     shown: ListFormat = PlainFormat.TEXT,
     verbose: Verbose = False,

@@ -8,9 +8,8 @@ import webbrowser
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from uictest import report, runs
+from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode, data, message
 from uictest.plans.scenario import yaml
 from uictest.runs import history
@@ -19,14 +18,14 @@ _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
 
 Place = Annotated[
     str | None,
-    typer.Argument(
-        metavar="[RUN|FOLDER]",
-        help="A run, by its name or folder, or a folder of runs [default: the folder of -o].",
+    argument(
+        "[RUN|FOLDER]",
+        "A run, by its name or folder, or a folder of runs [default: the folder of -o].",
         show_default=False,
     ),
 ]
-Output = Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder of the runs.")]
-Last = Annotated[bool, typer.Option("--last", help="Open the page of the newest run.")]
+Output = Annotated[Path, option("-o --output DIR", "Folder of the runs.")]
+Last = Annotated[bool, option("--last", "Open the page of the newest run.")]
 
 
 def open_page(

@@ -11,27 +11,24 @@ import typer
 
 from uictest import report as reports, runs
 from uictest.cli.cases import malformed
-from uictest.cli.options import Draw, report_formats
+from uictest.cli.options import Draw, argument, option, report_formats
 from uictest.cli.output import ExitCode, data
 from uictest.core import files
 
 
 def report(
-    run: Annotated[
-        Path, typer.Argument(metavar="DIR", help="Folder of a finished run or sweep, e.g. reports/latest.")
-    ],
+    run: Annotated[Path, argument("DIR", "Folder of a finished run or sweep, e.g. reports/latest.")],
     formats: Annotated[
         str,
-        typer.Option(
-            "--format",
-            metavar="FORMATS",
-            help=f"Formats, joined by commas: {', '.join(reports.format_names())}; junit for runs only.",
+        option(
+            "--format FORMATS",
+            f"Formats, joined by commas: {', '.join(reports.format_names())}; junit for runs only.",
         ),
     ] = "xlsx",
     draw: Draw = None,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="DIR", help="Folder for the files [default: DIR]."),
+        option("-o --output DIR", "Folder for the files [default: DIR]."),
     ] = None,
 ) -> ExitCode:
     """Write a finished run or sweep in more formats. Prints the names of the files.

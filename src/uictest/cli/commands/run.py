@@ -19,38 +19,28 @@ from uictest.cli.cases import (
     series_json,
     series_lines,
 )
+from uictest.cli.options import option
 from uictest.cli.output import ExitCode, data, message, of_run, worst
 from uictest.judging import evaluation
 from uictest.plans import scenario, series
 from uictest.running import campaign
 
-LastFailed = Annotated[
-    bool, typer.Option("--lf", help="Select the cases that were not as expected in the newest run.")
-]
+LastFailed = Annotated[bool, option("--lf", "Select the cases that were not as expected in the newest run.")]
 BaselineFolder = Annotated[
     Path | None,
-    typer.Option(
-        "--baseline",
-        metavar="DIR",
-        help="Compare with the baseline in DIR; exit 1 if a measure is out of tolerance.",
-    ),
+    option("--baseline DIR", "Compare with the baseline in DIR; exit 1 if a measure is out of tolerance."),
 ]
-Accept = Annotated[
-    bool, typer.Option("--accept", help="Make the results of the selected cases the new baseline.")
-]
+Accept = Annotated[bool, option("--accept", "Make the results of the selected cases the new baseline.")]
 Repeat = Annotated[
     int | None,
-    typer.Option(
-        "--repeat",
-        metavar="N",
+    option(
+        "--repeat N",
+        "Run the stop of every case N times, under its seed and those that follow it.",
         min=1,
         max=1000,
-        help="Run the stop of every case N times, under its seed and those that follow it.",
     ),
 ]
-Durations = Annotated[
-    int | None, typer.Option("--durations", metavar="N", min=0, help="List the N slowest cases; 0 lists all.")
-]
+Durations = Annotated[int | None, option("--durations N", "List the N slowest cases; 0 lists all.", min=0)]
 
 
 def run(

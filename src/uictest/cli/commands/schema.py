@@ -7,8 +7,7 @@ from collections.abc import Callable
 from enum import StrEnum
 from typing import Annotated, Any
 
-import typer
-
+from uictest.cli.options import argument
 from uictest.cli.output import ExitCode, data
 from uictest.plans import scenario, series
 from uictest.recorded import field_data
@@ -36,9 +35,9 @@ class SchemaKind(StrEnum):
 
 
 def schema(
-    kind: Annotated[
-        SchemaKind, typer.Argument(metavar="[KIND]", help="Kind of file: what `schema: uictest/KIND/1` says.")
-    ] = (SchemaKind.SCENARIO),
+    kind: Annotated[SchemaKind, argument("[KIND]", "Kind of file: what `schema: uictest/KIND/1` says.")] = (
+        SchemaKind.SCENARIO
+    ),
 ) -> ExitCode:
     """Print the JSON Schema (draft-07) of a kind of file, with which an editor completes and checks it."""
     data(schema_text(kind).rstrip("\n"))

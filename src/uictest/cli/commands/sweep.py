@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from uictest import report, runs
 from uictest.cli import sweep_run
 from uictest.cli.options import (
@@ -23,79 +21,66 @@ from uictest.cli.options import (
     Seed,
     Trusted,
     Validated,
+    argument,
     junit_file,
+    option,
     report_formats,
 )
 from uictest.cli.output import ExitCode, message
 from uictest.plans import sweeps
 from uictest.running import chunked
 
-SweepFile = Annotated[Path, typer.Argument(metavar="FILE", help="Sweep file (*.sweep.yaml).")]
+SweepFile = Annotated[Path, argument("FILE", "Sweep file (*.sweep.yaml).")]
 Frontier = Annotated[
     str | None,
-    typer.Option(
-        "--frontier",
-        metavar="KEY",
-        help="Find where the verdict flips along KEY, between its values in the sweep.",
-    ),
+    option("--frontier KEY", "Find where the verdict flips along KEY, between its values in the sweep."),
 ]
 Tolerance = Annotated[
     str | None,
-    typer.Option(
-        "--tolerance",
-        metavar="VALUE",
-        help="Accuracy of --frontier, such as 0.001 or '0.5 km/h' [default: 1/64 of the smallest step].",
+    option(
+        "--tolerance VALUE",
+        "Accuracy of --frontier, such as 0.001 or '0.5 km/h' [default: 1/64 of the smallest step].",
     ),
 ]
 MapPair = Annotated[
     str | None,
-    typer.Option(
-        "--map",
-        metavar="KEY,KEY",
-        help="Parameters down and across the maps [default: the first two listed].",
-    ),
+    option("--map KEY,KEY", "Parameters down and across the maps [default: the first two listed]."),
 ]
 Measures = Annotated[
     list[str] | None,
-    typer.Option(
-        "--measure",
-        metavar="NAME",
-        help="Measure to map and to compute sensitivities of: a column of summary.csv. May be repeated.",
+    option(
+        "--measure NAME",
+        "Measure to map and to compute sensitivities of: a column of summary.csv. May be repeated.",
     ),
 ]
 SweepFormat = Annotated[
     Format,
-    typer.Option(
+    option(
         "--format",
-        help="Output on stdout: text (maps and rates), json (sweep.json) or github (text, annotations).",
+        "Output on stdout: text (maps and rates), json (sweep.json) or github (text, annotations).",
     ),
 ]
 Shard = Annotated[
     str | None,
-    typer.Option("--shard", metavar="I/N", help="Run shard I of N only; --merge combines shards."),
+    option("--shard I/N", "Run shard I of N only; --merge combines shards."),
 ]
 Merged = Annotated[
     list[Path] | None,
-    typer.Option("--merge", metavar="DIR", help="Merge the chunks of the shard in DIR. May be repeated."),
+    option("--merge DIR", "Merge the chunks of the shard in DIR. May be repeated."),
 ]
-Dask = Annotated[
-    str | None, typer.Option("--dask", metavar="ADDRESS", help="Simulate on the cluster of this scheduler.")
-]
+Dask = Annotated[str | None, option("--dask ADDRESS", "Simulate on the cluster of this scheduler.")]
 SweepReports = Annotated[
     str | None,
-    typer.Option(
-        "--report",
-        metavar="FORMATS",
-        help=f"Reports to write, joined by commas: {', '.join(report.sweep_format_names())}.",
+    option(
+        "--report FORMATS",
+        f"Reports to write, joined by commas: {', '.join(report.sweep_format_names())}.",
         show_default=f"csv,html; html for more than {report.LARGEST_CSV} cases",
     ),
 ]
-Restart = Annotated[bool, typer.Option("--restart", help="Discard finished chunks and start again.")]
+Restart = Annotated[bool, option("--restart", "Discard finished chunks and start again.")]
 SweepOutput = Annotated[
     Path,
-    typer.Option(
-        "-o", "--output", metavar="DIR", help="Folder for results; the sweep gets a folder of its name in it."
-    ),
+    option("-o --output DIR", "Folder for results; the sweep gets a folder of its name in it."),
 ]
 
 

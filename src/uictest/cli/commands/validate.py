@@ -11,20 +11,17 @@ import typer
 from uictest import report, runs
 from uictest.analysis import validation
 from uictest.cli import options
+from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode, data, message, terminal_width, worst
 from uictest.cli.progress import TerminalObserver
 
 Files = Annotated[
     list[Path],
-    typer.Argument(
-        metavar="FILE...",
-        help="Validation files (.yaml), or series that name recordings.",
-        show_default=False,
-    ),
+    argument("FILE...", "Validation files (.yaml), or series that name recordings.", show_default=False),
 ]
 Output = Annotated[
     Path,
-    typer.Option("-o", "--output", metavar="DIR", help="Folder for validations; each gets a folder in it."),
+    option("-o --output DIR", "Folder for validations; each gets a folder in it."),
 ]
 
 
