@@ -10,7 +10,6 @@ from pathlib import Path
 
 from uictest import report
 from uictest.core import document, files, recording
-from uictest.running import chunked
 from uictest.runs import history
 from uictest.runs.batch import Batch, run_batch
 from uictest.runs.observer import Observer
@@ -92,6 +91,8 @@ def _write(folder: Path, content: report.RunContent, formats: Sequence[str]) -> 
 
 def holds_sweep(folder: Path) -> bool:
     """Return whether a folder is that of a sweep, finished or not."""
+    from uictest.running import chunked  # which a run does not need
+
     try:
         manifest = chunked.ChunkStore(folder).manifest()
     except OSError:
