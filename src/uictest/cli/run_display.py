@@ -135,6 +135,9 @@ class VerdictTable(Display):
         judged = [each for each in content.series if not (self.quiet and each.met)]
         for line in report.series_table(judged, console.width) if judged else ():
             console.print(line, markup=False)
+        close = report.close_lines(() if self.quiet else shown, judged)
+        if close.sentences:
+            console.print("\n  ".join((f"{close.title}:", *close.sentences)), markup=False)
         for line in report.missing_lines(content.baseline) if content.baseline else ():
             console.print(line, markup=False)
         if self.verbose:

@@ -1,4 +1,5 @@
 from .case_table import measure_columns as measure_columns
+from .close_calls import close_lines as close_lines
 from .content import (
     DRAWN as DRAWN,
     MOST_DRAWN as MOST_DRAWN,

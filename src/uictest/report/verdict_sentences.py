@@ -53,9 +53,9 @@ def limits(verdict: evaluation.Verdict, word: str = "limits ") -> str:
     return "no limit"
 
 
-def value_and_limits(verdict: evaluation.Verdict) -> str:
+def value_and_limits(verdict: evaluation.Verdict, word: str = "limits ") -> str:
     """Return the value of a criterion next to its limits, e.g. `0.3 %, upper limit 0.1 %`."""
-    return f"{quantity(verdict.value, verdict.unit)}, {limits(verdict)}"
+    return f"{quantity(verdict.value, verdict.unit)}, {limits(verdict, word)}"
 
 
 MOST_URGENT: Final = ("fail", "inconclusive", "pass", "not_applicable")

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 
 from uictest.judging.evaluation import CaseResult, Verdict
+from uictest.report.close_calls import MOST_CLOSE, NARROW, TITLE
 from uictest.report.page.run_page import page_html
-from uictest.report.page.stop.margins import NARROW, margins_of
+from uictest.report.page.stop.margins import margins_of
 
 from ..builders import make_content, make_result, make_verdict
 
@@ -42,12 +43,12 @@ def test_what_failed_stands_first_with_value_limit_and_margin() -> None:
     assert "Not as expected" in said
     assert "locked-wheels 3.5 s, upper limit 1 s, margin -2.5 s (-250 %)" in said
     assert 'href="#case-slides"' in html[: html.index('id="verdicts"')]
-    assert "fine" not in said
+    assert "fine" not in said.partition(TITLE)[0]
 
 
 def test_a_criterion_that_passes_is_no_reason_for_a_failure() -> None:
     said = _first(page_html(make_content(_failing("slides", _LOCKED, make_verdict()))))
-    assert "braking-distance" not in said
+    assert "braking-distance" not in said.partition(TITLE)[0]
 
 
 def test_a_case_that_fails_as_expected_is_no_finding() -> None:
@@ -68,10 +69,26 @@ def test_an_error_shows_its_reason() -> None:
 
 
 def test_where_all_is_well_the_criterion_with_the_least_to_spare_is_named() -> None:
-    close = make_verdict(value=441.0, margin=1.0)
-    said = _first(page_html(make_content(make_result(id="wide"), make_result(id="close", criteria=(close,)))))
-    assert "All as expected. Least to spare: close" in said
-    assert "441 m, 440 .. 490 m, margin 1 m (+0.204 %)" in said
+    nearest = make_verdict(value=540.0, lower=400.0, upper=600.0, margin=60.0)
+    wide = make_verdict(value=500.0, lower=400.0, upper=600.0, margin=100.0)
+    cases = [make_result(id="wide", criteria=(wide,)), make_result(id="nearest", criteria=(nearest,))]
+    said = _first(page_html(make_content(*cases)))
+    assert "All as expected. Least to spare: nearest" in said
+    assert "540 m, 400 .. 600 m, margin 60 m (+10 %)" in said
+    assert TITLE not in said
+
+
+def test_what_is_close_or_uncertain_is_named_with_a_link_and_the_rest_is_counted() -> None:
+    cases = [
+        make_result(id=f"close-{n:02}", criteria=(make_verdict(value=441.0 + n, margin=1.0 + n),))
+        for n in range(MOST_CLOSE + 2)
+    ]
+    html = page_html(make_content(*cases))
+    said = _first(html)
+    assert "close-00 : braking-distance 441 m, 440 .. 490 m (+0.204 %)" in said
+    assert re.search(r'<li class="shape shape-narrow"><a href="#case-close-00">', html)
+    assert "2 more are marked below" in said
+    assert "Least to spare" not in said
 
 
 def test_many_findings_are_counted_and_none_is_lost() -> None:

@@ -79,4 +79,5 @@ from .verdict import (
     VerdictInterval as VerdictInterval,
     WrittenVerdict as WrittenVerdict,
     definition_texts as definition_texts,
+    relative_margin as relative_margin,
 )

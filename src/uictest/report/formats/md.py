@@ -10,6 +10,7 @@ from uictest.core.document import Column, Document, Lines, Table
 from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.case_table import cases_table
+from uictest.report.close_calls import close_lines
 from uictest.report.content import RunContent
 from uictest.report.difference import (
     baseline_summary,
@@ -31,6 +32,7 @@ _MOST: Final = 100
 def run_summary(content: RunContent) -> Document:
     """Return the whole result of a run: the tally, then one row per case, those not met first."""
     sections = [
+        close_lines(content.results, content.series),
         *series_views.series_sections(content.series),
         *_baseline(content),
         _requirements(content),

@@ -9,6 +9,7 @@ from typing import Final
 from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.causes import cause_sentences
+from uictest.report.close_calls import CloseCall, close_calls
 from uictest.report.content import RunContent
 from uictest.report.difference import difference_sentences
 from uictest.report.page.case_view import CaseView
@@ -112,6 +113,28 @@ def closest_of(content: RunContent, margins: Mapping[str, Margins]) -> Closest |
         return None
     _, name, margin = min(shares, key=lambda share: share[:2])
     return Closest(name, fragment(case_anchor(name)), margin)
+
+
+@dataclass(frozen=True, slots=True)
+class Close:
+    """A close or uncertain verdict; `fragment` leads to its case or series, `taken` says when it was."""
+
+    call: CloseCall
+    fragment: str
+    taken: str
+
+
+def close_of(content: RunContent, margins: Mapping[str, Margins]) -> list[Close]:
+    """Return what is close to its limit, or not certain, with where it is shown."""
+    taken = {
+        (own, each.verdict.id): each.taken_text for own, judged in margins.items() for each in judged.judged
+    }
+    return [
+        Close(call, fragment(series_anchor(call.of)), "")
+        if call.of_series
+        else Close(call, fragment(case_anchor(call.of)), taken[call.of, call.criterion])
+        for call in close_calls(content.results, content.series)
+    ]
 
 
 def margins_of_all(content: RunContent, drawn: Iterable[CaseView]) -> dict[str, Margins]:

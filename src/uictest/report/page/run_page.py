@@ -9,6 +9,7 @@ from typing import Any
 
 from uictest.judging import evaluation
 from uictest.report.case_table import measure_columns
+from uictest.report.close_calls import MOST_CLOSE, NARROW
 from uictest.report.content import DRAWN, MOST_DRAWN, RunContent, drawn_cases, worst_first
 from uictest.report.difference import (
     baseline_summary,
@@ -18,6 +19,7 @@ from uictest.report.difference import (
 from uictest.report.page.case_view import CaseView, case_view, plots_json
 from uictest.report.page.findings import (
     MOST_FINDINGS,
+    close_of,
     closest_of,
     findings_of,
     margins_of_all,
@@ -27,7 +29,6 @@ from uictest.report.page.links import case_anchor, rerun_commands
 from uictest.report.page.overview import maps_of, shown_parts
 from uictest.report.page.rendering import render
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
-from uictest.report.page.stop.margins import NARROW
 from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
 from uictest.report.verdict_sentences import (
     CASE_WORDS,
@@ -52,6 +53,8 @@ def page_html(content: RunContent) -> str:
         case_anchor=case_anchor,
         findings=findings_of(content, margins, commands),
         most_findings=MOST_FINDINGS,
+        close=close_of(content, margins),
+        most_close=MOST_CLOSE,
         closest=closest_of(content, margins),
         matrix=matrix_of(margins),
         narrow=NARROW,

@@ -15,6 +15,7 @@ from uictest.judging.series import SeriesResult, SeriesStop, SpeedResult, observ
 from uictest.report.page.axis import Axis, Tick
 from uictest.report.page.links import fragment, series_anchor
 from uictest.report.series.series_sentences import (
+    bypassed_is_better,
     count_sentences,
     not_counted_sentences,
     percent,
@@ -36,6 +37,7 @@ _OF_DISTANCE = ("braking_distance", "median_braking_distance", "worst_braking_di
 
 
 SERIES_WORDS: Final = {
+    "bypassed_is_better": bypassed_is_better,
     "comparison_table": comparison_table,
     "count_sentences": count_sentences,
     "not_counted_sentences": not_counted_sentences,

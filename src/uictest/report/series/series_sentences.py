@@ -50,10 +50,15 @@ def series_word(result: SeriesResult) -> str:
 
 
 def series_tally(results: Sequence[SeriesResult]) -> str:
-    """Return the counts of the series of a run, e.g. `2 series: 1 pass, 1 fail; 1 not as expected`."""
+    """Return the counts of the series of a run, e.g. `2 series: 1 pass, 1 fail; 1 not as expected`.
+
+    Of series that are as expected it counts the verdicts that are not certain.
+    """
     counts = Counter(map(series_word, results))
     in_order = {word: counts[word] for word in CASE_WORDS}
-    return f"{len(results)} series: {counts_text(in_order, sum(not each.met for each in results))}"
+    tally = f"{len(results)} series: {counts_text(in_order, sum(not each.met for each in results))}"
+    uncertain = sum(each.confident is False for result in results if result.met for each in result.criteria)
+    return f"{tally}; {counted(uncertain, 'verdict')} not certain" if uncertain else tally
 
 
 def percent(share: float) -> str:
@@ -126,11 +131,18 @@ def count_sentences(result: SeriesResult) -> Iterator[str]:
         dry, wet = (f"{each.counted} of {each.run}" for each in (speed.dry, speed.wet))
         share = f"{percent(speed.wet.share)}, {percent(result.valid_stops)} needed"
         yield f"Valid stops from {speed.place}: dry {dry}, wet {wet} ({share})"
+    if sentence := bypassed_is_better(result):
+        yield sentence
+
+
+def bypassed_is_better(result: SeriesResult) -> str:
+    """Return both values of K_wet where it is better without WSP; else an empty text."""
     bypassed = None if result.bypassed_k_wet is None else result.bypassed_k_wet.estimate
     tested = next((each.estimate for each in result.criteria if each.verdict.measure == "k_wet"), None)
-    if bypassed is not None and tested is not None and bypassed.value > tested.value:
-        values = (f"{short(each.value)} ({interval(each) or '-'})" for each in (bypassed, tested))
-        yield "K_wet is better with the WSP bypassed, {}, than with the tested one, {}".format(*values)
+    if bypassed is None or tested is None or bypassed.value <= tested.value:
+        return ""
+    values = (f"{short(each.value)} ({interval(each) or '-'})" for each in (bypassed, tested))
+    return "K_wet is better with the WSP bypassed, {}, than with the tested one, {}".format(*values)
 
 
 def not_counted_sentences(result: SeriesResult) -> Iterator[str]:

@@ -83,7 +83,13 @@ class Judged(NamedTuple):
     @property
     def status(self) -> str:
         """The verdict in words."""
-        return self.each.verdict.status.replace("_", " ")
+        certain = ", not certain" if self.each.confident is False else ""
+        return f"{self.each.verdict.status.replace('_', ' ')}{certain}"
+
+    @property
+    def tone(self) -> Tone | None:
+        """The tone of the verdict; one that is not certain has its own."""
+        return "odd" if self.each.confident is False else _TONES.get(self.each.verdict.status)
 
 
 _SERIES: Final[Column[Judged]] = Column(heading="series", text=lambda judged: judged.result.id, literal=True)
@@ -92,7 +98,7 @@ CRITERIA: Final[tuple[Column[Judged], ...]] = (
     Column(
         heading="verdict",
         text=lambda judged: judged.status,
-        tone=lambda judged: _TONES.get(judged.status),
+        tone=lambda judged: judged.tone,
     ),
     Column(
         heading="value",

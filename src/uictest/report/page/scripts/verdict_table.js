@@ -53,7 +53,7 @@ if (table && filters) {
   const headings = all("thead th", table);
   const keys = headings.map((heading, column) => once((row) => {
     const text = row.cells[column].textContent.trim();
-    const number = Number.parseFloat(text);
+    const number = text === "turns" ? 0 : Number.parseFloat(text);
     return heading.classList.contains("number") ? number : text;
   }));
   const sort = (column) => {

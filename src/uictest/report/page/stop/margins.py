@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from uictest.core.units import in_unit
 from uictest.judging import evaluation
+from uictest.report.close_calls import NARROW, turns_text
 from uictest.report.page.stop.marks import Taken, taken_at
 from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS, WHEELSETS
 from uictest.report.traces.trace import PlotTrace
@@ -22,8 +22,6 @@ from uictest.report.verdict_sentences import (
 
 _WORDS: Final = {"pass": "met", "fail": "missed"}
 """Status of a criterion that was judged -> what stands for a margin that is no share."""
-NARROW: Final = 10.0
-"""Per cent of the limit: a criterion met with less to spare is marked as narrow; chosen."""
 _TITLES: Mapping[str, str] = {plot.key: plot.title for plot in (*PANELS, *LOOPS, *STRIPS)}
 
 
@@ -72,21 +70,17 @@ class Margin:
 
     @property
     def share_text(self) -> str:
-        """The share to spare with its sign and unit."""
+        """The share to spare with its sign and unit; `turns` where a verdict that passes has none."""
         if self.to_spare is None or not self.judged:
             return _WORDS.get(self.verdict.status, "")
+        if self.verdict.status == "pass" and not self.verdict.firm:
+            return "turns"
         return _percent(self.to_spare)
 
     @property
     def turns_text(self) -> str:
-        """Where a verdict turns: `turns if the sliding slide is above 6 % (now 5 %)`; else empty."""
-        if self.verdict.firm:
-            return ""
-        turning = [each for each in self.verdict.sensitivity if each.flips]
-        reasons = [text for each in turning if (text := _turns_where(self.verdict, each))]
-        if self.verdict.over_stops is not None and self.verdict.over_stops.turns:
-            reasons.append("from stop to stop")
-        return f"turns {' or '.join(reasons)}".rstrip()
+        """Where a verdict turns; empty where it does not."""
+        return turns_text(self.verdict)
 
     @property
     def value_text(self) -> str:
@@ -166,24 +160,6 @@ def margin_share(verdict: evaluation.Verdict) -> float | None:
     if verdict.margin is None or not bound or says_yes:
         return None
     return 100.0 * verdict.margin / bound
-
-
-def _turns_where(verdict: evaluation.Verdict, sensitivity: evaluation.Sensitivity) -> str:
-    """Return beyond which values of a definition the verdict changes; empty where that is not known."""
-    stated = verdict.defined(sensitivity.definition)
-    if stated is None:
-        return ""
-    now, unit = in_unit(stated, sensitivity.unit), sensitivity.unit
-    own = next((each for each in sensitivity.intervals if each.first <= now <= each.last), None)
-    if own is None:
-        return ""
-    place, last = sensitivity.intervals.index(own), len(sensitivity.intervals) - 1
-    sides = [
-        *([f"below {quantity(own.first, unit)}"] if place > 0 else []),
-        *([f"above {quantity(own.last, unit)}"] if place < last else []),
-    ]
-    name = sensitivity.definition.replace("_", " ")
-    return f"if the {name} is {' or '.join(sides)} (now {quantity(now, unit)})"
 
 
 def _percent(share: float) -> str:

@@ -1,0 +1,134 @@
+"""What passes and is close to its limit, or not certain: the same list on the page, terminal and Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from uictest.core.document import Lines
+from uictest.core.units import in_unit
+from uictest.judging import evaluation
+from uictest.judging.series import SeriesResult, SeriesVerdict
+from uictest.report.escaping import printable
+from uictest.report.series.series_sentences import bypassed_is_better, interval, of_dry_stop, percent
+from uictest.report.verdict_sentences import counted, limits, number, quantity, value_and_limits
+
+NARROW: Final = 10.0
+"""Per cent of the limit: a criterion met with less to spare is marked as narrow; chosen."""
+MOST_CLOSE: Final = 8
+"""Close verdicts that a reader is shown first; the tables of cases and series have all of them."""
+TITLE: Final = "Close or uncertain"
+
+
+@dataclass(frozen=True, slots=True)
+class CloseCall:
+    """A verdict that could have been another one.
+
+    `of` is the id of its case or series, `criterion` is empty for what is none. `kind` is `turns` where the
+    verdict is not certain, `narrow` where it is met with little to spare.
+    """
+
+    of: str
+    criterion: str
+    kind: str
+    text: str
+    of_series: bool = False
+
+    def __str__(self) -> str:
+        """Return it as one line."""
+        return printable(f"{self.of}: {f'{self.criterion} {self.text}'.strip()}")
+
+
+def close_calls(
+    results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult] = ()
+) -> list[CloseCall]:
+    """Return what is close or not certain: of series first, then what turns, then the narrowest margins.
+
+    A criterion by which a case or series is not as expected is no such thing.
+    """
+    turning, narrow = [], []
+    for result in results:
+        judged = ("pass", "fail") if result.met else ("pass",)
+        for verdict in result.criteria:
+            if verdict.layer == "rig" or verdict.status not in judged:
+                continue
+            share = evaluation.relative_margin(verdict)
+            if not verdict.firm:
+                turning.append(CloseCall(result.id, verdict.id, "turns", turns_text(verdict)))
+            elif verdict.status == "pass" and share is not None and 100.0 * share < NARROW:
+                text = _narrow(verdict, share)
+                narrow.append((share, CloseCall(result.id, verdict.id, "narrow", text)))
+    of_series = [call for each in series for call in _of_series(each)]
+    return [*of_series, *turning, *(call for _, call in sorted(narrow, key=lambda each: each[0]))]
+
+
+def close_lines(results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult] = ()) -> Lines:
+    """Return the first of what is close or not certain as lines, and how many more there are."""
+    calls = close_calls(results, series)
+    rest = len(calls) - MOST_CLOSE
+    more = [f"{rest} more, in the tables of cases and series"] if rest > 0 else []
+    return Lines([*map(str, calls[:MOST_CLOSE]), *more], title=TITLE)
+
+
+def _of_series(result: SeriesResult) -> Iterator[CloseCall]:
+    if sentence := bypassed_is_better(result):
+        yield CloseCall(result.id, "", "turns", sentence, of_series=True)
+    for each in result.criteria:
+        verdict, share = each.verdict, evaluation.relative_margin(each.verdict)
+        if each.confident is False and (verdict.status == "pass" or result.met):
+            text = _uncertain(each, result.confidence)
+            yield CloseCall(result.id, verdict.id, "turns", text, of_series=True)
+        elif verdict.status == "pass" and share is not None and 100.0 * share < NARROW:
+            yield CloseCall(result.id, verdict.id, "narrow", _narrow(verdict, share), of_series=True)
+
+
+def _narrow(verdict: evaluation.Verdict, share: float) -> str:
+    return f"{value_and_limits(verdict, word='')} ({100 * share:+.3g} %)"
+
+
+def _uncertain(each: SeriesVerdict, confidence: float) -> str:
+    verdict, estimate = each.verdict, each.estimate
+    value = f"{quantity(verdict.value, verdict.unit)}{of_dry_stop(each)}"
+    place = f" from {each.place}" if each.speed_kmh is not None else ""
+    ends = f" {interval(estimate)}" if estimate is not None else ""
+    return (
+        f"{value}{place}, {limits(verdict, word='')}: not certain, the {percent(confidence)} interval{ends}"
+        f" of {counted(estimate.stops if estimate else 0, 'stop')} holds the limit"
+    )
+
+
+def turns_text(verdict: evaluation.Verdict) -> str:
+    """Return where a verdict turns: `turns with sliding_below between 85 and 90 % (now 90 %)`; else empty."""
+    if verdict.firm:
+        return ""
+    turning = [each for each in verdict.sensitivity if each.flips]
+    reasons = [text for each in turning if (text := _turns_where(verdict, each))]
+    if verdict.over_stops is not None and verdict.over_stops.turns:
+        reasons.append("from stop to stop")
+    return f"turns {' or '.join(reasons)}".rstrip()
+
+
+def _turns_where(verdict: evaluation.Verdict, sensitivity: evaluation.Sensitivity) -> str:
+    """Return between which values of a definition the verdict changes; empty where that is not known.
+
+    What is continuous was tried so closely that both values look alike.
+    """
+    if any(each.reading for each in sensitivity.intervals):
+        return f"with its reading ({', '.join(map(str, sensitivity.intervals))})"
+    stated = verdict.defined(sensitivity.definition)
+    if stated is None:
+        return ""
+    now, unit = in_unit(stated, sensitivity.unit), sensitivity.unit
+    own = next((each for each in sensitivity.intervals if each.first <= now <= each.last), None)
+    if own is None:
+        return ""
+    place = sensitivity.intervals.index(own)
+    below, above = sensitivity.intervals[:place][-1:], sensitivity.intervals[place + 1 :][:1]
+    gaps = [*((each.last, own.first) for each in below), *((own.last, each.first) for each in above)]
+    turns = [_between(number(low), number(high), unit) for low, high in gaps]
+    return f"with {sensitivity.definition} {' or '.join(turns)} (now {quantity(now, unit)})"
+
+
+def _between(low: str, high: str, unit: str) -> str:
+    return f"at {low} {unit}" if low == high else f"between {low} and {high} {unit}"

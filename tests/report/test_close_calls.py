@@ -1,0 +1,75 @@
+"""What passes and is close to its limit, or not certain."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from uictest.core.series_measures import SeriesValue
+from uictest.judging.evaluation import AppliedDefinition, Sensitivity, VerdictInterval
+from uictest.report.close_calls import MOST_CLOSE, close_calls, close_lines, turns_text
+from uictest.report.formats.md import markdown_summary
+from uictest.report.series.series_sentences import series_tally
+from uictest.report.series.tables import judged_criteria
+
+from .builders import make_content, make_result, make_verdict
+from .series.made_up import make_series
+
+
+def _turning(now: float, *intervals: VerdictInterval, **changes: object):
+    range_of = Sensitivity("sliding_below", "%", 85.0, 95.0, intervals)
+    stated = AppliedDefinition("sliding_below", now / 100.0, "1", "stated", 0.85, 0.95)
+    return make_verdict(id="minimum-slide", sensitivity=(range_of,), definitions=(stated,), **changes)
+
+
+STEPS = VerdictInterval(85.0, 85.0, "fail"), VerdictInterval(90.0, 95.0, "pass")
+
+
+def test_a_verdict_turns_between_the_values_that_were_tried() -> None:
+    assert turns_text(_turning(90.0, *STEPS)) == "turns with sliding_below between 85 and 90 % (now 90 %)"
+    closely = VerdictInterval(85.0, 87.1234561, "fail"), VerdictInterval(87.1234562, 95.0, "pass")
+    assert turns_text(_turning(90.0, *closely)) == "turns with sliding_below at 87.123 % (now 90 %)"
+    readings = (VerdictInterval(1, 1, "pass", "half-at-once"), VerdictInterval(2, 2, "fail", "depth"))
+    own = make_verdict(sensitivity=(Sensitivity("readings", "", 1, 2, readings),))
+    assert turns_text(own) == "turns with its reading (half-at-once pass, depth fail)"
+    assert turns_text(make_verdict()) == ""
+
+
+def test_what_turns_comes_before_narrow_margins_and_what_failed_is_not_close() -> None:
+    narrow, narrower = make_verdict(value=445.0, margin=5.0), make_verdict(value=441.0, margin=1.0)
+    failed = make_verdict(id="missed", value=430.0, margin=-10.0, status="fail")
+    results = [
+        make_result(id="a", criteria=(narrow, replace(narrow, layer="rig"))),
+        make_result(id="b", criteria=(narrower,)),
+        make_result(id="c", criteria=(_turning(90.0, *STEPS, margin=200.0),)),
+        make_result(id="d", criteria=(failed, _turning(90.0, *STEPS, status="fail")), outcome="fail"),
+        make_result(id="wide", criteria=(make_verdict(margin=49.5),)),
+    ]
+    assert [(each.of, each.kind) for each in close_calls(results)] == [
+        ("c", "turns"), ("b", "narrow"), ("a", "narrow")
+    ]  # fmt: skip
+
+
+def test_many_are_counted() -> None:
+    narrow = make_verdict(value=441.0, margin=1.0)
+    lines = close_lines([make_result(id=f"case-{n}", criteria=(narrow,)) for n in range(MOST_CLOSE + 3)])
+    assert len(lines.sentences) == MOST_CLOSE + 1
+    assert lines.sentences[-1].startswith("3 more")
+
+
+def test_a_series_that_passes_by_chance_or_worse_than_without_wsp_says_so_everywhere() -> None:
+    series = make_series()
+    (k_wet,) = series.criteria
+    assert k_wet.estimate is not None
+    better = replace(k_wet.estimate, value=k_wet.estimate.value + 0.05)
+    bypassed = SeriesValue(better)
+    doubtful = replace(series, criteria=(replace(k_wet, confident=False),), bypassed_k_wet=bypassed)
+    calls = close_calls((), [doubtful])
+    assert [(each.of, each.criterion, each.of_series) for each in calls] == [
+        ("acceptance", "", True), ("acceptance", "k-wet", True)
+    ]  # fmt: skip
+    assert "K_wet is better with the WSP bypassed" in str(calls[0])
+    assert "not certain, the 95 % interval" in calls[1].text
+    assert series_tally([doubtful]) == "1 series: 1 pass; 1 verdict not certain"
+    (judged,) = judged_criteria(doubtful)
+    assert (judged.status, judged.tone) == ("pass, not certain", "odd")
+    assert "### Close or uncertain" in markdown_summary(make_content(series=[doubtful]))
