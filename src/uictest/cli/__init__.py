@@ -35,5 +35,6 @@ def _start_lightly() -> None:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # Nor has anything here a use for plug-ins of pydantic, for which it would search all that is installed.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-    # Objects made by imports are never garbage: searching them every few hundred allocations is wasted.
-    gc.set_threshold(100_000)
+    # What imports and stops make is hardly ever garbage: a run of one stop, which makes a million objects,
+    # ends before the first search of them.
+    gc.set_threshold(2_000_000)

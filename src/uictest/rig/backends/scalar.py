@@ -3,7 +3,7 @@
 from typing import Any, Final
 
 from uictest.controllers import EXCHANGE
-from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES, note_samples
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.compiled import (
     compile_inner,
     compiled_operations,
@@ -17,7 +17,6 @@ from uictest.rig.model.friction_law import ROWS
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail_memory import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
-from uictest.rig.model.stop import run_stop, step_stop
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
@@ -48,6 +47,9 @@ NOTE_ARGUMENTS: Final = (
 
 def _entries() -> Entries:
     """Return the functions, of addresses and the lengths behind them."""
+    from uictest.core.measures import note_samples
+    from uictest.rig.model.stop import run_stop, step_stop  # a warm start does not load what it would compile
+
     model = with_controllers(CHOICES, compile_inner, compiled_operations())
     run, step, note = (
         translate(function, compile_inner, model) for function in (run_stop, step_stop, note_samples)

@@ -12,7 +12,7 @@ from typing import Final
 from urllib.parse import quote
 
 from uictest import report
-from uictest.analysis.comparison import differences_table
+from uictest.analysis import comparison
 from uictest.core import files
 from uictest.report.page import case_anchor, fragment, render, series_anchor
 from uictest.runs.history.case_history import (
@@ -57,6 +57,7 @@ def index_html(folder: str, listing: Listing) -> str:
     """Return the page of a folder: one document that loads nothing, and can be read without JavaScript."""
     shown = runs_with_cases(listing.runs)
     histories = case_histories(shown)
+    turned = [_turn(each) for each in histories if each.turned]
     return render(
         "index.html.j2",
         with_plots=False,
@@ -75,7 +76,7 @@ def index_html(folder: str, listing: Listing) -> str:
         inputs=_inputs,
         href=_href,
         anchor=_anchor,
-        turned=differences_table([_turn(each) for each in histories if each.turned]),
+        turned=comparison.differences_table(turned) if turned else None,
         rows_by_case={each.id: fragment(_anchor(each)) for each in histories[:_CASES_SHOWN]},
         bounds=_bounds(listing, len(shown), len(histories)),
         unlisted=listing.unlisted[:_UNLISTED_SHOWN],
