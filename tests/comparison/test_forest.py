@@ -9,7 +9,7 @@ import pytest
 from uictest.analysis.comparison.paired.difference import CONFIDENCE, PairedDifference, PairedGroup
 from uictest.analysis.comparison.paired.wording import effects
 from uictest.core.series_measures import Estimate
-from uictest.report.page import Forest, forest
+from uictest.report.page import Plot, forest
 
 
 def _difference(quantity: str, mean: float, half: float, first: float = 100.0) -> PairedDifference:
@@ -17,36 +17,45 @@ def _difference(quantity: str, mean: float, half: float, first: float = 100.0) -
     return PairedDifference(quantity, "m", first, first + mean, estimate, estimate, 6, 0, 0)
 
 
-def _drawn(*differences: PairedDifference) -> Forest | None:
-    return forest(effects(PairedGroup("stop", (0, 1, 2, 3, 4, 5), 6, 6, (0, 0), differences)))
+def _drawn(*differences: PairedDifference) -> Plot | None:
+    group = PairedGroup("stop", (0, 1, 2, 3, 4, 5), 6, 6, (0, 0), differences)
+    return forest(effects(group), "effects", "%")
+
+
+def _across(plot: Plot, kind: str) -> list[float]:
+    """Return the pixels across at which the shapes of a kind begin."""
+    return [float(shape.path[1:].split()[0]) for shape in plot.shapes if shape.kind.startswith(kind)]
 
 
 def test_the_largest_effect_stands_first_whatever_its_sign() -> None:
     drawn = _drawn(_difference("a", 1.0, 0.5), _difference("b", -8.0, 1.0), _difference("c", 3.0, 1.0))
     assert drawn is not None
-    assert [row.name for row in drawn.rows] == ["b", "c", "a"]
-    assert [row.y for row in drawn.rows] == sorted(row.y for row in drawn.rows)
+    assert [name for _, name in drawn.y_ticks] == ["b", "c", "a"]
+    heights = [y for y, _ in drawn.y_ticks]
+    assert heights == sorted(heights)
 
 
 def test_places_are_in_proportion_to_the_share_of_the_first_side() -> None:
     drawn = _drawn(_difference("a", 4.0, 2.0), _difference("b", 4.0, 2.0, first=200.0))
     assert drawn is not None
-    of_a, of_b = ([x - drawn.zero for x in (row.low, row.mean, row.high)] for row in drawn.rows)
-    assert of_a == pytest.approx([2 * x for x in of_b])
-    assert of_a[0] / of_a[1] == pytest.approx(0.5)
+    (zero,) = _across(drawn, "zero")
+    means = [x + 4.0 - zero for x in _across(drawn, "effect")]  # from the middle of the circles
+    lows = [x - zero for x in _across(drawn, "interval-line")]
+    assert means == pytest.approx([2 * means[1], means[1]], abs=0.2)
+    assert lows == pytest.approx([0.5 * means[0], 0.5 * means[1]], abs=0.2)
 
 
 def test_a_dot_is_filled_where_the_interval_leaves_out_zero() -> None:
     drawn = _drawn(_difference("a", 3.0, 1.0), _difference("b", 2.0, 2.5), _difference("c", -1.0, 0.5))
     assert drawn is not None
-    assert {row.name: row.clear for row in drawn.rows} == {"a": True, "b": False, "c": True}
+    filled = [shape.words[0] for shape in drawn.shapes if shape.kind == "effect clear"]
+    assert filled == ["a", "c"]
 
 
 def test_a_mean_beyond_the_axis_is_written_out() -> None:
     drawn = _drawn(_difference("a", 900.0, 1.0), _difference("b", 3.0, 1.0))
     assert drawn is not None
-    assert drawn.rows[0].name == "a, +900 %"
-    assert drawn.rows[0].mean > drawn.rows[1].mean
+    assert drawn.y_ticks[0][1] == "a, +900 %"
 
 
 def test_what_has_no_share_or_no_interval_is_left_to_the_table() -> None:

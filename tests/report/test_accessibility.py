@@ -89,7 +89,7 @@ def test_the_page_of_a_sweep(
 def test_the_maps_points_and_sensitivities_of_a_sweep(
     browser: Any, tmp_path: Path, scheme: str, width: int
 ) -> None:
-    """With the values of the maps unfolded."""
+    """With every measure unfolded."""
     write_rows(tmp_path, drawn_rows(60, failing=(7, 8, 9)))
     index = {"value": 0.5, "low": 0.4, "high": 0.6}
     parts = {"measure": "met", "circumstances": {}, "first": index, "total": index}

@@ -80,8 +80,8 @@ def test_markdown_compares_and_judges(content):
 def test_the_page_draws_every_stop_and_marks_those_that_do_not_count(content, tmp_path):
     write_formats(tmp_path, content, ["html"])
     page = (tmp_path / "index.html").read_text()
-    assert len(re.findall(r'<circle class="dot"', page)) == 6
-    assert len(re.findall(r'<circle class="dot uncounted"', page)) == 1
+    assert len(re.findall(r'<path class="dot"', page)) == 6
+    assert len(re.findall(r'<path class="dot uncounted"', page)) == 1
     assert "1 stop invalid, not counted: energy-balance: 3 % misses &lt; 0.1 %" in page
 
 

@@ -34,7 +34,7 @@ def test_a_small_sample_is_shown_whole(tmp_path: Path) -> None:
     assert list(found.left_out) == ["topology"]
 
 
-def test_of_ten_thousand_cases_two_thousand_are_chosen_and_those_asked_for(tmp_path: Path) -> None:
+def test_of_ten_thousand_cases_a_thousand_are_chosen_and_those_asked_for(tmp_path: Path) -> None:
     chosen = chosen_rows(10_000).tolist()
     other = next(k for k in range(10_000) if k not in chosen)
     found = points(
@@ -66,4 +66,4 @@ def test_a_thinned_sobol_sequence_still_fills_its_space(power: int) -> None:
     chosen = sequence[chosen_rows(len(sequence))]
     for coordinate in chosen.T:
         counts, _ = np.histogram(coordinate, 8, (0.0, 1.0))
-        assert counts.min() > 0.8 * len(chosen) / 8
+        assert counts.min() > 0.7 * len(chosen) / 8

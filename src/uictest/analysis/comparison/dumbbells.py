@@ -3,41 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final
 
-import numpy as np
-
 from uictest.report import Difference
-from uictest.report.page import Axis, Tick, span
+from uictest.report.page import ROW_PIXELS, Plot, Shape, dot, row_at, rows_plot, spanned
 
 MEASURE: Final = "braking_distance_m"
 MOST: Final = 40
 """Rows that are drawn, those that differ most; the table has the others. Chosen: two screens."""
-_LEFT, _RIGHT, _TOP, _ROW = 320.0, 880.0, 6.0, 20.0
-_LETTERS: Final = 48
+_LETTERS: Final = 40
 """Of an id of a case that there is room for."""
 
 
 @dataclass(frozen=True, slots=True)
-class Dumbbell:
-    """One case in pixels: where A and B lie, and in words."""
-
-    case: str
-    y: float
-    first: float
-    second: float
-    words: str
-
-
-@dataclass(frozen=True, slots=True)
 class Dumbbells:
-    """The rows, those that differ most first, the axis across, and how many cases have no row."""
+    """The rows, those that differ most first, and how many cases have none."""
 
-    rows: Sequence[Dumbbell]
-    ticks: Sequence[Tick]
-    bottom: float
+    plot: Plot
     left_out: int
 
 
@@ -52,15 +36,17 @@ def dumbbells(differences: Iterable[Difference]) -> Dumbbells | None:
     if not known:
         return None
     drawn = sorted(known, key=lambda each: -abs(each[2] - each[1]))[:MOST]
-    axis = Axis(*span([np.array([each[1:] for each in drawn]).ravel()], ()), _LEFT, _RIGHT)
-    rows = [
-        Dumbbell(
-            case if len(case) <= _LETTERS else f"…{case[1 - _LETTERS :]}",
-            _TOP + _ROW * (place + 0.5),
-            axis.at(first),
-            axis.at(second),
-            f"{case}: {first:.5g} m, then {second:.5g} m ({second - first:+.4g} m)",
-        )
-        for place, (case, first, second) in enumerate(drawn)
-    ]
-    return Dumbbells(rows, axis.tick_marks(7), _TOP + _ROW * len(rows), len(known) - len(drawn))
+    axis = spanned([end for each in drawn for end in each[1:]], *ROW_PIXELS)
+    shapes = []
+    for place, (case, first, second) in enumerate(drawn):
+        words = f"{case}: {first:.5g} m, then {second:.5g} m ({second - first:+.4g} m)"
+        x, y = (axis.at(first), axis.at(second)), row_at(place)
+        shapes += [
+            Shape("interval-line", f"M{x[0]:.1f} {y}H{x[1]:.1f}", words),
+            Shape("effect", dot(x[0], y, 4.0), words),
+            Shape("effect clear", dot(x[1], y, 4.0), words),
+        ]
+    names = [case if len(case) <= _LETTERS else f"…{case[1 - _LETTERS :]}" for case, _, _ in drawn]
+    about = "Braking distance of A and B in each case that differs; the table of differences has the numbers"
+    x_title = "braking distance, m; open: A, filled: B"
+    return Dumbbells(rows_plot(names, shapes, axis.tick_marks(7), about, x_title), len(known) - len(drawn))

@@ -21,7 +21,11 @@ def validation_html(validation: Validation) -> str:
         validation=validation,
         document=validation_document(validation),
         tally=tally(validation),
-        drawn=forest(effect for effect in effects.values() if effect is not None),
+        drawn=forest(
+            (effect for effect in effects.values() if effect is not None),
+            "Bias of each figure with its interval and the limits of agreement; the table has the numbers",
+            "simulated - recorded, % of recorded; band: limits of agreement; filled: not 0 by the interval",
+        ),
         not_drawn=[figure for figure, effect in effects.items() if effect is None],
     )
 

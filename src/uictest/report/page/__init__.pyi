@@ -1,7 +1,15 @@
-from .axis import Axis as Axis, Tick as Tick, span as span
+from .axis import spanned as spanned
 from .case_view import plot_data as plot_data, plots_json as plots_json, sampling_text as sampling_text
-from .forest import Effect as Effect, Forest as Forest, forest as forest
+from .forest import Effect as Effect, forest as forest
 from .links import case_anchor as case_anchor, fragment as fragment, series_anchor as series_anchor
+from .plot import (
+    ROW_PIXELS as ROW_PIXELS,
+    Plot as Plot,
+    Shape as Shape,
+    dot as dot,
+    row_at as row_at,
+    rows_plot as rows_plot,
+)
 from .rendering import render as render
 from .run_page import page_html as page_html
 from .stop.drawing import Drawing as Drawing, drawing_of as drawing_of

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Final
 
-from uictest.report.page.axis import Axis, Tick
+from uictest.report.page.axis import Axis
+from uictest.report.page.plot import ROW_PIXELS, Plot, Shape, dot, row_at, rows_plot
 
-_LEFT: Final = 260.0
-_RIGHT: Final = 880.0
-_TOP: Final = 6.0
-_ROW: Final = 20.0
 _WIDEST: Final = 200.0
 """Per cent at which the axis ends, chosen: a mean beyond it is written out."""
 
@@ -32,46 +29,32 @@ class Effect:
         return f"{self.name}: {self.mean:+.3g} % ({self.low:+.3g} .. {self.high:+.3g})"
 
 
-@dataclass(frozen=True, slots=True)
-class ForestRow:
-    """One effect in pixels, its name with the mean where the axis does not reach that.
+def forest(effects: Iterable[Effect], words: str, x_title: str) -> Plot | None:
+    """Return the drawing of effects, the largest first; None where there is none.
 
-    `clear` where the interval leaves out 0.
+    The mean is filled where its interval leaves out 0, and stands beside the name where the axis does not
+    reach it. Wider limits are a band behind.
     """
-
-    name: str
-    y: float
-    mean: float
-    low: float
-    high: float
-    clear: bool
-    words: str
-    outer: tuple[float, float] | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Forest:
-    """The rows, largest effect first, and the axis across."""
-
-    rows: Sequence[ForestRow]
-    ticks: Sequence[Tick]
-    zero: float
-    bottom: float
-
-
-def forest(effects: Iterable[Effect]) -> Forest | None:
-    """Return the drawing of effects; None where there is none."""
     largest_first = sorted(effects, key=lambda each: -abs(each.mean))
     if not largest_first:
         return None
     ends = [end for each in largest_first for end in (each.mean, each.low, each.high, *(each.outer or ()))]
     reach = min(max(map(abs, ends)) or 1.0, _WIDEST) * 1.05
-    axis = Axis(-reach, reach, _LEFT, _RIGHT)
-    rows = []
+    axis = Axis(-reach, reach, *ROW_PIXELS)
+    names = [
+        f"{each.name}, {each.mean:+.3g} %" if abs(each.mean) > reach else each.name for each in largest_first
+    ]
+    zero = Shape("zero", f"M{axis.at(0.0):.1f} {row_at(0) - 10}V{row_at(len(names)) - 10}")
+    shapes = [zero]
     for place, each in enumerate(largest_first):
-        beyond = f", {each.mean:+.3g} %" if abs(each.mean) > reach else ""
-        mean, low, high = axis.at(each.mean), axis.at(each.low), axis.at(each.high)
-        outer = None if each.outer is None else (axis.at(each.outer[0]), axis.at(each.outer[1]))
-        clear, y = each.low > 0.0 or each.high < 0.0, _TOP + _ROW * (place + 0.5)
-        rows.append(ForestRow(f"{each.name}{beyond}", y, mean, low, high, clear, each.words, outer))
-    return Forest(rows, axis.tick_marks(7), axis.at(0.0), _TOP + _ROW * len(rows))
+        y = row_at(place)
+        if each.outer is not None:
+            shapes.append(Shape("outer-limits", _level(axis, *each.outer, y)))
+        shapes.append(Shape("interval-line", _level(axis, each.low, each.high, y)))
+        clear = " clear" if each.low > 0.0 or each.high < 0.0 else ""
+        shapes.append(Shape(f"effect{clear}", dot(axis.at(each.mean), y, 4.0), each.words))
+    return rows_plot(names, shapes, axis.tick_marks(7), words, x_title)
+
+
+def _level(axis: Axis, first: float, last: float, y: float) -> str:
+    return f"M{axis.at(first):.1f} {y}H{axis.at(last):.1f}"

@@ -93,8 +93,7 @@ _SCRIPTS = (
     "laid_over",
     "copying",
     "history",
-    "heat",
-    "scatter",
+    "points",
     "anchors",
 )
 """Parts of the script of a page, in the order in which they run; they share one scope."""
@@ -104,7 +103,6 @@ _STYLES = (
     "tables",
     "verdicts",
     "sweep",
-    "sweep_plots",
     "stops",
     "drawings",
     "laid_over",

@@ -12,8 +12,9 @@ from uictest.core.document import Column, Table
 from uictest.core.series_measures import SERIES_MEASURES
 from uictest.judging import evaluation
 from uictest.judging.series import SeriesResult, SeriesStop, SpeedResult, observed_stops
-from uictest.report.page.axis import Axis, Tick
+from uictest.report.page.axis import Axis
 from uictest.report.page.links import fragment, series_anchor
+from uictest.report.page.plot import ROW_PIXELS, Label, Plot, Shape, dot, row_at, rows_plot
 from uictest.report.series.series_sentences import (
     bypassed_is_better,
     count_sentences,
@@ -30,7 +31,6 @@ from uictest.report.series.tables import (
 )
 from uictest.report.verdict_sentences import MOST_URGENT
 
-_LEFT, _RIGHT, _TOP, _ROW = 250, 880, 40, 22
 _DISTANCE = "braking_distance_m"
 _OF_DISTANCE = ("braking_distance", "median_braking_distance", "worst_braking_distance")
 """Measures whose bounds are drawn as lines."""
@@ -47,46 +47,13 @@ SERIES_WORDS: Final = {
 
 
 @dataclass(frozen=True, slots=True)
-class DotRow:
-    """The stops of one case at a height in pixels: places of those that count, and of those that do not."""
-
-    label: str
-    y: float
-    counted: Sequence[float]
-    not_counted: Sequence[float]
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
-    """A distance that is marked: the dry stop, or a bound."""
-
-    x: float
-    label: str
-    bound: bool
-
-
-@dataclass(frozen=True, slots=True)
-class DotPlot:
-    """The braking distances from one speed, and on one rail where there are several, drawn."""
-
-    place: str
-    rows: Sequence[DotRow]
-    lines: Sequence[Line]
-    ticks: Sequence[Tick]
-    height: int
-    left: int = _LEFT
-    right: int = _RIGHT
-    top: int = _TOP
-
-
-@dataclass(frozen=True, slots=True)
 class SeriesView:
     """A series with its word, its plots, and the tables of its criteria and measures."""
 
     anchor: str
     result: SeriesResult
     word: str
-    plots: Sequence[DotPlot]
+    plots: Sequence[Plot]
     criteria: Table
     measures: Table
 
@@ -136,7 +103,7 @@ def _measures(result: SeriesResult) -> Table:
     return Table(columns, list(result.measures))
 
 
-def _plot(result: SeriesResult, speed: SpeedResult, stops: Sequence[SeriesStop]) -> DotPlot | None:
+def _plot(result: SeriesResult, speed: SpeedResult, stops: Sequence[SeriesStop]) -> Plot | None:
     """Return the distances from one speed, and on its rail; None where no stop has any."""
     at_speed = [
         stop
@@ -149,11 +116,23 @@ def _plot(result: SeriesResult, speed: SpeedResult, stops: Sequence[SeriesStop])
     marked = list(_marked(result, at_speed, speed.rail))
     ends = [*known, *(distance for distance, _, _ in marked)]
     air = 0.04 * (max(ends) - min(ends)) or 1.0
-    axis = Axis(min(ends) - air, max(ends) + air, _LEFT, _RIGHT)
-    labels = _labels(result, {stop.case for stop in at_speed})
-    rows = [_row(label, axis, place, case, at_speed) for place, (case, label) in enumerate(labels.items())]
-    lines = [Line(axis.at(distance), label, bound) for distance, label, bound in marked]
-    return DotPlot(speed.place, rows, lines, axis.tick_marks(6), _TOP + _ROW * len(labels) + 34)
+    axis = Axis(min(ends) - air, max(ends) + air, *ROW_PIXELS)
+    names = _labels(result, {stop.case for stop in at_speed})
+    top, bottom = row_at(0) - 10, row_at(len(names)) - 10
+    lines = [
+        Shape("bound-line" if is_bound else "dry-line", f"M{axis.at(distance):.1f} {top}V{bottom}")
+        for distance, _, is_bound in marked
+    ]
+    labels = [Label(axis.at(distance), top - 6, label) for distance, label, _ in marked]
+    dots = [
+        Shape("dot" if stop.counts else "dot uncounted", dot(axis.at(_distance(stop)), row_at(place), 3.5))
+        for place, case in enumerate(names)
+        for stop in at_speed
+        if stop.case == case and math.isfinite(_distance(stop))
+    ]
+    words = f"Braking distances from {speed.place}, one dot per stop; series-stops.csv has the numbers"
+    x_title = f"braking distance from {speed.place}, m"
+    return rows_plot(list(names.values()), [*lines, *dots], axis.tick_marks(6), words, x_title, labels)
 
 
 def _labels(result: SeriesResult, names: Collection[str]) -> dict[str, str]:
@@ -169,14 +148,6 @@ def _label(result: SeriesResult, case: evaluation.CaseResult, varied: Sequence[s
     head, _, rest = case.id.removeprefix(f"{result.id}.").partition("[")
     own = [(key.rpartition(".")[2], case.parameters[key]) for key in varied if key in case.parameters]
     return " ".join([f"{head}{rest.rpartition(']')[2]}", *(f"{key} {text}" for key, text in own)])
-
-
-def _row(label: str, axis: Axis, place: int, case: str, stops: Sequence[SeriesStop]) -> DotRow:
-    own = [stop for stop in stops if stop.case == case and math.isfinite(_distance(stop))]
-    counted, not_counted = (
-        [axis.at(_distance(stop)) for stop in own if stop.counts is counts] for counts in (True, False)
-    )
-    return DotRow(label, _TOP + _ROW * (place + 0.5), counted, not_counted)
 
 
 def _distance(stop: SeriesStop) -> float:

@@ -1,20 +1,19 @@
-"""The page of a sweep, put together, and which heat maps it has."""
+"""The page of a sweep as HTML: maps, points, distributions, sensitivities, frontier, and worst stops."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import chain
+from collections.abc import Mapping, Sequence
+from typing import Final
 
 from uictest.report.page.case_view import case_view, plots_json
 from uictest.report.page.overview import shown_parts
+from uictest.report.page.plot import Plot
 from uictest.report.page.rendering import render
-from uictest.report.page.stop.overlay_view import script_json
-from uictest.report.page.sweep.frontier_plot import frontier_plot
-from uictest.report.page.sweep.heat import HeatMaps, heat_maps
-from uictest.report.page.sweep.histogram import histogram_plot
-from uictest.report.page.sweep.scatter import ScatterView, is_sampled, scatter, scatter_view
-from uictest.report.page.sweep.sobol_bars import sobol_plots
-from uictest.report.page.sweep.trend_plot import TrendPlot, trend_plot
+from uictest.report.page.sweep.bar_plots import SOBOL_KEY, STACKED, histogram_plot, is_spread, sobol_plots
+from uictest.report.page.sweep.line_plots import cell_lines, frontier_plot, trend_plot
+from uictest.report.page.sweep.maps import maps_of_pair
+from uictest.report.page.sweep.panels import PanelsOfPoints, panels_of_points
+from uictest.report.page.sweep.scatter import is_sampled, scatter
 from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.map_cells import (
     MOST_PARAMETERS,
@@ -32,23 +31,11 @@ from uictest.report.sweep.sweep_sentences import (
     sweep_tally,
     swept_words,
 )
-from uictest.report.sweep.tables import (
-    TREND_COLUMNS,
-    distribution_rows,
-    frontier_csv,
-    sensitivity_csv,
-    trend_rows,
-)
 from uictest.report.sweep.tail_tables import tables_left_out, tail_tables
-from uictest.report.text_tables import csv_text
 
 
-def shown_maps(content: SweepContent, fragments: Mapping[str, str]) -> Iterator[HeatMaps]:
-    """Yield the maps of each pair of parameters, the pair of the result first.
-
-    Args:
-        content: the sweep.
-        fragments: what links to each drawn stop, by id.
+def sweep_page_html(content: SweepContent) -> str:
+    """Return the page: one document that loads nothing, and can be read without JavaScript.
 
     Raises:
         OSError: the summary of the sweep cannot be read.
@@ -56,9 +43,92 @@ def shown_maps(content: SweepContent, fragments: Mapping[str, str]) -> Iterator[
 
     """
     result = content.result
+    drawn = [
+        case_view(case, result.subject(case.id), content.traces[case.id])
+        for case in result.worst
+        if case.id in content.traces
+    ]
+    keys = {view.result.id: view.fragment for view in drawn}
+    sampled = is_sampled(result)
+    cells = _cells(content)
     units = {measure.name: measure.unit for measure in reported_columns(result)}
-    for cells in _cells(content):
-        yield heat_maps(cells, units, _stops_in(cells, result, fragments), result.logarithmic, result.varied)
+    # The points of a sample show what its measures depend on.
+    lines = [] if sampled else [cell_lines(each, units, result.logarithmic) for each in cells]
+    maps = [
+        maps_of_pair(
+            each,
+            units,
+            _stops_in(each, result, keys),
+            result.varied,
+            with_measures=not sampled and not lines[place],
+        )
+        for place, each in enumerate(cells)
+    ]
+    frontier = result.frontier
+    return render(
+        "sweep.html.j2",
+        content=content,
+        result=result,
+        tally=sweep_tally(result),
+        swept={key: swept_words([count.value for count in counts]) for key, counts in result.rates.items()},
+        maps=[each for each in maps if each],
+        maps_left_out=maps_left_out(content),
+        lines=[each for each in lines if each],
+        points=_points(content, keys) if sampled else None,
+        rates={} if len(result.varied) == 2 and maps and maps[0] else _rates(result),
+        frontier=frontier and (frontier_plot(frontier, result.logarithmic), frontier_table(frontier)),
+        trends={} if sampled or any(lines) else _trends(result),
+        sobol_plots=list(sobol_plots(result.sensitivities)),
+        sobol_key=SOBOL_KEY,
+        # How often a value of a list occurs is chosen, not found.
+        histograms=[
+            histogram_plot(each, result) for each in result.distributions if sampled and is_spread(each)
+        ],
+        outcomes=[("bar-" + outcome, outcome) for outcome in STACKED if result.outcomes.get(outcome)],
+        tails=list(tail_tables(result)),
+        tails_left_out=tables_left_out(result),
+        notable=notable_table(result),
+        sensitivities=sensitivity_table(result),
+        drawn=drawn,
+        keys=keys,
+        opened=next((view.anchor for view in drawn if not view.result.met), ""),
+        parts=shown_parts([result.base, *(view.result.parts for view in drawn)]),
+        varied=result.varied,
+        of_which="the scenario that is varied and the drawn stops",
+        all_parts_in="sweep.json",
+        plots=plots_json(),
+        with_plots=bool(drawn),
+        running_head=result.name,
+        alone=command_alone(content.manifest),
+        share_words=share_words,
+    )
+
+
+_MOST_VALUES: Final = 40
+"""Values of a parameter that get a bar each."""
+
+
+def _rates(result: SweepResult) -> dict[str, Sequence[OutcomeCount]]:
+    """Return the cases met by value, of parameters with few values; none where all cases are met."""
+    if result.met == result.cases:
+        return {}
+    return {key: counts for key, counts in result.rates.items() if len(counts) <= _MOST_VALUES}
+
+
+def _points(content: SweepContent, fragments: Mapping[str, str]) -> PanelsOfPoints | None:
+    rows = SummaryRows(content.folder)
+    return panels_of_points(scatter(content.result, rows, fragments), fragments) if rows.exists else None
+
+
+def _trends(result: SweepResult) -> dict[str, list[Plot]]:
+    """Return the plots of each parameter that has any."""
+    plots: dict[str, list[Plot]] = {}
+    for trend in result.trends:
+        is_log = trend.parameter in result.logarithmic
+        plot = trend_plot(trend, result.rates[trend.parameter], logarithmic=is_log)
+        if plot is not None:
+            plots.setdefault(trend.parameter, []).append(plot)
+    return plots
 
 
 def _cells(content: SweepContent) -> list[MapCells]:
@@ -97,96 +167,3 @@ def maps_left_out(content: SweepContent) -> str:
         return "Without summary.parquet beside sweep.json there are no maps of other parameters and measures"
     left_out = ", ".join(keys[MOST_PARAMETERS:])
     return f"Not in every pair: {left_out}; --map chooses another first pair" if left_out else ""
-
-
-_MOST_VALUES = 40
-"""Values of a parameter that get a bar each."""
-
-
-def sweep_page_html(content: SweepContent) -> str:
-    """Return the page: one document that loads nothing, and can be read without JavaScript."""
-    result = content.result
-    frontier = result.frontier
-    drawn = [
-        case_view(case, result.subject(case.id), content.traces[case.id])
-        for case in result.worst
-        if case.id in content.traces
-    ]
-    keys = {view.result.id: view.fragment for view in drawn}
-    points = _scatter(content, keys)
-    maps = list(shown_maps(content, keys))
-    # With two parameters the lines of the cells say all; a mean over the other one would mix them.
-    in_lines = len(maps) == 1 and len(result.varied) == 2 and maps[0].lines
-    trends = {} if points or in_lines else _trends(result)
-    return render(
-        "sweep.html.j2",
-        content=content,
-        result=result,
-        tally=sweep_tally(result),
-        swept={key: swept_words([count.value for count in counts]) for key, counts in result.rates.items()},
-        maps=maps,
-        maps_left_out=maps_left_out(content),
-        scatter=points,
-        rates=_rates(result),
-        frontier=frontier and (frontier_plot(frontier, result.logarithmic), frontier_table(frontier)),
-        trends=trends,
-        sobol_plots=list(sobol_plots(result.sensitivities)),
-        histograms=list(map(histogram_plot, result.distributions)),
-        plot_tables=script_json(_plot_tables(result, with_trends=bool(trends))),
-        tails=list(tail_tables(result)),
-        tails_left_out=tables_left_out(result),
-        notable=notable_table(result),
-        sensitivities=sensitivity_table(result),
-        drawn=drawn,
-        keys=keys,
-        opened=next((view.anchor for view in drawn if not view.result.met), ""),
-        parts=shown_parts([result.base, *(view.result.parts for view in drawn)]),
-        varied=result.varied,
-        of_which="the scenario that is varied and the drawn stops",
-        all_parts_in="sweep.json",
-        plots=plots_json(),
-        with_plots=bool(drawn),
-        running_head=result.name,
-        alone=command_alone(content.manifest),
-        share_words=share_words,
-    )
-
-
-def _rates(result: SweepResult) -> dict[str, Sequence[OutcomeCount]]:
-    """Return the cases met by value, of parameters with few values; none where all cases are met."""
-    if result.met == result.cases:
-        return {}
-    return {key: counts for key, counts in result.rates.items() if len(counts) <= _MOST_VALUES}
-
-
-def _scatter(content: SweepContent, fragments: Mapping[str, str]) -> ScatterView | None:
-    rows = SummaryRows(content.folder)
-    if not rows.exists or not is_sampled(content.result):
-        return None
-    return scatter_view(scatter(content.result, rows, fragments), fragments)
-
-
-def _trends(result: SweepResult) -> dict[str, list[TrendPlot]]:
-    """Return the plots of each parameter that has any."""
-    plots: dict[str, list[TrendPlot]] = {}
-    for trend in result.trends:
-        is_log = trend.parameter in result.logarithmic
-        plot = trend_plot(trend, result.rates[trend.parameter], logarithmic=is_log)
-        if plot is not None:
-            plots.setdefault(trend.parameter, []).append(plot)
-    return plots
-
-
-def _plot_tables(result: SweepResult, *, with_trends: bool) -> dict[str, str]:
-    """Return the numbers behind the drawings that have no table of their own, as CSV by file name."""
-    tables = {}
-    if with_trends:
-        tables["trends.csv"] = csv_text(TREND_COLUMNS, chain.from_iterable(map(trend_rows, result.trends)))
-    if result.distributions:
-        rows = [row for each in result.distributions for row in distribution_rows(each)]
-        tables["distributions.csv"] = csv_text(list(dict.fromkeys(chain.from_iterable(rows))), rows)
-    if result.frontier is not None:
-        tables["frontier.csv"] = frontier_csv(result.frontier)
-    if result.sensitivities:
-        tables["sensitivity.csv"] = sensitivity_csv(result)
-    return tables
