@@ -15,9 +15,8 @@ from uictest.core import user_cache
 from uictest.core.lanes import fuses, register_width
 from uictest.selftest.closed_forms import AIR_CHECKS, CONTACT_CHECKS, DRY_STOP_CHECKS, FRICTION_CHECKS
 from uictest.selftest.findings import Examination, Finding, Status
-from uictest.selftest.judging import judging_checks
 from uictest.selftest.known_stops import Answer, Check, KnownStops, NotCheckedError, reference_version
-from uictest.selftest.stored_answers import controller_checks, data_checks, stop_checks
+from uictest.selftest.stored_answers import controller_checks, data_checks, judging_checks, stop_checks
 
 _PACKAGES: Final = ("numpy", "scipy", "numba", "llvmlite", "pydantic", "pyyaml", "pandas", "pyarrow")
 """Those that take part in figures and verdicts."""

@@ -16,7 +16,7 @@ from uictest.plans.scenario.parts.rail import (
     FrictionProfile,
     RailCondition,
 )
-from uictest.plans.scenario.parts.sensors import Sensors
+from uictest.plans.scenario.parts.wheelsets import Sensors
 from uictest.plans.scenario.yaml import Inconsistency, Model, PartReference, Quantity, quoted, suggestion
 from uictest.plans.scenario.yaml.quantity_field import default, field, of_kind, optional, quantity
 

@@ -1,30 +1,127 @@
-"""Validation of a tree against a model: every error as a diagnostic at its place."""
+"""Validation of a tree against a model: every error as a diagnostic at its place, with a hint."""
 
+import re
 from collections.abc import Iterator
+from decimal import Decimal
 from functools import cache
-from typing import Any, get_args
+from typing import Annotated, Any, Final, get_args, get_origin
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter, ValidationError, create_model
 
+from uictest.plans import library
 from uictest.plans.scenario.yaml.diagnostics import Diagnostic, ScenarioErrors, diagnose
-from uictest.plans.scenario.yaml.hints import (
-    hint_for_item,
-    hint_for_key,
-    hint_for_list,
-    hint_for_mapping,
-    meant_choice,
+from uictest.plans.scenario.yaml.model import (
+    Key,
+    PartReference,
+    accepted_keys,
+    fields_named,
+    models_at,
+    models_in,
 )
-from uictest.plans.scenario.yaml.model import Key, accepted_keys, fields_named
+from uictest.plans.scenario.yaml.quantities import NUMBER_PATTERN
 from uictest.plans.scenario.yaml.tree import (
+    EXAMPLE_LENGTH,
     Node,
     Scalar,
     Sequence,
+    as_written,
     describe,
     entry_at,
+    longer_name,
+    plain,
     quoted,
+    short_example,
     suggestion,
     visible,
 )
+
+_FEWEST_LETTERS: Final = 3
+_DEEPEST: Final = 3
+"""Levels of sections that are searched for a key."""
+_WRITTEN = re.compile(rf"\s*({NUMBER_PATTERN})(.*)", re.DOTALL)
+_MEANT_BY_WORD: Final = {
+    **dict.fromkeys(("on", "true", "yes", "enabled"), ("active", "full", "true")),
+    **dict.fromkeys(("off", "false", "no", "disabled"), ("bypassed", "none", "false")),
+}
+
+
+def hint_for_key(model: Any, key: Key, written: Key, node: Node) -> str:
+    """What to write instead of an unknown ``key`` of ``model`` that holds ``node``.
+
+    ``written`` is the key without tags: another member of the union there may have it, which is no place.
+    """
+    name = str(key[-1])
+    accepted = accepted_keys(model, key[:-1])
+    half = _half(name, accepted)
+    if half:
+        value = _halved(node)
+        return f"write `{f'{half}: {value}' if value else half}`, half the {visible(name.replace('_', ' '))}"
+    longer = longer_name(name, accepted)
+    if longer is not None:
+        return f"did you mean '{longer}'?"
+    places = [".".join(place) for place in _places(model, name) if place != written]
+    if len(places) == 1:
+        return f"did you mean {places[0]}?"
+    return f"keys of that name: {', '.join(places)}" if places else suggestion(name, accepted)
+
+
+def _half(name: str, accepted: set[str]) -> str:
+    """The accepted key that holds half of what ``name`` says: a radius, half a wheelbase."""
+    radius = name.replace("diameter", "radius")
+    halves = (f"half_{name}", *((radius, radius.partition("_")[2]) if radius != name else ()))
+    return next((half for half in halves if half in accepted), "")
+
+
+def _halved(node: Node) -> str:
+    match = _WRITTEN.fullmatch(node.text) if isinstance(node, Scalar) else None
+    return "" if match is None else visible(f"{Decimal(match[1]) / 2:f}{match[2]}")
+
+
+def _places(model: Any, name: str) -> list[tuple[str, ...]]:
+    """Where else a model has a key called ``name``: those nearest to its top."""
+    level: list[tuple[tuple[str, ...], Any]] = [((), each) for each in models_in(model)]
+    for _ in range(_DEEPEST):
+        places = [(*above, name) for above, each in level if name in each.model_fields]
+        if places:
+            return list(dict.fromkeys(places))
+        level = [((*above, inner), below) for above, each in level for inner, below in _sections(each)]
+    return []
+
+
+def _sections(model: Any) -> Iterator[tuple[str, Any]]:
+    for name, field in model.model_fields.items():
+        if get_origin(field.annotation) not in (dict, tuple):
+            yield from ((name, each) for each in models_in(field.annotation))
+
+
+def hint_for_mapping(model: Any, key: Key, name: str, node: Node) -> str:
+    """What to write where ``node`` stands in place of the mapping ``name``: a key that takes the value."""
+    value = as_written(node)
+    if value and len(value) <= EXAMPLE_LENGTH:
+        for each in models_at(model, key):
+            for inner, field in each.model_fields.items():
+                if _accepts(field, node):
+                    item = "- " if name.isdecimal() else f"{name}: "
+                    return visible(f"write `{item}{{{inner}: {value}}}`")
+    keys = accepted_keys(model, key)
+    return "a mapping of " + ", ".join(sorted(keys)) if keys else ""
+
+
+def _accepts(field: Any, node: Node) -> bool:
+    """Whether a field accepts a value; free text, which accepts everything, does not count."""
+    references = [mark for mark in field.metadata if isinstance(mark, PartReference)]
+    if references:
+        folder = models_in(references[0].model)[0].folder
+        return isinstance(node, Scalar) and node.text in library.names(folder)
+    if field.annotation is str or node == Scalar(None, "", node.place):
+        return False
+    annotation: Any = Annotated[field.annotation, *field.metadata] if field.metadata else field.annotation
+    # A model, since validators of fields may look at the fields before theirs.
+    alone: Any = create_model("Alone", field=(annotation, ...))
+    try:
+        return alone(field=plain(node)).field is not None
+    except ValidationError:
+        return False
 
 
 @cache
@@ -74,10 +171,13 @@ def _hint_of_shape(kind: str, model: Any, key: Key, written: Key, node: Node) ->
     if kind in _MAPPINGS:
         return hint_for_mapping(model, key, str(written[-1]) if written else "", node)
     if kind == "tuple_type":
-        return hint_for_item(written, node)
+        if not written:
+            return ""
+        return short_example(f"write `{written[-1]}: [{as_written(node)}]`") or "write a list"
     varies = len(written) > len(key) or "matrix" in accepted_keys(model, ())
     if isinstance(node, Sequence) and kind in _SINGLE and varies:
-        return hint_for_list(dotted(written), node)
+        example = short_example(f": `matrix: {{{dotted(written)}: {as_written(node)}}}`")
+        return f"several values go under matrix{example}"
     return ""
 
 
@@ -163,7 +263,11 @@ def _not_one_of(node: Node, choices: list[str]) -> tuple[str, str]:
 
 
 def _meant(text: str, choices: list[str]) -> str:
-    choice = meant_choice(text, choices)
+    """Return a hint at the choice that a word like `on`, a beginning or a digit means, empty for none."""
+    word = text.lower().replace("_", "-").replace("1", "one").replace("4", "four")
+    begun = [choice for choice in choices if len(word) >= _FEWEST_LETTERS and choice.startswith(word)]
+    meant = (choice for choice in _MEANT_BY_WORD.get(word, ()) if choice in choices)
+    choice = next(meant, begun[0] if len(begun) == 1 else "")
     return f"did you mean {quoted(choice)}?" if choice else ""
 
 
