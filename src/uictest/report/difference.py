@@ -193,6 +193,7 @@ class BaselineComparison:
         not_selected: ids of cases of the baseline that were not selected.
         series_not_compared: ids of series of the baseline that were not run or not selected.
         notes: inputs that differ.
+        values: case -> criterion -> its value in the baseline, in the unit of the run; ids.
 
     """
 
@@ -207,6 +208,7 @@ class BaselineComparison:
     not_selected: Sequence[str] = ()
     series_not_compared: Sequence[str] = ()
     notes: Sequence[str] = ()
+    values: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     @property
     def agrees(self) -> bool:

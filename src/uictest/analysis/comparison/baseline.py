@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
+import math
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -55,6 +56,11 @@ class Baseline:
             not_selected=[case_id for case_id in other_ids if case_id not in self.scope.selected],
             series_not_compared=of_series.not_compared,
             notes=[*self._parameters_changed(run), *run_notes(self._inputs_limited(run), run)],
+            values={
+                result.id: _values(self.results[result.id], result)
+                for result in run.results
+                if result.id in self.results
+            },
         )
 
     def differences(self, result: evaluation.CaseResult) -> list[Difference]:
@@ -116,6 +122,18 @@ def _named(folder: Path) -> Path:
 def _beyond(quantities: Iterable[Difference | None]) -> list[Difference]:
     """Return the differences out of tolerance; None stands for a quantity that is the same."""
     return [quantity for quantity in quantities if quantity and not quantity.within]
+
+
+def _values(accepted: evaluation.CaseResult, result: evaluation.CaseResult) -> dict[str, float]:
+    """Return the accepted values of the criteria of a case that count in the same unit now."""
+    units = {verdict.id: verdict.unit for verdict in result.criteria}
+    return {
+        verdict.id: verdict.value
+        for verdict in accepted.criteria
+        if verdict.value is not None
+        and math.isfinite(verdict.value)
+        and units.get(verdict.id) == verdict.unit
+    }
 
 
 def _missing(accepted: evaluation.CaseResult) -> Difference:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -81,6 +82,7 @@ def case_view(
     trace: PlotTrace,
     differences: Sequence[Difference] = (),
     command: str = "",
+    accepted: Mapping[str, float] = MappingProxyType({}),
 ) -> CaseView:
     """Return the view of a case with its plots drawn.
 
@@ -90,6 +92,7 @@ def case_view(
         trace: of the stop that is drawn.
         differences: those from the baseline.
         command: what runs the case alone; empty where there is no such command.
+        accepted: criterion -> its value in the baseline.
 
     """
     drawn = result.drawn_stop
@@ -103,7 +106,7 @@ def case_view(
         list(_headline(result)),
         drawing_of(trace),
         script_json(plot_data(result.id, trace, marks, recorded=bool(subject.recorded))),
-        margins_of(result.criteria, drawn.criteria, trace),
+        margins_of(result.criteria, drawn.criteria, trace, accepted),
         " ".join(_notes(drawn, subject, trace)),
         repeats_view(result),
         command,

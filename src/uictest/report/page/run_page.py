@@ -111,6 +111,7 @@ def _drawn(content: RunContent, commands: Mapping[str, str]) -> list[CaseView]:
             content.traces[result.id],
             content.differences(result.id),
             commands[result.id],
+            content.baseline.values.get(result.id, {}) if content.baseline else {},
         )
         for result in traced
         if result.id in shown

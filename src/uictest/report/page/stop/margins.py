@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Final
 
 from uictest.judging import evaluation
@@ -29,12 +30,14 @@ _TITLES: Mapping[str, str] = {plot.key: plot.title for plot in (*PANELS, *LOOPS,
 class Margin:
     """The margin of one criterion: `share` of its value in per cent of the limit, negative if missed.
 
-    `share` is None for a criterion that only says yes or no, or whose limit is 0.
+    `share` is None for a criterion that only says yes or no, or whose limit is 0. `baseline` is the value
+    that was accepted, None where there is none.
     """
 
     verdict: evaluation.Verdict
     share: float | None
     taken: Taken | None
+    baseline: float | None = None
 
     @property
     def to_spare(self) -> float | None:
@@ -97,6 +100,11 @@ class Margin:
         return missed_by_text(self.verdict, len(WHEELSETS)) if self.verdict.status == "fail" else ""
 
     @property
+    def baseline_text(self) -> str:
+        """The value in the baseline; empty where there is none."""
+        return "" if self.baseline is None else f"baseline {quantity(self.baseline, self.verdict.unit)}"
+
+    @property
     def taken_text(self) -> str:
         """When and where the value was taken; empty where the plots show no such place."""
         return "" if self.taken is None else self.taken.text
@@ -120,6 +128,7 @@ def margins_of(
     verdicts: Sequence[evaluation.Verdict],
     drawn: Iterable[evaluation.Verdict] = (),
     trace: PlotTrace | None = None,
+    accepted: Mapping[str, float] = MappingProxyType({}),
 ) -> Margins:
     """Return the margins of a case.
 
@@ -127,6 +136,7 @@ def margins_of(
         verdicts: of the case.
         drawn: of the stop that is drawn: of a repeated case this is one of several.
         trace: of the stop that is drawn; None where none is.
+        accepted: criterion -> its value in the baseline.
 
     """
     of_stop = {verdict.id: verdict for verdict in drawn}
@@ -135,9 +145,10 @@ def margins_of(
             verdict,
             margin_share(verdict),
             taken_at(of_stop.get(verdict.id, verdict), trace) if trace else None,
+            accepted.get(verdict.id),
         )
         if verdict.status in _WORDS
-        else Margin(verdict, None, None)
+        else Margin(verdict, None, None, accepted.get(verdict.id))
         for verdict in without_rig_that_holds(verdicts)
     ]
     criteria.sort(key=_urgency)
