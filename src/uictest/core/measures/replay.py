@@ -210,7 +210,7 @@ class Replay:
         places = self._places(cells)
         passed = self.pass_samples(fields={name for name, _, _ in cells})
         rows = [[holder[key] for holder, key in places] for _ in passed]
-        return np.array(rows, np.float64).reshape(-1, len(cells))
+        return np.array(rows, np.float64).reshape(len(rows), len(cells))
 
     def _places(self, cells: Sequence[Cell]) -> list[tuple[Any, str | int]]:
         records = [vars(record) for record in (self.train, *self.wheelsets)]
