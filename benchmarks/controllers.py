@@ -103,14 +103,10 @@ def python_class(folder: Path) -> Iterator[str]:
 def fmu(folder: Path) -> Iterator[str]:
     """Yield the threshold controller in C as an FMU."""
     threshold = EXAMPLES / "threshold-c"
-    arguments = (
-        threshold / "threshold.c",
-        "--scenario",
-        threshold / "threshold.yaml",
-        "-o",
-        folder / "wsp.fmu",
-    )
-    subprocess.run([sys.executable, EXAMPLES / "fmu" / "build.py", *arguments], check=True)
+    shutil.copy(threshold / "threshold.yaml", folder)
+    compiled(threshold / "threshold.c", folder / "libwsp.so", "-fPIC", "-shared")
+    command = [sys.executable, "-m", "uictest", "export-controller", "threshold.yaml", "-o", "wsp.fmu"]
+    subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
     yield "fmu: wsp.fmu"
 
 

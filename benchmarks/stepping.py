@@ -76,7 +76,7 @@ def fmu(folder: str) -> Stop:
     import fmpy
     from fmpy.fmi2 import FMU2Slave
 
-    from uictest.api.rig_fmu import build_fmu, usable_compiler
+    from uictest.api.fmu import build_fmu, usable_compiler
 
     path = Path(folder, "rig.fmu")
     path.write_bytes(build_fmu(uictest.Rig(STOP).case, 2, usable_compiler()))

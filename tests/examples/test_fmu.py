@@ -1,4 +1,4 @@
-"""An FMU built from the threshold controller in C is the built-in controller, bit for bit."""
+"""The threshold controller in C, exported as an FMU, is the built-in controller, bit for bit."""
 
 from __future__ import annotations
 
@@ -16,17 +16,39 @@ from uictest.plans.scenario import Case, load
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.workers import Workers
 
-from .conftest import EXAMPLES, WithController, bits
+from .conftest import WithController, bits
+
+STOP = """\
+schema: uictest/scenario/1
+name: wsp-fmu
+initial_speed: 80 km/h
+rail: {condition: wet, friction: 0.09}
+controller: {fmu: wsp.fmu, parameters: {slip_threshold: 0.9993, vent_deceleration: 6.98}}
+"""
 
 
-@pytest.fixture(scope="session", params=[2, 3], ids=["FMI 2.0", "FMI 3.0"])
-def fmu(request: pytest.FixtureRequest, compiler: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """examples/fmu/wsp.fmu, built as the scenario beside it says."""
-    threshold = EXAMPLES / "threshold-c"
+@pytest.fixture(scope="session", params=["2", "3"], ids=["FMI 2.0", "FMI 3.0"])
+def fmu(
+    request: pytest.FixtureRequest,
+    threshold_library: Path,
+    compiler: str,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Path:
+    """examples/threshold-c, built and exported."""
     path = tmp_path_factory.mktemp("fmu") / "wsp.fmu"
-    options = ["--scenario", threshold / "threshold.yaml", "-o", path, "--fmi", str(request.param)]
-    command = [sys.executable, EXAMPLES / "fmu" / "build.py", threshold / "threshold.c", *options]
-    subprocess.run(command, check=True, env={**os.environ, "CC": compiler})
+    program = "from uictest.cli import main; main()"
+    arguments = ["export-controller", "threshold.yaml", "-o", path, "--fmi", request.param]
+    command = [sys.executable, "-c", program, *arguments]
+    environment = {**os.environ, "CC": compiler}
+    subprocess.run(command, cwd=threshold_library.parent, check=True, env=environment)
+    return path
+
+
+@pytest.fixture
+def scenario(tmp_path: Path) -> Path:
+    """A stop with the FMU beside it."""
+    path = tmp_path / "wsp.yaml"
+    path.write_text(STOP)
     return path
 
 
@@ -51,13 +73,12 @@ def test_every_shipped_stop_has_the_bits_of_the_built_in_controller(
     assert different == []
 
 
-def test_the_example_scenario_runs_in_a_child_process_and_leaves_no_file(
-    fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_it_runs_in_a_child_process_and_leaves_no_file(
+    fmu: Path, scenario: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The child is ended by a signal: what it unpacked lies in a folder of its parent."""
     shutil.copy(fmu, tmp_path)
-    shutil.copy(EXAMPLES / "fmu" / "wsp.yaml", tmp_path)
-    case = load([tmp_path / "wsp.yaml"])[0]
+    case = load([scenario])[0]
     folder = tmp_path / "temporary"
     folder.mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(folder))
@@ -70,19 +91,18 @@ def test_the_example_scenario_runs_in_a_child_process_and_leaves_no_file(
 
 def test_check_reads_no_fmu(tmp_path: Path) -> None:
     """It takes the SHA-256 alone: a file that is no FMU at all passes."""
-    shutil.copy(EXAMPLES / "fmu" / "wsp.yaml", tmp_path)
+    (tmp_path / "wsp.yaml").write_text(STOP)
     (tmp_path / "wsp.fmu").write_text("no FMU")
     command = [sys.executable, "-c", "from uictest.cli import main; main()", "check", "wsp.yaml"]
     checked = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert (checked.returncode, checked.stderr) == (0, "uictest: 1 scenario with 1 case, no error\n")
 
 
-def test_a_run_in_this_process_leaves_no_file(fmu: Path, tmp_path: Path) -> None:
+def test_a_run_in_this_process_leaves_no_file(fmu: Path, scenario: Path, tmp_path: Path) -> None:
     shutil.copy(fmu, tmp_path)
-    shutil.copy(EXAMPLES / "fmu" / "wsp.yaml", tmp_path)
     folder = tmp_path / "temporary"
     folder.mkdir()
     program = "from uictest.cli import main; main()"
-    command = [sys.executable, "-c", program, "run", "wsp.yaml", "--in-process"]
+    command = [sys.executable, "-c", program, "run", scenario.name, "--in-process"]
     subprocess.run(command, cwd=tmp_path, env={**os.environ, "TMPDIR": str(folder)}, check=True)
     assert list(folder.iterdir()) == []

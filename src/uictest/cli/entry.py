@@ -43,7 +43,7 @@ _EPILOG = (
 )
 _SECTIONS: Final = {
     "Run and judge": ("run", "sweep", "check", "list", "compare"),
-    "Your WSP": ("init", "controller"),
+    "Your WSP": ("init", "controller", "export-controller"),
     "Recorded stops": ("evaluate", "validate", "fit", "export"),
     "Caliper laboratory": ("bench", "identify"),
     "Files and tools": ("report", "open", "library", "schema", "export-rig", "selftest"),
@@ -130,7 +130,10 @@ _WRITTEN_OTHERWISE: Final = {
     "--trigger-lead": (("evaluate", "fit"), "preparation: {trigger_lead: TIME} in the file of --map"),
     "--raster": (("evaluate", "fit"), "preparation: {raster: TIME} in the file of --map"),
     "--low-pass": (("evaluate", "fit"), "preparation: {low_pass: FREQUENCY} in the file of --map"),
-    "--trust": (("fit", "bench", "export-rig", "identify", "library"), f"{TRUSTED_FOLDERS}=DIR uictest ..."),
+    "--trust": (
+        ("fit", "bench", "export-rig", "export-controller", "identify", "library"),
+        f"{TRUSTED_FOLDERS}=DIR uictest ...",
+    ),
     "--color": (("run", "evaluate"), "NO_COLOR=1 uictest ... or FORCE_COLOR=1 uictest ..."),
     "--list": (("bench",), "uictest library list"),
     "--date": (("identify",), "SOURCE_DATE_EPOCH=SECONDS uictest ..."),

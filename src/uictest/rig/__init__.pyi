@@ -9,6 +9,7 @@ from .assembly import (
 )
 from .backends.batch import BatchMeasures as BatchMeasures
 from .backends.compiled import translate as translate
+from .backends.controller_code import ControllerCode as ControllerCode, controller_code as controller_code
 from .backends.lanes import load_lanes as load_lanes, run_in_lanes as run_in_lanes
 from .backends.machine_code import (
     Target as Target,

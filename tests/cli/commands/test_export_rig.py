@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.api import rig_fmu
+from uictest.api import fmu
 
 TWO_CASES = "matrix:\n  brake.command: [80 %, 90 %]\n"
 
@@ -17,8 +17,8 @@ def built(monkeypatch):
         made.append((case.id, version))
         return b"an FMU"
 
-    monkeypatch.setattr(rig_fmu, "usable_compiler", lambda: "cc")
-    monkeypatch.setattr(rig_fmu, "build_fmu", build)
+    monkeypatch.setattr(fmu, "usable_compiler", lambda: "cc")
+    monkeypatch.setattr(fmu, "build_fmu", build)
     return made
 
 
@@ -64,9 +64,9 @@ def test_a_file_that_cannot_be_written_is_refused_before_anything_is_read(call, 
 
 def test_a_machine_without_a_compiler_is_told_before_anything_is_compiled(call, scenario, built, monkeypatch):
     def missing():
-        raise rig_fmu.CannotBuildError("no C compiler (cc)")
+        raise fmu.CannotBuildError("no C compiler (cc)")
 
-    monkeypatch.setattr(rig_fmu, "usable_compiler", missing)
+    monkeypatch.setattr(fmu, "usable_compiler", missing)
     answer = call("export-rig", scenario("stop"))
     assert (answer.code, answer.err) == (4, "uictest: no C compiler (cc)\n")
     assert built == []
@@ -76,7 +76,7 @@ def test_a_compiler_that_fails_exits_3_and_leaves_nothing(call, scenario, built,
     def fail(*arguments):
         raise RuntimeError("ld: no space left")
 
-    monkeypatch.setattr(rig_fmu, "build_fmu", fail)
+    monkeypatch.setattr(fmu, "build_fmu", fail)
     call("export-rig", scenario("stop"), code=3, says="ld: no space left")
     assert not Path("rig.fmu").exists()
 
@@ -87,8 +87,8 @@ def test_an_invalid_file_exits_4(call, scenario, built):
 
 def test_the_program_writes_an_fmu(call, scenario):
     try:
-        rig_fmu.usable_compiler()
-    except rig_fmu.CannotBuildError as error:
+        fmu.usable_compiler()
+    except fmu.CannotBuildError as error:
         pytest.skip(str(error))
     assert call("export-rig", scenario("stop")).code == 0
     with zipfile.ZipFile("rig.fmu") as archive:

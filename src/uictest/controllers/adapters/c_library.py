@@ -46,7 +46,9 @@ class LibraryInstance(ControllerInstance):
 
     def __init__(self, library: Any, config: Config, parameters: str) -> None:
         self._library = library
-        self.version = _stated_text(library, "version") or ""
+        self.version, self.declares = (
+            _stated_text(library, name) or "" for name in ("version", "parameters")
+        )
         speeds = config.cycle_time, config.initial_speed, _Radii(*config.wheel_radius)
         given = _Config(config.wheelsets, 0, *speeds, parameters.encode())
         handle = library.uictest_create(ctypes.byref(given))

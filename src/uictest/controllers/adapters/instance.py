@@ -61,12 +61,14 @@ class ControllerInstance(ABC):
 
     Attributes:
         version: what it says of itself, empty if nothing.
+        declares: the JSON in which it declares its parameters, empty if it does not.
         runs_beside_others: whether its step is machine code, and others of its kind may be open meanwhile.
         step_address: address of a function like `uictest_step`.
         handle: first argument of that function.
     """
 
     version: str = ""
+    declares: str = ""
     runs_beside_others: bool = False
     step_address: int
     handle: int = 0
@@ -215,12 +217,13 @@ def reject_undeclared(program: ControllerProgram, stated: str | None) -> None:
     if stated is None:
         problems = [nothing_declared(given)] if mode == "asked" and given else []
     else:
-        problems = [*parameter_problems(_stated(stated), given, free=mode == "free")]
+        problems = [*parameter_problems(stated_declarations(stated), given, free=mode == "free")]
     if problems:
         raise ControllerError("; ".join(f"controller.parameters.{each.name}: {each}" for each in problems))
 
 
-def _stated(text: str) -> dict[str, StatedDeclaration]:
+def stated_declarations(text: str) -> dict[str, StatedDeclaration]:
+    """Return the declarations in the JSON of a program. Raises ControllerError where they are none."""
     try:
         stated = {str(name): StatedDeclaration(**each) for name, each in json.loads(text).items()}
         for low, high in (each.range for each in stated.values() if each.range is not None):

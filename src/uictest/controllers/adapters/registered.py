@@ -3,7 +3,7 @@
 import json
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache, partial
 from importlib import import_module
@@ -91,17 +91,18 @@ def parameter_values(
 
 
 def _value(name: str, written: Any, declared: DeclaredParameter) -> float:
-    value = _in_si(name, written, declared)
+    value = in_si(name, written, declared)
     if not math.isfinite(value):
         raise ControllerError(f"{name} is {written}, expected a finite number")
     for bound, outside in ((declared.at_least, value.__lt__), (declared.at_most, value.__gt__)):
-        if outside(_in_si(name, bound, declared)):
+        if outside(in_si(name, bound, declared)):
             limits = f"from {declared.at_least} to {declared.at_most}"
             raise ControllerError(f"{name} is {written}, expected a {declared.kind} {limits}")
     return value
 
 
-def _in_si(name: str, written: Any, declared: DeclaredParameter) -> float:
+def in_si(name: str, written: Any, declared: DeclaredParameter) -> float:
+    """Return a value as a user writes it in the SI unit. Raises ControllerError for one that is none."""
     kind = KINDS[declared.kind]
     if isinstance(written, int | float) and not isinstance(written, bool):
         return float(written)
@@ -128,7 +129,7 @@ class CompiledInstance(ControllerInstance):
         self, controller: Controller, parameters: Mapping[str, Any], config: Config, version: str
     ) -> None:
         self.version = version
-        self._memory: Any = np.zeros(1, _memory_of(controller))
+        self._memory: Any = np.zeros(1, memory_of(controller))
         values = parameter_values(controller, parameters, config.cycle_time)
         for name, value in values.items():
             self._memory["parameters"][name] = value
@@ -152,8 +153,8 @@ class _Functions(NamedTuple):
     step: Any
 
 
-def _memory_of(controller: Controller) -> Any:
-    """Return the layout of what a controller remembers and is given."""
+def memory_of(controller: Controller) -> Any:
+    """Return the layout of what a controller remembers, and behind it of what it is given."""
     return np.dtype(
         [
             ("wheelsets", layout_of(controller.wheelset_memory), WHEELSETS),
@@ -168,7 +169,25 @@ def _memory_of(controller: Controller) -> Any:
 def _compiled(controller: Controller) -> _Functions:
     """Compile a controller, which takes some seconds, once per process."""
     numba: Any = import_module("numba")
-    memory = _memory_of(controller)
+    begin_at, step_at = functions_of_addresses(controller, _compile_inner)
+    address, status = numba.int64, numba.int32
+    return _Functions(
+        numba.cfunc(status(address), **_OPTIONS)(begin_at),
+        numba.cfunc(status(address, address, address), **_OPTIONS)(step_at),
+    )
+
+
+def functions_of_addresses(controller: Controller, compile_inner: Callable[[Any], Any]) -> tuple[Any, Any]:
+    """Return what begins a stop and what decides on a cycle, ready to be compiled.
+
+    The one takes the address of the memory that :func:`memory_of` lays out, the other that of inputs and
+    outputs as well. Both return 0.
+
+    Args:
+        controller: in the built-in form.
+        compile_inner: compiles a function that only compiled code calls.
+    """
+    memory = memory_of(controller)
     train_place, parameters_place, speed_place = (
         memory.fields[name][1] for name in ("train", "parameters", "initial_speed")
     )
@@ -178,7 +197,7 @@ def _compiled(controller: Controller) -> _Functions:
     parameters_at = lanes.record_at(memory["parameters"])
     number_at = lanes.record_at(np.dtype([("value", "f8")]))
     inputs_at, outputs_at = lanes.record_at(INPUTS), lanes.record_at(OUTPUTS)
-    begin, decide = _translated(controller)
+    begin, decide = _translated(controller, compile_inner)
 
     def four_wheelsets(handle: int) -> Any:
         return (
@@ -188,7 +207,7 @@ def _compiled(controller: Controller) -> _Functions:
             wheelset_at(handle + 3 * size),
         )
 
-    wheelsets_at = _compile_inner(four_wheelsets)
+    wheelsets_at = compile_inner(four_wheelsets)
 
     def begin_at(handle: int) -> int:
         begin(train_at(handle + train_place), wheelsets_at(handle), number_at(handle + speed_place).value)
@@ -208,17 +227,13 @@ def _compiled(controller: Controller) -> _Functions:
         outputs.reference_speed = train.reference_speed
         return 0
 
-    address, status = numba.int64, numba.int32
-    return _Functions(
-        numba.cfunc(status(address), **_OPTIONS)(begin_at),
-        numba.cfunc(status(address, address, address), **_OPTIONS)(step_at),
-    )
+    return begin_at, step_at
 
 
-def _translated(controller: Controller) -> tuple[Any, Any]:
+def _translated(controller: Controller, compile_inner: Callable[[Any], Any]) -> tuple[Any, Any]:
     """Return the two functions of a controller compiled, with what they call of their package and of ours."""
     functions = controller.begin, controller.decide
     packages = {"uictest", *(function.__module__.partition(".")[0] for function in functions)}
     done: dict[Any, Any] = {fma: lanes.fma} if lanes.fuses() else {}
-    begin, decide = (lanes.translate(function, _compile_inner, done, packages) for function in functions)
+    begin, decide = (lanes.translate(function, compile_inner, done, packages) for function in functions)
     return begin, decide

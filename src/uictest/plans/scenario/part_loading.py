@@ -12,6 +12,7 @@ from uictest.plans.scenario.program_files import KIND_OF_ENDING, SOCKET
 from uictest.plans.scenario.references import Parts, folder_of, is_path
 from uictest.plans.scenario.resolution import PART_KEYS, PART_KINDS
 from uictest.plans.scenario.yaml import (
+    COMMAND_LINE,
     SCENARIO_SCHEMA,
     Document,
     Entry,
@@ -67,7 +68,9 @@ def _part_in(path: Path, files: Files, model: Any) -> Any:
     return Parts(files).resolve(name, model, ()).part
 
 
-def load_controller(reference: str, class_name: str = "", trusted: Sequence[Path] = ()) -> ControllerPart:
+def load_controller(
+    reference: str, class_name: str = "", trusted: Sequence[Path] = (), library: Path | None = None
+) -> ControllerPart:
     """The controller that ``reference`` names.
 
     Args:
@@ -75,6 +78,7 @@ def load_controller(reference: str, class_name: str = "", trusted: Sequence[Path
             of a controller of the library or of an installed package.
         class_name: class in a Python file; where it has one controller alone this may be left out.
         trusted: folders that may be read besides those of the files given and the working folder.
+        library: takes the place of the one that a part file names, which need not be there.
 
     Raises:
         ScenarioErrors: when there is none, or a scenario has cases with several.
@@ -84,6 +88,15 @@ def load_controller(reference: str, class_name: str = "", trusted: Sequence[Path
     controller: ControllerPart
     if not (is_path(reference) and is_file(path)):
         controller = Parts(files).resolve(_node(reference, path, class_name), model, ()).part
+        return controller
+    if library is not None:
+        places = {
+            key: (Place(Document(COMMAND_LINE, file.parent, file.name)), file.name)
+            for key, file in (("extends", path), ("library", library))
+        }
+        entries = {key: Entry(place, Scalar(name, name, place)) for key, (place, name) in places.items()}
+        node = Map(entries, places["extends"][0])
+        controller = Parts(Files(Roots.of([path, library], trusted))).resolve(node, model, ()).part
         return controller
     schema = files.at(path).get("schema")
     if not isinstance(schema, Scalar) or schema.value != SCENARIO_SCHEMA:

@@ -152,10 +152,11 @@ class Driven(NamedTuple):
 
 
 class Drives(NamedTuple):
-    """What a controller says of itself, and its drives."""
+    """What a controller says of itself, its drives, and the JSON in which it declares its parameters."""
 
     version: str
     drives: tuple[Driven, ...]
+    declares: str = ""
 
 
 def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
@@ -175,7 +176,8 @@ def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
             instance.reset()
             exchange["calling"] = NOT_CALLED
             drives.append(drive(instance, request.inputs, request.config.cycle_time, exchange))
-        return Drives(instance.version if instance else "", tuple(drives))
+        version, declares = (instance.version, instance.declares) if instance else ("", "")
+        return Drives(version, tuple(drives), declares)
     finally:
         _close(instance, exchange)
 

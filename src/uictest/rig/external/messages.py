@@ -121,14 +121,14 @@ def drive_request_of(message: Message) -> DriveRequest:
 def drives_message(drives: Drives) -> Message:
     """Return what a controller has answered as a message."""
     records = [each for driven in drives.drives for each in driven]
-    return Message({"version": drives.version}, bytes_of(records))
+    return Message({"version": drives.version, "declares": drives.declares}, bytes_of(records))
 
 
 def drives_of(message: Message) -> Drives:
     """Return what a controller has answered from its message."""
     pairs = zip(message.blocks[::2], message.blocks[1::2], strict=True)
     drives = (Driven(np.frombuffer(outputs, OUTPUTS), np.frombuffer(seconds)) for outputs, seconds in pairs)
-    return Drives(message.head["version"], tuple(drives))
+    return Drives(message.head["version"], tuple(drives), message.head["declares"])
 
 
 _STOP: Final = (STOP_MEASURES, WHEELSET_MEASURES, CAR, WHEELSET, TRAIN_SAMPLE, WHEELSET_SAMPLE)

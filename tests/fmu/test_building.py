@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 import pytest
 
 from uictest import __version__
-from uictest.api import rig_fmu
+from uictest.api import fmu
 from uictest.plans.scenario import Case, load
 
 fmpy = pytest.importorskip("fmpy", reason="the extra fmu is not installed")
@@ -143,7 +143,7 @@ def test_every_function_of_co_simulation_is_there(build: Build, version: int, tm
 
 @VERSIONS
 def test_the_same_case_gives_the_same_bytes(build: Build, compiler: str, case: Case, version: Any) -> None:
-    assert rig_fmu.build_fmu(case, version, compiler) == build(version).read_bytes()
+    assert fmu.build_fmu(case, version, compiler) == build(version).read_bytes()
 
 
 def test_nothing_of_the_machine_is_in_it(build: Build, case: Case) -> None:
@@ -186,15 +186,15 @@ def swapped_token(path: Path, token: str) -> str:
 def test_a_seed_beyond_the_integers_of_fmi_2_is_refused(compiler: str, case: Case) -> None:
     [other] = load([case.path], seed=2**31)
     with pytest.raises(ValueError, match=r"seed 2147483648 is above 2147483647.*--seed"):
-        rig_fmu.build_fmu(other, 2, compiler)
-    assert zipfile.is_zipfile(io.BytesIO(rig_fmu.build_fmu(other, 3, compiler)))
+        fmu.build_fmu(other, 2, compiler)
+    assert zipfile.is_zipfile(io.BytesIO(fmu.build_fmu(other, 3, compiler)))
 
 
 def test_without_a_compiler_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("CC", raising=False)
-    with pytest.raises(rig_fmu.CannotBuildError, match=r"no C compiler \(cc or gcc or clang\): install gcc"):
-        rig_fmu.usable_compiler()
+    with pytest.raises(fmu.CannotBuildError, match=r"no C compiler \(cc or gcc or clang\): install gcc"):
+        fmu.usable_compiler()
 
 
 def test_a_compiler_that_cannot_link_is_found_out_before_anything_is_compiled(
@@ -204,8 +204,8 @@ def test_a_compiler_that_cannot_link_is_found_out_before_anything_is_compiled(
     broken.write_text("#!/bin/sh\necho 'cannot find crti.o' >&2\nexit 1\n")
     broken.chmod(0o755)
     monkeypatch.setenv("CC", str(broken))
-    with pytest.raises(rig_fmu.CannotBuildError, match=r"broken-cc cannot link .*: cannot find crti.o"):
-        rig_fmu.usable_compiler()
+    with pytest.raises(fmu.CannotBuildError, match=r"broken-cc cannot link .*: cannot find crti.o"):
+        fmu.usable_compiler()
 
 
 def extracted(path: Path, suffix: str, folder: Path) -> Path:

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from uictest.api import rig_fmu
+from uictest.api import fmu
 from uictest.plans.scenario import Case, load
 
 fmpy = pytest.importorskip("fmpy", reason="the extra fmu is not installed")
@@ -115,8 +115,8 @@ def _case(tmp_path_factory: pytest.TempPathFactory) -> Case:
 @pytest.fixture(name="compiler", scope="session")
 def _compiler() -> str:
     try:
-        return rig_fmu.usable_compiler()
-    except rig_fmu.CannotBuildError as error:
+        return fmu.usable_compiler()
+    except fmu.CannotBuildError as error:
         pytest.skip(str(error))
 
 
@@ -125,9 +125,9 @@ def _build(tmp_path_factory: pytest.TempPathFactory, compiler: str, case: Case) 
     """Write the FMU of the case in a version of FMI."""
 
     @cache
-    def build(version: rig_fmu.FmiVersion) -> Path:
+    def build(version: fmu.FmiVersion) -> Path:
         path = tmp_path_factory.mktemp("fmu") / f"rig{version}.fmu"
-        path.write_bytes(rig_fmu.build_fmu(case, version, compiler))
+        path.write_bytes(fmu.build_fmu(case, version, compiler))
         return path
 
     return build

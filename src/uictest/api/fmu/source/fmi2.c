@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "rig.h"
+#include "instance.h"
 
 typedef enum { fmi2OK, fmi2Warning, fmi2Discard, fmi2Error, fmi2Fatal, fmi2Pending } fmi2Status;
 typedef enum { fmi2ModelExchange, fmi2CoSimulation } fmi2Type;
@@ -24,24 +24,31 @@ typedef struct {
     void *componentEnvironment;
 } fmi2CallbackFunctions;
 
-/* No message has a percent sign: the logger takes it for a format. */
+/* The logger takes the message for a format, in which a percent sign is written twice. */
 static void report(void *environment, fmi2String name, Logger logger, fmi2String message)
 {
+    char format[2 * LONGEST_MESSAGE], *end = format;
+    for (; *message != '\0' && end < format + sizeof format - 2; message++) {
+        if (*message == '%')
+            *end++ = '%';
+        *end++ = *message;
+    }
+    *end = '\0';
     if (logger != NULL)
-        logger(environment, name, fmi2Error, "logStatusError", message);
+        logger(environment, name, fmi2Error, "logStatusError", format);
 }
 
-static fmi2Status status_of(Rig *rig, int succeeded)
+static fmi2Status status_of(Instance *instance, int succeeded)
 {
     if (succeeded)
         return fmi2OK;
-    report(rig->environment, rig->name, (Logger)rig->logger, rig->message);
+    report(instance->environment, instance->name, (Logger)instance->logger, instance->message);
     return fmi2Error;
 }
 
-static fmi2Status not_supported(Rig *rig)
+static fmi2Status not_supported(Instance *instance)
 {
-    return status_of(rig, fail(rig, "this FMU does not support the function"));
+    return status_of(instance, fail(instance, "this FMU does not support the function"));
 }
 
 EXPORT const char *fmi2GetTypesPlatform(void) { return "default"; }
@@ -64,22 +71,22 @@ EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String 
         report(environment, name, logger, reason);
         return NULL;
     }
-    return create_rig(name, environment, (void (*)(void))logger);
+    return create_instance(name, environment, (void (*)(void))logger);
 }
 
-EXPORT void fmi2FreeInstance(fmi2Component c) { free_rig(c); }
+EXPORT void fmi2FreeInstance(fmi2Component c) { free_instance(c); }
 
 EXPORT fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, fmi2Real tolerance,
                                       fmi2Real start_time, fmi2Boolean stop_time_defined, fmi2Real stop_time)
 {
     (void)tolerance_defined, (void)tolerance, (void)stop_time_defined, (void)stop_time;
-    ((Rig *)c)->state.start_time = start_time;
+    ((Instance *)c)->state.start_time = start_time;
     return fmi2OK;
 }
 
 EXPORT fmi2Status fmi2EnterInitializationMode(fmi2Component c)
 {
-    return status_of(c, enter_initialization(c, ((Rig *)c)->state.start_time));
+    return status_of(c, enter_initialization(c, ((Instance *)c)->state.start_time));
 }
 
 EXPORT fmi2Status fmi2ExitInitializationMode(fmi2Component c) { return status_of(c, exit_initialization(c)); }
@@ -87,7 +94,7 @@ EXPORT fmi2Status fmi2Terminate(fmi2Component c) { return status_of(c, terminate
 
 EXPORT fmi2Status fmi2Reset(fmi2Component c)
 {
-    reset_rig(c);
+    reset_instance(c);
     return fmi2OK;
 }
 
@@ -135,28 +142,33 @@ EXPORT fmi2Status fmi2DoStep(fmi2Component c, fmi2Real communication_point, fmi2
                              fmi2Boolean no_state_prior)
 {
     (void)no_state_prior;
-    return status_of(c, step_rig(c, communication_point, step_size));
+    return status_of(c, step_instance(c, communication_point, step_size));
 }
 
 EXPORT fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
 {
+    if (!CAN_SAVE)
+        return not_supported(c);
     if (*state == NULL)
         *state = malloc(sizeof(State));
     if (*state == NULL)
         return status_of(c, fail(c, "there is no memory for the state"));
-    memcpy(*state, &((Rig *)c)->state, sizeof(State));
+    memcpy(*state, &((Instance *)c)->state, sizeof(State));
     return fmi2OK;
 }
 
 EXPORT fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
 {
-    memcpy(&((Rig *)c)->state, state, sizeof(State));
+    if (!CAN_SAVE)
+        return not_supported(c);
+    memcpy(&((Instance *)c)->state, state, sizeof(State));
     return fmi2OK;
 }
 
 EXPORT fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
 {
-    (void)c;
+    if (!CAN_SAVE)
+        return not_supported(c);
     free(*state);
     *state = NULL;
     return fmi2OK;

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "rig.h"
+#include "instance.h"
 
 typedef enum { fmi3OK, fmi3Warning, fmi3Discard, fmi3Error, fmi3Fatal } fmi3Status;
 typedef void *fmi3Instance;
@@ -24,17 +24,17 @@ static void report(void *environment, Logger logger, fmi3String message)
         logger(environment, fmi3Error, "logStatusError", message);
 }
 
-static fmi3Status status_of(Rig *rig, int succeeded)
+static fmi3Status status_of(Instance *instance, int succeeded)
 {
     if (succeeded)
         return fmi3OK;
-    report(rig->environment, (Logger)rig->logger, rig->message);
+    report(instance->environment, (Logger)instance->logger, instance->message);
     return fmi3Error;
 }
 
-static fmi3Status not_supported(Rig *rig)
+static fmi3Status not_supported(Instance *instance)
 {
-    return status_of(rig, fail(rig, "this FMU does not support the function"));
+    return status_of(instance, fail(instance, "this FMU does not support the function"));
 }
 
 EXPORT const char *fmi3GetVersion(void) { return "3.0"; }
@@ -58,7 +58,7 @@ EXPORT fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String toke
         report(environment, logger, reason);
         return NULL;
     }
-    return create_rig(name, environment, (void (*)(void))logger);
+    return create_instance(name, environment, (void (*)(void))logger);
 }
 
 EXPORT fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
@@ -80,7 +80,7 @@ EXPORT fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3Strin
     return NULL;
 }
 
-EXPORT void fmi3FreeInstance(fmi3Instance c) { free_rig(c); }
+EXPORT void fmi3FreeInstance(fmi3Instance c) { free_instance(c); }
 
 EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean tolerance_defined, double tolerance,
                                               double start_time, fmi3Boolean stop_time_defined, double stop_time)
@@ -94,7 +94,7 @@ EXPORT fmi3Status fmi3Terminate(fmi3Instance c) { return status_of(c, terminate(
 
 EXPORT fmi3Status fmi3Reset(fmi3Instance c)
 {
-    reset_rig(c);
+    reset_instance(c);
     return fmi3OK;
 }
 
@@ -130,32 +130,37 @@ EXPORT fmi3Status fmi3DoStep(fmi3Instance c, double communication_point, double 
                              fmi3Boolean no_state_prior, fmi3Boolean *event_handling_needed,
                              fmi3Boolean *terminate_simulation, fmi3Boolean *early_return, double *last_time)
 {
-    int succeeded = step_rig(c, communication_point, step_size);
+    int succeeded = step_instance(c, communication_point, step_size);
     (void)no_state_prior;
     *event_handling_needed = *terminate_simulation = *early_return = false;
-    *last_time = ((Rig *)c)->state.start_time + (double)((Rig *)c)->state.steps * CYCLE_TIME;
+    *last_time = instance_time(c);
     return status_of(c, succeeded);
 }
 
 EXPORT fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state)
 {
+    if (!CAN_SAVE)
+        return not_supported(c);
     if (*state == NULL)
         *state = malloc(sizeof(State));
     if (*state == NULL)
         return status_of(c, fail(c, "there is no memory for the state"));
-    memcpy(*state, &((Rig *)c)->state, sizeof(State));
+    memcpy(*state, &((Instance *)c)->state, sizeof(State));
     return fmi3OK;
 }
 
 EXPORT fmi3Status fmi3SetFMUState(fmi3Instance c, fmi3FMUState state)
 {
-    memcpy(&((Rig *)c)->state, state, sizeof(State));
+    if (!CAN_SAVE)
+        return not_supported(c);
+    memcpy(&((Instance *)c)->state, state, sizeof(State));
     return fmi3OK;
 }
 
 EXPORT fmi3Status fmi3FreeFMUState(fmi3Instance c, fmi3FMUState *state)
 {
-    (void)c;
+    if (!CAN_SAVE)
+        return not_supported(c);
     free(*state);
     *state = NULL;
     return fmi3OK;

@@ -1,0 +1,175 @@
+"""What an FMU says about itself: `modelDescription.xml` for programs, and the frame of a page for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Final, Literal
+from xml.etree import ElementTree
+
+from uictest import __version__
+from uictest.api.fmu.variables import Variable
+
+FmiVersion = Literal[2, 3]
+_UNITS: Final = {
+    "s": {"s": 1},
+    "m": {"m": 1},
+    "m/s": {"m": 1, "s": -1},
+    "m/s2": {"m": 1, "s": -2},
+    "N": {"kg": 1, "m": 1, "s": -2},
+    "N.m": {"kg": 1, "m": 2, "s": -2},
+    "Pa": {"kg": 1, "m": -1, "s": -2},
+}
+"""Unit -> exponents of the base units of the SI."""
+_DISPLAYED: Final = {"m/s": ("km/h", "3.6"), "Pa": ("bar", "1e-5")}
+"""Unit -> unit that people read, and how many of it one is."""
+_FMI3_TYPES: Final = {"real": "Float64", "boolean": "Boolean", "integer": "Int64"}
+_STYLE = "body{font:15px sans-serif;max-width:60em;margin:2em auto}td,th{text-align:left;padding:0 1em 0 0}"
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """What a model description says.
+
+    Attributes:
+        name: for people.
+        identifier: name of the shared library, an identifier of C.
+        token: ties the model description to the shared library.
+        description: one line.
+        version: of what is modelled, empty if not known.
+        variables: in the order of their value references, from 0.
+        cycle_time: the only communication step, s; None where a parameter states it.
+        longest: longest duration of a simulation, s; None for any.
+        can_save: whether the state can be saved and restored.
+    """
+
+    name: str
+    identifier: str
+    token: str
+    description: str
+    version: str
+    variables: Sequence[Variable]
+    cycle_time: float | None = None
+    longest: float | None = None
+    can_save: bool = False
+
+
+def model_description(model: Model, version: FmiVersion) -> bytes:
+    """Return the XML file."""
+    attributes = {
+        "fmiVersion": f"{version}.0",
+        "modelName": model.name,
+        "guid" if version == 2 else "instantiationToken": model.token,
+        "description": model.description,
+        **({"version": model.version} if model.version else {}),
+        "generationTool": f"uictest {__version__}",
+        "variableNamingConvention": "flat",
+    }
+    root = ElementTree.Element("fmiModelDescription", attributes)
+    _add_capabilities(root, model, version)
+    _add_units(root, model)
+    categories = ElementTree.SubElement(root, "LogCategories")
+    ElementTree.SubElement(categories, "Category", name="logStatusError", description="Every error")
+    if model.cycle_time is not None:
+        experiment = {"startTime": "0", "stopTime": repr(model.longest), "stepSize": repr(model.cycle_time)}
+        ElementTree.SubElement(root, "DefaultExperiment", experiment)
+    _add_variables(root, model, version)
+    _add_structure(root, model, version)
+    ElementTree.indent(root)
+    content: bytes = ElementTree.tostring(root, "UTF-8", xml_declaration=True)
+    return content + b"\n"
+
+
+def _add_capabilities(root: ElementTree.Element, model: Model, version: FmiVersion) -> None:
+    own = {"canGetAndSetFMUstate" if version == 2 else "canGetAndSetFMUState": str(model.can_save).lower()}
+    if version == 2:
+        own["canNotUseMemoryManagementFunctions"] = "true"
+    elif model.cycle_time is not None:
+        own["fixedInternalStepSize"] = repr(model.cycle_time)
+    capabilities = {
+        "modelIdentifier": model.identifier,
+        "canHandleVariableCommunicationStepSize": "false",
+        "canBeInstantiatedOnlyOncePerProcess": "false",
+    }
+    ElementTree.SubElement(root, "CoSimulation", capabilities | own)
+
+
+def _add_units(root: ElementTree.Element, model: Model) -> None:
+    used = {variable.unit: () for variable in model.variables if variable.unit}
+    definitions = ElementTree.SubElement(root, "UnitDefinitions")
+    for name in (*(each for each in _UNITS if each in used), *(each for each in used if each not in _UNITS)):
+        unit = ElementTree.SubElement(definitions, "Unit", name=name)
+        if name in _UNITS:  # a controller declares its parameters in units of its own
+            ElementTree.SubElement(unit, "BaseUnit", {base: str(each) for base, each in _UNITS[name].items()})
+        if name in _DISPLAYED:
+            shown, factor = _DISPLAYED[name]
+            ElementTree.SubElement(unit, "DisplayUnit", name=shown, factor=factor)
+
+
+def _add_variables(root: ElementTree.Element, model: Model, version: FmiVersion) -> None:
+    listed = ElementTree.SubElement(root, "ModelVariables")
+    for reference, variable in enumerate(model.variables):
+        named = {
+            "name": variable.name,
+            "valueReference": str(reference),
+            "description": variable.description,
+            **_variability(variable),
+        }
+        content = {"unit": variable.unit} if variable.unit else {}
+        if variable.unit in _DISPLAYED:
+            content["displayUnit"] = _DISPLAYED[variable.unit][0]
+        if variable.range is not None:
+            content |= {"min": repr(variable.range[0]), "max": repr(variable.range[1])}
+        if variable.start:
+            content["start"] = variable.start
+        if version == 2:
+            scalar = ElementTree.SubElement(listed, "ScalarVariable", named)
+            ElementTree.SubElement(scalar, variable.kind.capitalize(), content)
+        else:
+            ElementTree.SubElement(listed, _FMI3_TYPES[variable.kind], named | content)
+
+
+def _variability(variable: Variable) -> dict[str, str]:
+    # Everything is held for a controller cycle. What is calculated depends on parameters alone at first.
+    if variable.causality == "independent":
+        return {"causality": "independent", "variability": "continuous"}
+    if variable.causality == "parameter":
+        return {"causality": "parameter", "variability": "fixed", "initial": "exact"}
+    initial = {"initial": "calculated"} if variable.causality == "output" else {}
+    return {"causality": variable.causality, "variability": "discrete", **initial}
+
+
+def _add_structure(root: ElementTree.Element, model: Model, version: FmiVersion) -> None:
+    # No output depends on an input of the same instant: a loop of rig and controller can be solved.
+    structure = ElementTree.SubElement(root, "ModelStructure")
+    outputs = [place for place, variable in enumerate(model.variables) if variable.causality == "output"]
+    for name in ("Output", "InitialUnknown"):
+        unknowns = ElementTree.SubElement(structure, f"{name}s") if version == 2 else structure
+        for place in outputs:
+            if version == 2:
+                ElementTree.SubElement(unknowns, "Unknown", index=str(place + 1), dependencies="")
+            else:
+                ElementTree.SubElement(unknowns, name, valueReference=str(place), dependencies="")
+
+
+def page(title: str, *parts: str) -> bytes:
+    """Return `documentation/index.html`."""
+    shown = escape(title)
+    head = f"<!DOCTYPE html><meta charset='utf-8'><title>{shown}</title><style>{_STYLE}</style>"
+    return "\n".join((head, f"<h1>{shown}</h1>", *parts)).encode()
+
+
+def table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
+    """Yield the lines of a table."""
+    yield "<table><tr>" + "".join(f"<th>{heading}</th>" for heading in headings) + "</tr>"
+    for row in rows:
+        yield "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>"
+    yield "</table>"
+
+
+def table_of_variables(variables: Sequence[Variable]) -> Iterator[str]:
+    """Yield the lines of a table that says what each variable is."""
+    yield "<h2>Variables</h2>"
+    rows = ((each.name, each.causality, each.unit, each.description) for each in variables)
+    yield from table(("name", "causality", "unit", "description"), rows)

@@ -1,0 +1,229 @@
+"""The rig of one case as an FMU: its variables, the case as C has it, and what the FMU says of it."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from html import escape
+from importlib import metadata
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from uictest import __version__, rig
+from uictest.api.fmu.building import archive_of, token_of
+from uictest.api.fmu.description import FmiVersion, Model, page, table, table_of_variables
+from uictest.api.fmu.variables import Variable, c_words, model_header, of_wheelsets
+from uictest.judging import evaluation
+from uictest.plans import scenario
+from uictest.rig import STEP, STOP_MEMORY, StopInputs, bench
+
+INSTANCE_MEMORY: Final[Any] = np.dtype(
+    [("stop", STOP_MEMORY), ("time", "f8"), ("ended", "i8"), ("hold", "i4", 4), ("vent", "i4", 4)]
+)
+"""A stop, the time of the simulation, whether the stop has ended, and the commands as last set."""
+
+VARIABLES: Final = (
+    Variable("time", "time", "Time of the simulation", "s", causality="independent"),
+    *of_wheelsets(
+        Variable("hold", "hold", "Holding magnet energised", "", "boolean", "input", start="false"),
+        Variable(
+            "vent",
+            "vent",
+            "Venting magnet energised; forbidden without the holding magnet",
+            "",
+            "boolean",
+            "input",
+            start="false",
+        ),
+        Variable(
+            "wheel_speed", "stop.exchange.wheel_speed", "Circumferential, as its sensor shows it", "m/s"
+        ),
+        Variable(
+            "speed_valid",
+            "stop.exchange.speed_valid",
+            "False where the speed sensor reports a fault",
+            kind="boolean",
+        ),
+        Variable(
+            "cylinder_pressure",
+            "stop.exchange.cylinder_pressure",
+            "Brake cylinder pressure above atmospheric, as its sensor shows it",
+            "Pa",
+        ),
+    ),
+    Variable(
+        "brake_demand", "stop.exchange.brake_demand", "Share of full service; a brake is demanded above 0"
+    ),
+    Variable("train_speed", "stop.train.speed", "True speed of the train", "m/s"),
+    Variable("distance", "stop.train.distance", "Distance since the brake command", "m"),
+    Variable("brake_line_pressure", "stop.train.brake_line_pressure", "Above atmospheric", "Pa"),
+    Variable("reservoir_pressure", "stop.train.reservoir_pressure", "Above atmospheric", "Pa"),
+    Variable("stopped", "stop.car.stopped", "The train stands", kind="boolean"),
+    Variable(
+        "ended",
+        "ended",
+        "The train stands or the longest duration has passed; outputs stay",
+        kind="boolean",
+    ),
+    Variable("braking_distance", "stop.car.stop_position", "0 until the train stands", "m"),
+    Variable("braking_time", "stop.car.stop_time", "0 until the train stands", "s"),
+    *of_wheelsets(
+        Variable("true_wheel_speed", "stop.modules.wheel_speed", "True circumferential speed", "m/s"),
+        Variable("slide", "stop.modules.slide", "1 - true wheel speed / train speed; 0 below 1 m/s"),
+        Variable("friction", "stop.modules.friction", "Friction coefficient of the rail under the wheelset"),
+        Variable("adhesion", "stop.modules.adhesion", "Adhesion in use"),
+        Variable("wheel_load", "stop.modules.wheel_load", "Load of one wheel", "N"),
+        Variable("tank_pressure", "stop.modules.tank_pressure", "True pressure above atmospheric", "Pa"),
+        Variable("clamping_force", "stop.modules.clamping_force", "Clamping force of one caliper", "N"),
+        Variable("brake_torque", "stop.modules.brake_torque", "Brake torque of the wheelset", "N.m"),
+    ),
+    Variable("seed", "stop.parameters.seed", "Seed of the sensor noise", "", "integer", "parameter"),
+)
+"""In the order of their value references, from 0."""
+
+_PLACES: Final = {
+    "PARAMETERS_AT": "stop.parameters",
+    "STOPPED_AT": "stop.car.stopped",
+    "CYCLE_AT": "stop.car.cycle",
+    "LONGEST_STOP_AT": "stop.parameters.cycles",
+    "COMMANDED_HOLD_AT": "stop.exchange.hold",
+    "COMMANDED_VENT_AT": "stop.exchange.vent",
+    "TIME_AT": "time",
+    "ENDED_AT": "ended",
+    "HOLD_AT": "hold",
+    "VENT_AT": "vent",
+}
+"""Name in C -> field of the memory of an instance."""
+_TARGET: Final = rig.Target("x86-64-v3", in_library=True)
+"""Every x86-64 processor since 2013 (AVX2, FMA, BMI2): FMUs are given to colleagues."""
+_LARGEST_SEED: Final = {2: 2**31 - 1, 3: 2**32 - 1}
+"""FMI version -> largest whole number that a seed can be."""
+_PACKAGES: Final = ("numba", "llvmlite", "numpy")
+
+
+def build_fmu(case: scenario.Case, version: FmiVersion, compiler: str) -> bytes:
+    """Return the FMU of a case as the bytes of its file.
+
+    Args:
+        case: the case; its controller plays no part, but its cycle time holds.
+        version: of FMI.
+        compiler: as :func:`~uictest.api.fmu.usable_compiler` gives it.
+
+    Raises:
+        ValueError: the seed of the case is too large for the version.
+        RuntimeError: the compiler failed; the message is its own.
+    """
+    case = bench.identified(case)
+    inputs = rig.assemble(case)
+    variables = (*VARIABLES[:-1], _seed(int(inputs.parameters["seed"]), version))
+    header, code = _case_header(inputs), rig.stepping_code(_TARGET)
+    cycle_time = float(inputs.parameters["cycle_time"])
+    model = Model(
+        name=f"rig {case.id}",
+        identifier=re.sub(r"\W", "_", f"rig_{case.scenario.name}"),
+        token=token_of(f"{version} {header}".encode(), code),
+        description=case.scenario.title or f"Brake rig, case {case.id}",
+        version=__version__,
+        variables=variables,
+        cycle_time=cycle_time,
+        longest=cycle_time * int(inputs.parameters["cycles"]),
+        can_save=True,
+    )
+    places = model_header(model.token, INSTANCE_MEMORY, variables, _PLACES, can_save=True)
+    parts = _parts_inside(case)
+    return archive_of(
+        model,
+        version,
+        compiler,
+        sources=["rig.c"],
+        generated={"model.h": places.encode(), "case.h": header.encode(), "code.o": code},
+        inputs=["code.o"],
+        others={
+            "documentation/index.html": page(f"Brake rig: {case.id}", *_page(case, parts)),
+            "resources/case.json": _provenance(case, parts),
+        },
+    )
+
+
+def _seed(start: int, version: FmiVersion) -> Variable:
+    largest = _LARGEST_SEED[version]
+    if start > largest:
+        raise ValueError(
+            f"seed {start} is above {largest}, the largest whole number of"
+            f" FMI {version}.0: choose another with --seed"
+        )
+    return replace(VARIABLES[-1], start=str(start), range=(0, largest))
+
+
+def _parts_inside(case: scenario.Case) -> dict[str, evaluation.EffectivePart]:
+    """Return the parts that the FMU holds: the controller stays outside, and nothing is judged."""
+    parts = evaluation.EffectiveParts().of(case.scenario)
+    outside = ("controller", "criteria", "measures")
+    return {role: part for role, part in parts.items() if role.partition(".")[0] not in outside}
+
+
+def _case_header(inputs: StopInputs) -> str:
+    """Return `case.h`: the records of the case, and the call of the machine code."""
+    lines = [
+        f"#define STOP_SIZE {STOP_MEMORY.itemsize}",
+        f"#define CYCLE_TIME {float(inputs.parameters['cycle_time']).hex()}",
+        *c_words("PARAMETERS", inputs.parameters),
+        *c_words("WHEELSET_PARAMETERS", inputs.wheelset_parameters),
+        *c_words("RAIL", inputs.rail),
+        *_call(inputs.rail.shape[1]),
+    ]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _call(points: int) -> Iterator[str]:
+    """Yield the call of the machine code, whose arguments are those of :data:`uictest.rig.STEP_ARGUMENTS`."""
+    count = len(STOP_MEMORY.names)
+    parts = ", ".join(f"(memory) + {STOP_MEMORY.fields[name][1]}" for name in STOP_MEMORY.names)
+    pointers = ", ".join(["void *"] * count)
+    kinds = f"{pointers}, const void *, const void *, int64_t, void *, void *, int64_t, int64_t, int64_t"
+    yield f"int64_t {STEP}({kinds});"
+    yield f"#define CARRY_OUT(memory) {STEP}({parts}, \\"
+    yield f"    WHEELSET_PARAMETERS, RAIL, {points}, NULL, NULL, 0, 0, 0)"
+
+
+def _provenance(case: scenario.Case, parts: dict[str, evaluation.EffectivePart]) -> bytes:
+    """Return `resources/case.json`: what the page says, for programs."""
+    content = {
+        "uictest": __version__,
+        "case": case.id,
+        "cycle_time": float(case.scenario.controller.cycle_time),
+        "scenario": case.path.name,
+        "parameters": dict(case.parameters),
+        "inputs": dict(_files(case)),
+        "parts": evaluation.parts_document([parts]),
+    }
+    return json.dumps(content, indent=1, ensure_ascii=False).encode() + b"\n"
+
+
+def _page(case: scenario.Case, parts: dict[str, evaluation.EffectivePart]) -> Iterator[str]:
+    yield f"<p>{escape(case.scenario.title)}</p>"
+    cycle = case.scenario.controller.cycle_time.text
+    yield (
+        f"<p>One stop from {escape(case.scenario.initial_speed.text)}, which begins at the brake command. The"
+        f" communication step is the controller cycle, {escape(cycle)}; any other is an error. Outputs do not"
+        " depend on inputs of the same instant. After the end of the stop the outputs stay.</p>"
+    )
+    yield from table_of_variables(VARIABLES)
+    yield "<h2>Versions</h2>"
+    versions = [("uictest", __version__), *((name, metadata.version(name)) for name in _PACKAGES)]
+    yield from table(("program", "version"), versions)
+    yield "<h2>Files</h2>"
+    yield from table(("file", "SHA-256"), _files(case))
+    for role, part in parts.items():
+        yield f"<h2>{escape(role)}: {escape(part.name)}</h2>"
+        yield from table(("key", "value", "mark"), ((p.key, p.written, p.mark) for p in part.parameters))
+
+
+def _files(case: scenario.Case) -> Iterator[tuple[str, str]]:
+    """Yield the files of a case with their SHA-256; a folder of this machine is nobody else's business."""
+    for name, digest in case.inputs.items():
+        yield (Path(name).name if Path(name).is_absolute() else name), digest
