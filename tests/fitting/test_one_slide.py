@@ -5,10 +5,9 @@ import numpy as np
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.recorded.field_data import stated_case
 from uictest.recorded.fitting.balances import Balances, wheelset_creep, windows_of
-from uictest.recorded.fitting.cleaned_stop import CleanedStop
 from uictest.recorded.fitting.cleaning import find_cleaning
 from uictest.recorded.fitting.samples import StopSamples
-from uictest.recorded.fitting.stretches import RailUnderStop, Stretches
+from uictest.recorded.fitting.stretches import CleanedStop, RailUnderStop, Stretches
 
 ENERGY, FRICTION, CLEAN = 8000.0, 0.07, 0.22
 LOSS = 2000.0

@@ -17,9 +17,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.recorded.fitting.cleaned_stop import CleanedStop
 from uictest.recorded.fitting.least_squares import Groups, Solution, solve
-from uictest.recorded.fitting.stretches import HIGHEST, LOWEST
+from uictest.recorded.fitting.stretches import HIGHEST, LOWEST, CleanedStop
 
 Array = NDArray[np.float64]
 CleaningStanding = Literal["found", "not told apart", "not seen", "nothing slid"]

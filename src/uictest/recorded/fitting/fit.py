@@ -11,11 +11,17 @@ from numpy.typing import NDArray
 from uictest.plans.scenario import Cleaning, RailCondition, Scenario, load_part
 from uictest.recorded.field_data import RecordedStop
 from uictest.recorded.fitting.balances import Balances, windows_of
-from uictest.recorded.fitting.cleaned_stop import CleanedStop
 from uictest.recorded.fitting.cleaning import CleaningEstimate, JointSolution, find_cleaning
 from uictest.recorded.fitting.least_squares import Bounds, Groups, solve
 from uictest.recorded.fitting.samples import FitError, samples_of
-from uictest.recorded.fitting.stretches import HIGHEST, LOWEST, Estimate, RailUnderStop, Stretches
+from uictest.recorded.fitting.stretches import (
+    HIGHEST,
+    LOWEST,
+    CleanedStop,
+    Estimate,
+    RailUnderStop,
+    Stretches,
+)
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Literal
 
-from uictest.plans import scenario, scenario as scenarios
+from uictest.plans import scenario
 from uictest.plans.series import Series
 
 VerifierKind = Literal["scenario", "series", "criterion"]
@@ -74,7 +74,7 @@ def _named_in_case(case: scenario.Case) -> Iterator[tuple[str, Verifier]]:
 
 
 def _verifies(criterion: scenario.Criterion, resolved: scenario.Scenario) -> bool:
-    applies = not criterion.needs_series and scenarios.applies_to(criterion, resolved)
+    applies = not criterion.needs_series and scenario.applies_to(criterion, resolved)
     return applies and resolved.expect == "pass"
 
 
@@ -95,7 +95,7 @@ def _judges(series: Series, criterion: scenario.Criterion) -> bool:
         return False
     roles = ("wet",) if criterion.needs_series else ("dry", "wet")
     judged = (stop.case for stop in series.stops if stop.role in roles)
-    return any(scenarios.applies_to(criterion, case.scenario) for case in judged)
+    return any(scenario.applies_to(criterion, case.scenario) for case in judged)
 
 
 def _merged(named: Iterable[Verifier]) -> tuple[Verifier, ...]:
