@@ -10,8 +10,8 @@ from c_library import PLAIN, STRICT, CStop, can_run
 from stops import TIMED, Stop, shipped
 from timing import side_by_side
 
-from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
+from uictest.rig.single_stop import FinishedStop, run_to_end
 
 TARGET = 1.3
 """Highest ratio of our time to that of C."""

@@ -21,10 +21,10 @@ from reduced_model import integrated_seconds
 from stops import Stop, shipped
 
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.lanes import run_in_lanes
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.model.friction_law import FRICTIONS
+from uictest.rig.model.rail import FRICTIONS
+from uictest.rig.single_stop import run_to_end
 
 CASE = "slide-80[compensation=full]"
 STOPS = 64

@@ -22,7 +22,7 @@ from uictest.core.physics.disc_brake import torque
 from uictest.core.physics.polach import creep_force
 from uictest.core.physics.vehicle import SLOWEST_CREEP
 from uictest.rig.backends.compiled import translate
-from uictest.rig.model.friction_law import FRICTIONS
+from uictest.rig.model.rail import FRICTIONS
 
 _CYLINDER_LAG = 0.02
 """Time constant of the cylinder, s."""

@@ -15,7 +15,7 @@ from objective import SLIDE, misfit
 from parameters import FREE, values
 from scipy.optimize import OptimizeResult, differential_evolution
 
-from uictest.rig.model.friction_law import FRICTIONS
+from uictest.rig.model.rail import FRICTIONS
 
 POPULATION = 30
 SPREAD = 0.1

@@ -10,10 +10,9 @@ from parameters import Fields, fields, values
 
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.model.friction_law import FRICTIONS
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.model.rail import FRICTIONS
+from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
 
 SCENARIOS = Path(__file__).parent.parent / "scenarios"
 SETTINGS: dict[str, Fields] = {

@@ -3,9 +3,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
 
 FIVE_SECONDS = 500
 """Controller cycles of a stop that is cut short."""

@@ -11,8 +11,8 @@ from uictest.core.physics import VENT
 from uictest.plans.scenario import ScenarioErrors, load
 from uictest.plans.scenario.parts.controller import CONTROLLER_MODELS, _model
 from uictest.rig import assemble
-from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.plain import plain_stop
+from uictest.rig.single_stop import run_to_end
 
 MODULE = '''
 from uictest.controllers import ControlledWheelset, Controller, ControllerParameters, TrainMemory

@@ -18,15 +18,14 @@ from uictest.core.record import layout_of
 from uictest.plans.scenario import Case, load
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.compiled import translate
-from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.model.controller import begin
 from uictest.rig.model.parameters import Parameters
-from uictest.rig.model.start import start
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
+from uictest.rig.model.stop import start
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS, WheelsetParameters
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.scenario import ScenarioErrors
 from uictest.rig.assembly import assemble, friction_laws
 from uictest.rig.model.parameters import PARAMETERS
-from uictest.rig.model.rail_memory import MARGIN, POINTS
+from uictest.rig.model.rail import MARGIN, POINTS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
 

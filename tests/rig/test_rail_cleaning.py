@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from uictest.rig.backends.finished_stop import FinishedStop
+from uictest.rig.single_stop import FinishedStop
 
 Array = NDArray[np.float64]
 SLIPPERY = ("initial_speed=120 km/h", "rail.condition=wet", "rail.friction=0.08")

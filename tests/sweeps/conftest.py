@@ -15,7 +15,7 @@ from uictest import rig
 from uictest.controllers import HEADER
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.plans.sweeps import load_sweep
-from uictest.rig.model.friction_law import FRICTIONS
+from uictest.rig.model.rail import FRICTIONS
 from uictest.running.chunked import ChunkRunner, ChunkStore
 from uictest.running.chunked.case_blocks import BlockAssembler
 

@@ -7,10 +7,13 @@ from .assembly import (
     friction_laws as friction_laws,
     sha256_of_case as sha256_of_case,
 )
-from .backends.batch import BatchMeasures as BatchMeasures
 from .backends.compiled import translate as translate
 from .backends.controller_code import ControllerCode as ControllerCode, controller_code as controller_code
-from .backends.lanes import load_lanes as load_lanes, run_in_lanes as run_in_lanes
+from .backends.lanes import (
+    BatchMeasures as BatchMeasures,
+    load_lanes as load_lanes,
+    run_in_lanes as run_in_lanes,
+)
 from .backends.machine_code import (
     Target as Target,
     Watcher as Watcher,
@@ -48,10 +51,10 @@ from .external.workers import (
 )
 from .highest_creep import highest_creep_forces as highest_creep_forces
 from .model.trace import CAR_CHANNELS as CAR_CHANNELS, WHEELSET_CHANNELS as WHEELSET_CHANNELS
-from .noise_key import StopInputs as StopInputs, noise_key_text as noise_key_text, noise_keys as noise_keys
 from .recorded_rail import RecordedRail as RecordedRail
 from .simulation import (
     SimulatedStop as SimulatedStop,
     recording_of_stop as recording_of_stop,
     simulate as simulate,
 )
+from .single_stop import StopInputs as StopInputs, noise_key_text as noise_key_text, noise_keys as noise_keys

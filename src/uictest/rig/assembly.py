@@ -21,12 +21,11 @@ from uictest.rig.derived_parameters import (
 )
 from uictest.rig.derived_wheelset_parameters import WHEELSET_ASSIGNMENTS
 from uictest.rig.disc_parameters import DISC_BRAKE, FAULTS
-from uictest.rig.model.controller import CHOICES
-from uictest.rig.model.external_controller import EXTERNAL
-from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, ROWS, TIMES
+from uictest.rig.model.controller import CHOICES, EXTERNAL
 from uictest.rig.model.parameters import PARAMETERS, Parameters
+from uictest.rig.model.rail import FACTORS, FRICTIONS, PLACES, ROWS, TIMES
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
-from uictest.rig.noise_key import StopInputs, noise_keys
+from uictest.rig.single_stop import StopInputs, noise_keys
 
 
 def assemble(case: Case) -> StopInputs:

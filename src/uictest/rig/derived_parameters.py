@@ -26,7 +26,7 @@ from uictest.plans.scenario import (
 )
 from uictest.rig.highest_creep import highest_creep_law, resampled_transfer_function
 from uictest.rig.model.parameters import Parameters
-from uictest.rig.model.rail_memory import MARGIN, POINTS
+from uictest.rig.model.rail import MARGIN, POINTS
 
 _ALWAYS = 1.0
 _WHEELS = 8.0

@@ -15,8 +15,7 @@ from uictest.rig.backends.compiled import (
 )
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.model.parameters import PARAMETERS
-from uictest.rig.model.rail_memory import RAIL_MEMORY
-from uictest.rig.model.rail_under_record import MET_RAIL, RECORDED_MOTION, follow_record
+from uictest.rig.model.rail import MET_RAIL, RAIL_MEMORY, RECORDED_MOTION, follow_record
 from uictest.rig.model.state import CAR, WHEELSET
 
 Array = NDArray[np.float64]

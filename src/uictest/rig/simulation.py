@@ -8,7 +8,6 @@ from uictest.controllers import ResponseTimes
 from uictest.core.recording import BRAKE_COMMAND_TIME, ORIGIN, Recording
 from uictest.plans.scenario import Case
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.external.workers import RunInputs, Workers
 from uictest.rig.model.trace import (
     CAR_CHANNELS,
@@ -17,7 +16,7 @@ from uictest.rig.model.trace import (
     FAULT_CHANNELS,
     WHEELSET_CHANNELS,
 )
-from uictest.rig.noise_key import noise_key_text
+from uictest.rig.single_stop import FinishedStop, noise_key_text
 
 
 @dataclass(frozen=True)
@@ -31,7 +30,7 @@ class SimulatedStop:
         controller_version: what a controller from outside says of itself.
         response_times: how it answered, where cycles were paced by the clock.
         case_sha256: what it was given to name the stop, see :func:`uictest.rig.assembly.case_sha256`.
-        noise_key: of the sensors' noise, see :mod:`uictest.rig.noise_key`, as eight hexadecimal digits.
+        noise_key: of the sensors' noise, see :mod:`uictest.rig.single_stop`, as eight hexadecimal digits.
     """
 
     measures: Any

@@ -14,15 +14,15 @@ from uictest.core.physics.air import mass_flow, orifice_law
 from uictest.core.physics.arithmetic import exp, maximum
 from uictest.rig import StopInputs
 from uictest.rig.backends.compiled import compiled_operations, sources, translate, with_controllers
-from uictest.rig.backends.finished_stop import empty_trace
 from uictest.rig.backends.lane_stops import run_queue
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.backends.plain import plain_stop
 from uictest.rig.bench.step import run_bench_test
 from uictest.rig.model.controller import CHOICES, decide
-from uictest.rig.model.rail_memory import RAIL_MEMORY
+from uictest.rig.model.rail import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import run_stop
+from uictest.rig.single_stop import empty_trace
 
 from ...conftest import FUSED
 

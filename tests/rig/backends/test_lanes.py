@@ -12,13 +12,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 from numpy.typing import NDArray
 
-from uictest.rig.backends.batch import BatchMeasures
-from uictest.rig.backends.finished_stop import run_to_end
-from uictest.rig.backends.lanes import longest_first, run_in_lanes
+from uictest.rig.backends.lanes import BatchMeasures, longest_first, run_in_lanes
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.model.friction_law import FRICTIONS, ROWS
 from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.rail import FRICTIONS, ROWS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
+from uictest.rig.single_stop import run_to_end
 
 WET = ("rail.condition=wet", "rail.friction=0.09")
 PLACES = "{position: 0 m, friction: 0.2}, {position: 9 m, friction: 0.04}"

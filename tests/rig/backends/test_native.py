@@ -13,12 +13,12 @@ import pytest
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.plans.scenario import load
 from uictest.rig import simulate
-from uictest.rig.backends.finished_stop import empty_trace
 from uictest.rig.backends.native import compiled_stop, stop_is_compiled
-from uictest.rig.model.rail_memory import RAIL_MEMORY
+from uictest.rig.model.rail import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
+from uictest.rig.single_stop import empty_trace
 
 WITHOUT_COMPILER = """
 import sys

@@ -11,10 +11,10 @@ from uictest.controllers import FORBIDDEN_COMMAND, NO_FAILURE, NO_MAGNET_STATE
 from uictest.core.record import fields_of
 from uictest.plans.scenario import Case, load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.backends.stepped import SteppedStop
 from uictest.rig.model.state import Car, Wheelset
+from uictest.rig.single_stop import FinishedStop, run_to_end
 
 SCENARIOS = Path(__file__).parents[3] / "scenarios"
 OF_THE_NEXT_CYCLE = {

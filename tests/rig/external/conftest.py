@@ -17,7 +17,7 @@ from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.external.block import BlockInputs
 from uictest.rig.external.workers import Workers
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.single_stop import StopInputs
 
 HERE = Path(__file__).parent
 Compile = Callable[..., Path]

@@ -21,7 +21,7 @@ from uictest.rig.backends import lanes
 from uictest.rig.external.block import BlockInputs, run_block
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.workers import Workers
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.single_stop import StopInputs
 
 Compile = Callable[..., Path]
 BlockOf = Callable[[Sequence[StopInputs]], BlockInputs]

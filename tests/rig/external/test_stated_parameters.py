@@ -11,7 +11,7 @@ from uictest.controllers import ControllerError
 from uictest.plans.scenario import load
 from uictest.rig import Workers
 from uictest.rig.assembly import assemble
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.single_stop import StopInputs
 
 Compile = Callable[..., Path]
 

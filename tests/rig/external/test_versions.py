@@ -12,7 +12,7 @@ from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.workers import Workers
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.single_stop import StopInputs
 
 VersionOf = Callable[[str], StopInputs]
 Compile = Callable[..., Path]

@@ -20,7 +20,7 @@ from uictest.rig.external.block import BlockInputs
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.worker import Worker
 from uictest.rig.external.workers import Workers
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.single_stop import StopInputs
 
 StopOf = Callable[..., StopInputs]
 Compile = Callable[..., Path]

@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uictest.rig.model.cycle import read_sensors
-from uictest.rig.model.pole_wheel import read_pole_wheels
+from uictest.rig.model.cycle import read_pole_wheels, read_sensors
 
 Benches = Callable[[Any], Any]
 EXACT = {"speed_noise": 0.0, "timer_resolution": 1e-12}

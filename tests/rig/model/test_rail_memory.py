@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
-from uictest.rig.model.rail_memory import MARGIN, POINTS, RAIL_MEMORY, clean_rail, forget_rail
+from uictest.rig.model.rail import MARGIN, POINTS, RAIL_MEMORY, clean_rail, forget_rail
 
 Array = NDArray[np.float64]
 LossPerMetre = Callable[[float], float]

@@ -53,7 +53,7 @@ class CaseResult:
     `case_sha256` what it was given to name the stop, see :func:`uictest.rig.assembly.case_sha256`.
     `requirements` are the ids of those that the case verifies as a whole; its criteria may verify others.
     `test_case` is its id in a test management tool. `noise_key` names the noise of the sensors that a
-    simulated stop met, together with its seed, see :mod:`uictest.rig.noise_key`. `domain_of_validity` says
+    simulated stop met, together with its seed, see :mod:`uictest.rig.single_stop`. `domain_of_validity` says
     whether the case lies where the model was validated; None where nobody asked. `strict` says that the case
     is not met either where one of its verdicts is not settled. The document has these eight, and `repeats`,
     only where there is something in them. `duration` (seconds of wall clock) is for

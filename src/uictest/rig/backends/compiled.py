@@ -18,8 +18,7 @@ from uictest.controllers import EXCHANGE, OUTPUTS_AT, Controller
 from uictest.core import lanes
 from uictest.core.lanes import translate as translate
 from uictest.core.physics import fma
-from uictest.rig.model.controller import begin, decide
-from uictest.rig.model.external_controller import call_step, exchange_at
+from uictest.rig.model.controller import begin, call_step, decide, exchange_at
 
 Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
@@ -44,7 +43,7 @@ def _operations() -> dict[Function, Any]:
 
 
 def step_by_address() -> Any:
-    """Return :func:`uictest.rig.model.external_controller.call_step` in compiled code."""
+    """Return :func:`uictest.rig.model.controller.call_step` in compiled code."""
     call = lanes.call
 
     def call_at(step: int, handle: int, exchange: int) -> Any:

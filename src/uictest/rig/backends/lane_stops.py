@@ -9,16 +9,19 @@ from typing import Any, NamedTuple
 
 from uictest.core.lanes import align_stack, copy_from_lane, copy_to_lane, lane, vectors
 from uictest.rig.model.controller import decide
-from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
+from uictest.rig.model.cycle import command_valves, read_pole_wheels, read_sensors, start_cycle
 from uictest.rig.model.disc_brake import warm_discs
-from uictest.rig.model.faults import falsify_readings, limit_valves, silence_controller, update_faults
-from uictest.rig.model.leaks import let_air_leak
+from uictest.rig.model.faults import (
+    falsify_readings,
+    let_air_leak,
+    limit_valves,
+    silence_controller,
+    update_faults,
+)
 from uictest.rig.model.module_air import follow_module_air
-from uictest.rig.model.pole_wheel import read_pole_wheels
-from uictest.rig.model.rail_memory import clean_rail, forget_rail
-from uictest.rig.model.start import start
+from uictest.rig.model.rail import clean_rail, forget_rail
 from uictest.rig.model.step import step
-from uictest.rig.model.stop import is_running
+from uictest.rig.model.stop import is_running, start
 from uictest.rig.model.stop_measures import (
     begin_stop_measures,
     begin_tables,

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,6 @@ from uictest.core import lanes as vector_functions
 from uictest.core.lanes import block, register_width
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.core.physics import floor, maximum, minimum, select, sqrt
-from uictest.rig.backends.batch import BatchMeasures
 from uictest.rig.backends.compiled import (
     Function,
     compile_inner,
@@ -22,14 +21,12 @@ from uictest.rig.backends.compiled import (
 )
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.model.controller import CHOICES
-from uictest.rig.model.cycle import command_valves, read_sensors
+from uictest.rig.model.cycle import command_valves, read_pole_wheels, read_sensors
 from uictest.rig.model.disc_brake import warm_discs
-from uictest.rig.model.friction_law import FRICTIONS, ROWS
-from uictest.rig.model.leaks import let_air_leak
+from uictest.rig.model.faults import let_air_leak
 from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.parameters import PARAMETERS
-from uictest.rig.model.pole_wheel import read_pole_wheels
-from uictest.rig.model.rail_memory import RAIL_MEMORY
+from uictest.rig.model.rail import FRICTIONS, RAIL_MEMORY, ROWS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.step import step
 from uictest.rig.model.stop_measures import observe_cycle
@@ -43,6 +40,18 @@ _BRAKED_ADHESION, _LEAST_ADHESION = 0.12, 0.01
 """What full service uses of a better rail, and the least that a rail is taken to have; chosen."""
 _ARGUMENTS = 20
 """How many arguments the compiled loop over a queue has."""
+
+
+class BatchMeasures(NamedTuple):
+    """Measures of many stops, in the order of the cases.
+
+    Attributes:
+        measures: records of :data:`uictest.core.measures.STOP_MEASURES`, shape (cases,).
+        wheelset_measures: records of :data:`uictest.core.measures.WHEELSET_MEASURES`, shape (cases, 4).
+    """
+
+    measures: NDArray[Any]
+    wheelset_measures: NDArray[Any]
 
 
 def run_in_lanes(
@@ -60,7 +69,7 @@ def run_in_lanes(
         parameters: records of :data:`~uictest.rig.model.parameters.PARAMETERS`, shape (cases,).
         wheelset_parameters: records of
             :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`, shape (cases, 4).
-        rail: friction of the cases' rails, the rows of :mod:`~uictest.rig.model.friction_law`, shape
+        rail: friction of the cases' rails, the rows of :mod:`~uictest.rig.model.rail`, shape
             (cases, 4, n).
         width: number of lanes; by default as many as this processor's registers hold.
     """

@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.machine_code import address, is_kept, native_function
 from uictest.rig.backends.scalar import RUN, RUN_ARGUMENTS, SCALAR
-from uictest.rig.model.friction_law import ROWS
 from uictest.rig.model.parameters import PARAMETERS
-from uictest.rig.model.rail_memory import RAIL_MEMORY
+from uictest.rig.model.rail import RAIL_MEMORY, ROWS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS

@@ -13,9 +13,8 @@ from uictest.rig.backends.compiled import (
 )
 from uictest.rig.backends.machine_code import Entries, Unit
 from uictest.rig.model.controller import CHOICES
-from uictest.rig.model.friction_law import ROWS
 from uictest.rig.model.parameters import PARAMETERS
-from uictest.rig.model.rail_memory import RAIL_MEMORY
+from uictest.rig.model.rail import RAIL_MEMORY, ROWS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS

@@ -10,16 +10,14 @@ import numpy as np
 
 from uictest.controllers import EXCHANGE, INPUTS, OUTPUTS, OUTPUTS_AT
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.finished_stop import FinishedStop, empty_trace, rows_of_trace
 from uictest.rig.backends.machine_code import Target, address, native_function, object_code
 from uictest.rig.backends.scalar import SCALAR, STEP, STEP_ARGUMENTS
-from uictest.rig.model.friction_law import ROWS
 from uictest.rig.model.parameters import PARAMETERS
-from uictest.rig.model.rail_memory import RAIL_MEMORY
+from uictest.rig.model.rail import RAIL_MEMORY, ROWS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.single_stop import FinishedStop, StopInputs, empty_trace, rows_of_trace
 
 STOP_MEMORY: Final[Any] = np.dtype(
     [

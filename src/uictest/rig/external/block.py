@@ -19,10 +19,9 @@ from uictest.controllers import (
     ControllerProgram,
 )
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.finished_stop import run_to_end
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.external.in_process import opened
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.single_stop import StopInputs, run_to_end
 
 
 class BlockRun(NamedTuple):

@@ -31,10 +31,9 @@ from uictest.controllers import (
     open_controller,
     shown_version,
 )
-from uictest.rig.backends.finished_stop import FinishedStop, run_to_end
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.model.external_controller import call_step
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.model.controller import call_step
+from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
 
 _FAILURES: Final = {
     STEP_FAILED: "step failed: {error}",

@@ -10,15 +10,14 @@ import numpy as np
 
 from uictest.controllers import INPUTS, OUTPUTS, Config, ControllerProgram
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.external.block import BlockInputs, BlockRun
 from uictest.rig.external.in_process import Driven, DriveRequest, Drives
-from uictest.rig.model.friction_law import ROWS
 from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.rail import ROWS
 from uictest.rig.model.state import CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.single_stop import FinishedStop, StopInputs
 
 _COUNT: Final = struct.Struct("<I")
 _LENGTH: Final = struct.Struct("<Q")

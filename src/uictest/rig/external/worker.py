@@ -25,7 +25,6 @@ from uictest.controllers import (
     WROTE_BEYOND,
     ControllerError,
 )
-from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.external.block import BlockInputs, BlockRun
 from uictest.rig.external.in_process import DriveRequest, Drives
 from uictest.rig.external.messages import (
@@ -41,7 +40,7 @@ from uictest.rig.external.messages import (
     stop_message,
     write_message,
 )
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.single_stop import FinishedStop, StopInputs
 
 LARGEST_BLOCK: Final = 256
 """Most stops that a child runs at once."""

@@ -8,7 +8,6 @@ from types import TracebackType
 from typing import Final, Self, TypeGuard
 
 from uictest.controllers import ControllerProgram
-from uictest.rig.backends.finished_stop import FinishedStop
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.external.block import BlockInputs, BlockRun, empty_run, load_block, run_block
 from uictest.rig.external.in_process import (
@@ -19,7 +18,7 @@ from uictest.rig.external.in_process import (
     run_in_process,
 )
 from uictest.rig.external.worker import LARGEST_BLOCK, LostChildError, ProgramKey, Worker
-from uictest.rig.noise_key import StopInputs
+from uictest.rig.single_stop import FinishedStop, StopInputs
 
 RunInputs = Callable[[StopInputs, int], FinishedStop]
 """Runs a stop, with so many base steps between two samples of its trace: here or in a child process."""

@@ -1,14 +1,122 @@
-"""The place of the controller in the model.
+"""The place of the controller in the model, and a controller from outside in it.
 
-:mod:`uictest.rig.backends.compiled` puts the functions of controllers where the model calls these.
+:mod:`uictest.rig.backends.compiled` puts the functions of controllers where the model calls :func:`begin` and
+:func:`decide`. For a controller from outside the rig writes inputs, calls and reads the answer. Inputs and
+outputs lie in memory of their own, :data:`uictest.controllers.EXCHANGE`; functions that reach memory by its
+address are replaced where the model is compiled.
 """
 
+import ctypes
 from collections.abc import Sequence
-from typing import Final
+from typing import Any, Final
 
-from uictest.controllers import CONTROLLERS, ControlledWheelset, Controller, TrainMemory
-from uictest.rig.model.external_controller import EXTERNAL
+import numpy as np
+
+from uictest.controllers import (
+    CONTROLLERS,
+    EXCHANGE,
+    FORBIDDEN_COMMAND,
+    GUARD,
+    NO_FAILURE,
+    NO_MAGNET_STATE,
+    NOT_CALLED,
+    OUTPUTS_AT,
+    STEP_FAILED,
+    STEPPING,
+    WROTE_BEYOND,
+    ControlledWheelset,
+    Controller,
+    ControllerCycle,
+    TrainMemory,
+)
+from uictest.core.physics import FILL, HOLD, VENT
 from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.state import Car, Wheelset
+
+_NAN = float("nan")
+
+
+def begin_external(train: TrainMemory, wheelsets: Sequence[ControlledWheelset], speed: float) -> None:
+    """Start without an estimate of the train's speed."""
+    train.reference_speed = _NAN
+
+
+def decide_external(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Call the controller; its failure ends the stop."""
+    exchange = exchange_at(p.controller_exchange)
+    write_inputs(exchange, car, wheelsets, p)
+    exchange.calling = STEPPING
+    exchange.cycles += 1
+    status = call_step(p.controller_step, p.controller_handle, p.controller_exchange)
+    exchange.calling = NOT_CALLED
+    if status != 0:
+        exchange.failure = STEP_FAILED
+    else:
+        read_outputs(exchange, car, wheelsets)
+    car.controller_failed = 1 if exchange.failure != NO_FAILURE else 0
+
+
+def write_inputs(exchange: Any, car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Write what the sensors show, and outputs that fill every tank."""
+    exchange.cycle = car.cycle
+    exchange.time = car.cycle * p.cycle_time
+    exchange.brake_demand = car.demanded_pressure * p.demand_per_pressure
+    exchange.reference_speed = _NAN
+    exchange.diagnosis = 0
+    exchange.guard = GUARD
+    for i in range(4):
+        exchange.wheel_speed[i] = wheelsets[i].measured_speed
+        pressure = wheelsets[i].pressure_reading
+        exchange.cylinder_pressure[i] = wheelsets[i].shown_pressure if p.fault_count > 0 else pressure
+        exchange.speed_valid[i] = wheelsets[i].speed_valid
+        exchange.hold[i] = 0
+        exchange.vent[i] = 0
+
+
+def read_outputs(exchange: Any, car: Car, wheelsets: Sequence[Wheelset]) -> None:
+    """Set the valve commands; a command that no valve has is a failure."""
+    if exchange.guard != GUARD:
+        exchange.failure = WROTE_BEYOND
+    car.reference_speed = exchange.reference_speed
+    car.diagnosis = exchange.diagnosis
+    for i in range(4):
+        hold = exchange.hold[i]
+        vent = exchange.vent[i]
+        problem = _problem(hold, vent)
+        if problem != NO_FAILURE and exchange.failure == NO_FAILURE:
+            exchange.failure = problem
+            exchange.failed_wheelset = i
+        wheelsets[i].valve_command = VENT if vent == 1 else (HOLD if hold == 1 else FILL)
+
+
+def _problem(hold: int, vent: int) -> int:
+    if hold < 0 or hold > 1 or vent < 0 or vent > 1:
+        return NO_MAGNET_STATE
+    return FORBIDDEN_COMMAND if vent > hold else NO_FAILURE
+
+
+def exchange_at(address: int) -> Any:
+    """Return the exchange that lies at an address."""
+    memory: Any = (ctypes.c_char * EXCHANGE.itemsize).from_address(address)
+    return np.frombuffer(memory, EXCHANGE).view(np.recarray)[0]
+
+
+def call_step(step: int, handle: int, exchange: int) -> int:
+    """Call a controller's step by its address and return its status."""
+    function = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)(step)
+    status: int = function(handle, exchange, exchange + OUTPUTS_AT)
+    return status
+
+
+EXTERNAL = Controller(
+    name="external",
+    parameters=ControllerCycle,
+    train_memory=TrainMemory,
+    wheelset_memory=ControlledWheelset,
+    begin=begin_external,
+    decide=decide_external,
+)
+"""Stands for every controller from outside."""
 
 CHOICES: tuple[Controller, ...] = (EXTERNAL, *CONTROLLERS.values())
 """What may stand in that place; a case names one by its number here, ``Parameters.controller``."""

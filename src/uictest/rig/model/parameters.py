@@ -37,7 +37,7 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     cycles: int = derived()  # longest stop, in controller cycles
     # keys of the noise
     seed: int = from_scenario("seed")
-    noise_key: int = derived()  # rig.noise_key
+    noise_key: int = derived()  # rig.single_stop
     # command and topology
     initial_speed: float = from_scenario("initial_speed")  # m/s
     calipers: int = derived()  # modules with a real caliper: 1 or 4
@@ -239,8 +239,8 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     cleaning_decay: float = derived()  # 1/m
     recovered_friction: float = derived()
     carry_over: float = derived()
-    rail_points_per_metre: float = derived()  # grid of rig.model.rail_memory, 1/m
-    uses_pole_wheels: float = derived()  # 0 or 1: a wheelset has a sensor of rig.model.pole_wheel
+    rail_points_per_metre: float = derived()  # grid of rig.model.rail, 1/m
+    uses_pole_wheels: float = derived()  # 0 or 1: a wheelset has a sensor that counts teeth
     # sensors: what all of a kind share, and the errors of the one of the brake line
     pressure_range: float = from_scenario("rig.sensors.pressure.range")  # Pa
     line_sensor_gain_error: float = from_scenario("rig.sensors.pressure.gain_error")

@@ -122,7 +122,7 @@ class Wheelset(ControlledWheelset, WheelsetParameters):
     modelled_growth: float  # of that volume within the last step
     pressure_ratio: float  # modelled pressure over that of the tank, absolute
     computed_force: float
-    # speed sensor that counts teeth, rig.model.pole_wheel
+    # speed sensor that counts teeth, rig.model.cycle
     last_tooth: float  # that it saw, in pitches since the brake command
     tooth_time: float  # when the last of them passed, s
     tooth_rate: float  # teeth per s at the last reading

@@ -1,25 +1,32 @@
-"""What the rig is given for one stop, and the key of its sensors' noise.
+"""One stop: what the rig is given for it, the key of its sensors' noise, and what it leaves.
 
-With the seed it decides every draw. Neither the controller nor anything else of the rig has a part in it, so
-that two controllers, two compensations or two topologies meet the same noise in the same stop.
+With the seed the key decides every draw. Neither the controller nor anything else of the rig has a part in
+it, so that two controllers, two compensations or two topologies meet the same noise in the same stop.
 """
 
 from __future__ import annotations
 
 import zlib
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.controllers import Config, ControllerProgram
+from uictest.controllers import Config, ControllerProgram, ResponseTimes
 from uictest.core.ensemble import alike, rows_at
-from uictest.rig.model.friction_law import FACTORS, FRICTIONS, PLACES, TIMES
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.model.rail import FACTORS, FRICTIONS, PLACES, RAIL_MEMORY, TIMES
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
+from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 
 _OF_STOP: Final = ("initial_speed", "commanded_pressure", "static_wheel_load")
 _OF_WHEELSETS: Final = ("wheel_radius", "brake_force", "reference_pad_friction")
 _ALONG_TRACK: Final = slice(PLACES, FRICTIONS + 1)
 _OVER_TIME: Final = slice(TIMES, FACTORS + 1)
+RunStop = Callable[..., int]
+""":func:`uictest.rig.model.stop.run_stop` made for one controller, plain or compiled."""
 
 
 def noise_keys(
@@ -67,7 +74,7 @@ class StopInputs(NamedTuple):
         parameters: record of :data:`~uictest.rig.model.parameters.PARAMETERS`.
         wheelset_parameters: four records of
             :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`.
-        rail: friction of the rail, the rows of :mod:`~uictest.rig.model.friction_law`, shape (4, n).
+        rail: friction of the rail, the rows of :mod:`~uictest.rig.model.rail`, shape (4, n).
         program: what is loaded where the controller comes from outside, else None.
         config: what that controller is given before the stop, else None.
     """
@@ -77,3 +84,61 @@ class StopInputs(NamedTuple):
     rail: NDArray[np.float64]
     program: ControllerProgram | None = None
     config: Config | None = None
+
+
+@dataclass(frozen=True)
+class FinishedStop:
+    """What a stop leaves: its measures, the final state and, if requested, the trace.
+
+    Of a controller from outside also the version that it names, and how it answered if cycles were paced by
+    the clock.
+    """
+
+    measures: Any
+    wheelset_measures: Any
+    car: Any
+    wheelsets: Any
+    trace: Trace
+    controller_version: str = ""
+    response_times: ResponseTimes | None = None
+
+
+def run_to_end(run_stop: RunStop, inputs: StopInputs, steps_per_sample: int = 0) -> FinishedStop:
+    """Run a stop on fresh records.
+
+    Args:
+        run_stop: what runs the stop, made for the controller of ``inputs``.
+        inputs: parameters, those of the wheelsets, rail and controller.
+        steps_per_sample: base steps from one sample of the trace to the next; 0: no trace.
+    """
+    parameters = inputs.parameters
+    car = np.zeros(1, CAR)
+    bogies = np.zeros(2, BOGIE)
+    wheelsets = np.zeros(4, WHEELSET)
+    measures = np.zeros(1, STOP_MEASURES)
+    wheelset_measures = np.zeros(4, WHEELSET_MEASURES)
+    trace = empty_trace(rows_of_trace(parameters, steps_per_sample))
+    rows = run_stop(
+        *(car[0], bogies, wheelsets, parameters, inputs.wheelset_parameters),
+        *(inputs.rail, np.zeros(1, RAIL_MEMORY)[0]),
+        *(measures[0], wheelset_measures, trace, steps_per_sample),
+    )
+    return FinishedStop(
+        measures[0],
+        wheelset_measures.view(np.recarray),
+        car[0],
+        wheelsets.view(np.recarray),
+        Trace(trace.train[:rows], trace.wheelsets[:rows]),
+    )
+
+
+def empty_trace(rows: int) -> Trace:
+    """Return a trace with so many rows, not yet filled."""
+    return Trace(np.empty(rows, TRAIN_SAMPLE), np.empty((rows, 4), WHEELSET_SAMPLE))
+
+
+def rows_of_trace(parameters: Any, steps_per_sample: int) -> int:
+    """Return the rows of the longest trace of a stop; 0 steps per sample: none."""
+    if steps_per_sample == 0:
+        return 0
+    return int(parameters.cycles * parameters.steps_per_cycle) // steps_per_sample + 1

@@ -1,26 +1,47 @@
-"""What the rail remembers of the wheelsets that have passed: the share of it that they have cleaned.
+"""The rail: its friction as found, and what it remembers of the wheelsets that have passed.
 
-It is a function of place. Each of the first three wheelsets writes the share that it leaves at the points
-of a grid that it passes; the next one reads it when it gets there, later by their distance over the speed.
-Points are reused once the next wheelset has passed them, so that a ring of them suffices.
+The friction coefficient as found is linear between places, its factor is linear between times; both lie in
+an array whose rows are used up to their number of points.
 
-Scalar code, called once per controller cycle.
+What the rail remembers is the share of it that wheelsets have cleaned, a function of place. Each of the first
+three wheelsets writes the share that it leaves at the points of a grid that it passes; the next one reads it
+when it gets there, later by their distance over the speed. Points are reused once the next wheelset has
+passed them, so that a ring of them suffices. Scalar code, called once per controller cycle; for a record of
+a real train it runs along its samples, with the sliding that the creep law gives.
 """
 
 from collections.abc import MutableSequence, Sequence
-from typing import Annotated, Final
+from typing import Annotated, Any, Final
 
-from uictest.core.physics import cleaned_friction, cleaned_share, floor, share_left_behind
+from uictest.core.physics import (
+    cleaned_friction,
+    cleaned_share,
+    contact_stiffness,
+    creep_force,
+    floor,
+    maximum,
+    share_left_behind,
+)
 from uictest.core.record import Record, layout_of
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car, Wheelset
 
+PLACES = 0
+"""Places along the track, m from the position of the leading wheelset at the brake command."""
+FRICTIONS = 1
+"""Friction coefficients at these places."""
+TIMES = 2
+"""Times since the brake command, s."""
+FACTORS = 3
+"""Factors of the friction coefficient at these times."""
+ROWS = 4
 POINTS: Final = 256
 """Points of the grid behind one wheelset; chosen: 6 cm apart under the default car."""
 MARGIN: Final = 2
 """Points that a ring holds beyond the largest distance between two neighbours."""
 _RINGS: Final = 3 * POINTS
 _WHEELSETS: Final = 4
+_WHEELS = 2.0
 
 
 class RailMemory(Record):
@@ -100,3 +121,73 @@ def write_passed(
 def _in_ring(point: int, ring: int) -> int:
     """Return where a point of the track, counted from the brake command, lies among all points."""
     return ring * POINTS + point % POINTS
+
+
+class RecordedMotion(Record):
+    """Motion and load of one wheelset since the sample before, and the friction of the rail as found."""
+
+    position: float  # of the car, m
+    duration: float  # since the sample before, s
+    speed: float  # of the car, m/s, > 0
+    slip: float  # mean slip speed since the sample before, m/s, positive while braking
+    load: float  # of one wheel, N
+    found: float  # initial friction coefficient of the rail that nothing has cleaned
+
+
+class MetRail(Record):
+    """The rail under one wheelset at one sample."""
+
+    friction: float  # initial friction coefficient
+    cleaned_share: float
+
+
+RECORDED_MOTION = layout_of(RecordedMotion)
+"""Layout of :class:`RecordedMotion`."""
+MET_RAIL = layout_of(MetRail)
+"""Layout of :class:`MetRail`."""
+
+
+def follow_record(
+    car: Car, wheelsets: Sequence[Wheelset], p: Parameters, memory: RailMemory, motion: Any, met: Any
+) -> None:
+    """Run four wheelsets over the rail along a record.
+
+    Args:
+        car: car record, zeroed.
+        wheelsets: four wheelset records, zeroed but for `behind`.
+        p: parameter record.
+        memory: of the rail, zeroed.
+        motion: records of :data:`RECORDED_MOTION`, shape (n, 4).
+        met: records of :data:`MET_RAIL`, shape (n, 4): set to the rail under the wheelsets.
+    """
+    for k in range(len(motion)):
+        car.position = motion[k, 0].position
+        for i in range(_WHEELSETS):
+            slide_by_creep_law(wheelsets[i], motion[k, i], p)
+        clean_rail(car, wheelsets, p, memory)
+        keep(wheelsets, met, k)
+
+
+def slide_by_creep_law(wheelset: Wheelset, motion: RecordedMotion, p: Parameters) -> None:
+    """Add the loss of both contacts since the sample before; then put the wheelset on the rail as found."""
+    slip = maximum(motion.slip, 0.0)
+    force, _ = creep_force(
+        slip,
+        motion.speed,
+        motion.load,
+        contact_stiffness(p.creep_stiffness, motion.load * p.load_scale),
+        wheelset.friction,
+        p.friction_ratio,
+        p.friction_decay,
+        p.reduction_adhesion,
+        p.reduction_slip,
+    )
+    wheelset.contact_loss += _WHEELS * force * slip * motion.duration
+    wheelset.friction = motion.found
+
+
+def keep(wheelsets: Sequence[Wheelset], met: Any, k: int) -> None:
+    """Set row ``k`` of what the wheelsets met."""
+    for i in range(_WHEELSETS):
+        met[k, i].friction = wheelsets[i].friction
+        met[k, i].cleaned_share = wheelsets[i].cleaned_share
