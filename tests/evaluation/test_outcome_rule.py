@@ -8,7 +8,7 @@ from hypothesis import given, strategies as st
 
 from uictest.judging.evaluation.bounds import Bounds
 from uictest.judging.evaluation.decision import Decision
-from uictest.judging.evaluation.outcome_rule import (
+from uictest.judging.evaluation.repeated_case import (
     OutcomeRule,
     decision_over_stops,
     outcome_over_stops,

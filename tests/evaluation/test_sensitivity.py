@@ -3,8 +3,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.judging.evaluation.bounds import ObservedStop, bounds_of
-from uictest.judging.evaluation.decision import Decision, decide
-from uictest.judging.evaluation.sensitivity import sensitivity
+from uictest.judging.evaluation.decision import Decision, decide, sensitivity
 
 G = 9.80665
 KMH = 1 / 3.6

@@ -11,14 +11,6 @@ from .case import (
     evaluate_simulated as evaluate_simulated,
     may_be_biased as may_be_biased,
 )
-from .document import (
-    WrittenCaseResult as WrittenCaseResult,
-    cases_document as cases_document,
-    cases_of as cases_of,
-    result_document as result_document,
-    results_of as results_of,
-    to_json as to_json,
-)
 from .effective_parts import (
     EffectiveParts as EffectiveParts,
     Program as Program,
@@ -39,7 +31,6 @@ from .json_values import (
 from .judgement import (
     judge as judge,
 )
-from .outcome_rule import OutcomeRule as OutcomeRule, seeds_text as seeds_text
 from .parameters import (
     Deviation as Deviation,
     DomainOfValidity as DomainOfValidity,
@@ -50,8 +41,10 @@ from .parameters import (
     parts_table as parts_table,
 )
 from .repeated_case import (
+    OutcomeRule as OutcomeRule,
     SimulatedRepeat as SimulatedRepeat,
     evaluate_repeats as evaluate_repeats,
+    seeds_text as seeds_text,
 )
 from .repeats import (
     RepeatedStop as RepeatedStop,
@@ -64,9 +57,15 @@ from .repeats import (
 from .result import (
     CaseResult as CaseResult,
     NamedParts as NamedParts,
+    WrittenCaseResult as WrittenCaseResult,
+    cases_document as cases_document,
+    cases_of as cases_of,
     deciding_verdicts as deciding_verdicts,
     narrowest_margin as narrowest_margin,
     outcome_of as outcome_of,
+    result_document as result_document,
+    results_of as results_of,
+    to_json as to_json,
 )
 from .verdict import (
     READINGS as READINGS,

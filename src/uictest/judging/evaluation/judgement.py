@@ -9,9 +9,8 @@ from typing import Final
 
 from uictest.core.measures import StopMeasures, Wheelsets
 from uictest.judging.evaluation.bounds import Bounds, Coverage, ObservedStop, bounds_of, why_cut_off
-from uictest.judging.evaluation.decision import Decision, decide
+from uictest.judging.evaluation.decision import Decision, decide, sensitivity
 from uictest.judging.evaluation.rig_reasons import why_rig_fails
-from uictest.judging.evaluation.sensitivity import sensitivity
 from uictest.judging.evaluation.verdict import (
     READINGS,
     ReadVerdict,

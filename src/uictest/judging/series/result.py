@@ -1,20 +1,68 @@
-"""The result of a series: its stops, its measures with their confidence, its verdicts and its outcome."""
+"""The result of a series: its stops, its measures with their confidence, its verdicts and its outcome.
+
+In JSON NaN is null, and a field without a number is left out when read as NaN. A series names its cases by
+their ids.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any, Final
 
-from pydantic import Field, PlainSerializer, PlainValidator, ValidationInfo
+from pydantic import (
+    BeforeValidator,
+    Field,
+    PlainSerializer,
+    PlainValidator,
+    SerializerFunctionWrapHandler,
+    ValidationInfo,
+    WrapSerializer,
+)
 
-from uictest.core.series_measures import Rail
-from uictest.judging.evaluation import CaseResult, Expectation, Outcome, Verdict, absent_if_empty, is_expected
-from uictest.judging.series.forms import WrittenEstimate, WrittenValue
+from uictest.core.series_measures import Estimate, Rail, SeriesValue
+from uictest.judging.evaluation import (
+    CaseResult,
+    Expectation,
+    Outcome,
+    Verdict,
+    absent_if_empty,
+    is_expected,
+    json_form,
+)
 from uictest.plans.series import Role
 
+_NUMBERS: Final = ("value", "low", "high", "smallest", "largest", "covered")
 NOT_COUNTED = ("invalid", "inconclusive", "skipped", "error")
 """Outcomes of stops that do not count: no test, not judged, or failed to run."""
+
+
+def _with_nulls(value: object, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+    form: dict[str, Any] = json_form(write(value))
+    return form
+
+
+def _with_nan(content: object) -> object:
+    if isinstance(content, Mapping):
+        return {
+            name: math.nan if value is None and name in _NUMBERS else value for name, value in content.items()
+        }
+    return content
+
+
+WrittenEstimate = Annotated[Estimate, WrapSerializer(_with_nulls), BeforeValidator(_with_nan)]
+"""An estimate whose missing numbers are null in JSON."""
+
+
+def _read_value(content: object) -> object:
+    if isinstance(content, Mapping) and isinstance(content.get("estimate"), Mapping):
+        return {**content, "estimate": _with_nan(content["estimate"])}
+    return content
+
+
+WrittenValue = Annotated[SeriesValue, WrapSerializer(_with_nulls), BeforeValidator(_read_value)]
+"""The value of a measure of series; what has no number is null in JSON."""
 
 
 def _case_named(name: object, info: ValidationInfo) -> CaseResult:
