@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uictest.core.recording.formats import Dialect, UnreadableError
-from uictest.core.recording.formats.problems import MOST_CHANNELS
+from uictest.core.recording.formats.file_formats import MOST_CHANNELS
 from uictest.core.recording.formats.reader import read_here
 
 ROWS = "0.0,80.5,1\n0.1,80.25,2\n0.2,80.0,3\n"

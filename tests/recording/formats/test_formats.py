@@ -14,8 +14,13 @@ from uictest.core.recording.formats import (
     read_contents,
     writer_of,
 )
+from uictest.core.recording.formats.file_formats import (
+    MOST_CHANNELS,
+    MOST_VALUES,
+    check_size,
+    required_module,
+)
 from uictest.core.recording.formats.layout import name_and_unit
-from uictest.core.recording.formats.problems import MOST_CHANNELS, MOST_VALUES, check_size, required_module
 from uictest.core.recording.formats.reader import read_here
 
 EXTRAS = {"mdf": "asammdf", "tdms": "nptdms"}

@@ -7,7 +7,7 @@ import zlib
 import pytest
 
 from uictest.core.recording.formats import UnreadableError, read_contents
-from uictest.core.recording.formats.choice import format_of
+from uictest.core.recording.formats.file_formats import format_of
 
 BINARY = ("mdf", "tdms", "mat", "parquet")
 BEGINNINGS = {"mdf": b"MDF     4.10    ", "tdms": b"TDSm", "mat": b"MATLAB 5.0 MAT-file", "parquet": b"PAR1"}

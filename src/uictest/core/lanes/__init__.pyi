@@ -1,4 +1,4 @@
-from .block import block as block
+from .block import block as block, fuses as fuses, register_width as register_width
 from .calls import align_stack as align_stack, call as call, record_at as record_at
 from .functions import (
     floor as floor,
@@ -8,7 +8,6 @@ from .functions import (
     select as select,
     sqrt as sqrt,
 )
-from .host import fuses as fuses, register_width as register_width
 from .linked import bitcode as bitcode, compile_inner as compile_inner
 from .records import (
     copy_from_lane as copy_from_lane,

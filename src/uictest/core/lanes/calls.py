@@ -6,8 +6,7 @@ from llvmlite import ir
 from numba.core import types
 
 from uictest.core.lanes.compiler import in_compiled_code, local_variable
-from uictest.core.lanes.layouts import type_of_layout
-from uictest.core.lanes.types import vector_of_llvm
+from uictest.core.lanes.types import type_of_layout, vector_of_llvm
 
 _POINTER = ir.IntType(8).as_pointer()
 _CACHE_LINE = 64

@@ -5,8 +5,7 @@ from typing import Any
 from numba.core import types
 
 from uictest.core.lanes.compiler import in_compiled_code
-from uictest.core.lanes.integers import common_integers, everywhere
-from uictest.core.lanes.operators import call_llvm, common_vector, spread
+from uictest.core.lanes.operators import call_llvm, common_integers, common_vector, everywhere, spread
 from uictest.core.lanes.types import Mask, Vector
 
 
@@ -65,7 +64,7 @@ def maximum(typing: Any, a: Any, b: Any) -> Any:
 def fma(typing: Any, a: Any, b: Any, c: Any) -> Any:
     """Product of ``a`` and ``b`` plus ``c``, rounded once: of numbers, or in each lane.
 
-    It takes long where the processor has no instruction for it, see :func:`uictest.core.lanes.host.fuses`.
+    It takes long where the processor has no instruction for it, see :func:`uictest.core.lanes.block.fuses`.
     """
     of_numbers = all(isinstance(kind, types.Float | types.Integer) for kind in (a, b, c))
     result = types.float64 if of_numbers else common_vector(a, b, c)

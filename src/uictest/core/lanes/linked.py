@@ -14,7 +14,7 @@ from typing import Any
 from llvmlite import binding
 
 from uictest.core.lanes.compiler import PASSES, Library, PassManager, Pipeline, compiled, compiled_entry
-from uictest.core.lanes.layouts import type_of_argument
+from uictest.core.lanes.types import type_of_argument
 
 Function = Callable[..., Any]
 _NOTHING_COUNTED = """

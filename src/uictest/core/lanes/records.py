@@ -8,7 +8,7 @@ from llvmlite import ir
 from numba.core import types
 from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr
 
-import uictest.core.lanes.integers  # noqa: F401 - gives whole numbers their operators
+import uictest.core.lanes.operators  # noqa: F401 - gives whole numbers their operators
 from uictest.core.lanes.compiler import (
     code_of,
     code_of_reading,

@@ -1,9 +1,12 @@
-from .choice import FORMATS as FORMATS, encoded as encoded, format_of as format_of, writer_of as writer_of
-from .isolation import read_contents as read_contents
-from .layout import Dialect as Dialect
-from .problems import (
+from .file_formats import (
+    FORMATS as FORMATS,
     MissingExtraError as MissingExtraError,
     ReadingInterruptedError as ReadingInterruptedError,
     UnreadableError as UnreadableError,
+    encoded as encoded,
+    format_of as format_of,
     required_module as required_module,
+    writer_of as writer_of,
 )
+from .isolation import read_contents as read_contents
+from .layout import Dialect as Dialect

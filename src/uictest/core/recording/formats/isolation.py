@@ -16,15 +16,15 @@ from typing import Any
 import numpy as np
 
 from uictest.core import files
-from uictest.core.recording.formats.choice import format_of
-from uictest.core.recording.formats.layout import Dialect
-from uictest.core.recording.formats.problems import (
+from uictest.core.recording.formats.file_formats import (
     LARGEST_FILE,
     READING_SECONDS,
     MissingExtraError,
     ReadingInterruptedError,
     UnreadableError,
+    format_of,
 )
+from uictest.core.recording.formats.layout import Dialect
 from uictest.core.recording.recording import Contents, Group
 
 _MODULE = "uictest.core.recording.formats.reader"

@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Final
 
-from uictest.core.recording.formats.problems import MOST_CHANNELS, UnreadableError
+from uictest.core.recording.formats.file_formats import MOST_CHANNELS, UnreadableError
 
 COMMENT = "#"
 

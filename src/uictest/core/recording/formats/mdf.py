@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from uictest.core.recording.formats.problems import check_size, required_module
+from uictest.core.recording.formats.file_formats import check_size, required_module
 from uictest.core.recording.plausibility import STATES, state_kind
 from uictest.core.recording.recording import TIME, Contents, Group, Recording, Samples
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from uictest.core.recording.formats.problems import UnreadableError, check_size
+from uictest.core.recording.formats.file_formats import UnreadableError, check_size
 from uictest.core.recording.parquet import parquet_bytes
 from uictest.core.recording.recording import Contents, Group, Recording, Samples
 

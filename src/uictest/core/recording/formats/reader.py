@@ -17,15 +17,15 @@ from typing import Any
 
 import numpy as np
 
-from uictest.core.recording.formats.choice import module_of
-from uictest.core.recording.formats.isolation import EXTRA_MISSING, NO_ROOM, REJECTED, TOO_LARGE
-from uictest.core.recording.formats.layout import Dialect
-from uictest.core.recording.formats.problems import (
+from uictest.core.recording.formats.file_formats import (
     READING_MEMORY,
     READING_SECONDS,
     MissingExtraError,
     UnreadableError,
+    module_of,
 )
+from uictest.core.recording.formats.isolation import EXTRA_MISSING, NO_ROOM, REJECTED, TOO_LARGE
+from uictest.core.recording.formats.layout import Dialect
 from uictest.core.recording.recording import Contents, Group
 
 _LONGEST_REASON = 500
