@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 from stops import Stop
 
+from uictest.core.lanes import translate
 from uictest.core.physics import arithmetic
-from uictest.rig.backends.compiled import translate, with_controllers
+from uictest.rig.backends.compiled import with_controllers
 from uictest.rig.model.controller import CHOICES, decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET

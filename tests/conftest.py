@@ -16,6 +16,7 @@ from hypothesis import settings
 
 from uictest import rig
 from uictest.controllers import CONTROLLERS
+from uictest.core import lanes
 from uictest.core.physics import FILL, VENT, fma
 from uictest.core.record import fields_of
 from uictest.core.recording.formats import Dialect, isolation, reader
@@ -73,7 +74,7 @@ FUSED[fma].restype = ctypes.c_double
 
 def quick(function: Callable[..., Any]) -> Any:
     """A function of physics or model in plain Python, with the same bits in a third of the time."""
-    return rig.translate(function, lambda copy: copy, dict(FUSED))
+    return lanes.translate(function, lambda copy: copy, dict(FUSED))
 
 
 READ_IN_PROCESS = isolation._read_in_process

@@ -10,9 +10,8 @@ from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
 from uictest.core import lanes
-from uictest.core.lanes import select, vectors
+from uictest.core.lanes import select, translate, vectors
 from uictest.core.physics.sensors import bell, threefry
-from uictest.rig.backends.compiled import translate
 
 WIDTH = 8
 PAIR = np.dtype((np.record, [("a", "i8"), ("b", "i8"), ("result", "i8"), ("number", "f8")]))

@@ -11,9 +11,8 @@ from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
 from uictest.core import lanes, physics
-from uictest.core.lanes import floor, fma, maximum, minimum, select, sqrt, vectors
+from uictest.core.lanes import floor, fma, maximum, minimum, select, sqrt, translate, vectors
 from uictest.core.physics import arithmetic, mass_flow, orifice_law
-from uictest.rig.backends.compiled import translate
 
 WIDTH = 8
 PAIR = np.dtype((np.record, [("a", "f8"), ("b", "f8"), ("result", "f8")]))

@@ -14,10 +14,10 @@ import pytest
 from numpy.typing import NDArray
 
 from uictest.controllers import CONTROLLERS, DEFAULT
+from uictest.core.lanes import translate
 from uictest.core.record import layout_of
 from uictest.plans.scenario import Case, load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.compiled import translate
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.model.controller import begin
 from uictest.rig.model.parameters import Parameters

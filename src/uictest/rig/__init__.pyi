@@ -7,7 +7,6 @@ from .assembly import (
     friction_laws as friction_laws,
     sha256_of_case as sha256_of_case,
 )
-from .backends.compiled import translate as translate
 from .backends.controller_code import ControllerCode as ControllerCode, controller_code as controller_code
 from .backends.lanes import (
     BatchMeasures as BatchMeasures,

@@ -5,14 +5,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.core.lanes import translate
 from uictest.plans.scenario import Scenario
 from uictest.rig.assembly import ASSIGNMENTS, assigned
-from uictest.rig.backends.compiled import (
-    compile_inner,
-    compiled_operations,
-    compiler,
-    translate,
-)
+from uictest.rig.backends.compiled import compile_inner, compiled_operations, compiler
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import MET_RAIL, RAIL_MEMORY, RECORDED_MOTION, follow_record

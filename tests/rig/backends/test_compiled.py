@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from uictest.controllers import CONTROLLERS, Controller
+from uictest.core.lanes import translate
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES, note_samples
 from uictest.core.physics.air import mass_flow, orifice_law
 from uictest.core.physics.arithmetic import exp, maximum
 from uictest.rig import StopInputs
-from uictest.rig.backends.compiled import compiled_operations, sources, translate, with_controllers
+from uictest.rig.backends.compiled import compiled_operations, sources, with_controllers
 from uictest.rig.backends.lane_stops import run_queue
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.backends.plain import plain_stop

@@ -10,8 +10,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
+from uictest.core.lanes import translate
 from uictest.core.physics.polach import force_and_slope
-from uictest.rig.backends.compiled import translate
 from uictest.rig.model.balance import stored_energy
 from uictest.rig.model.clamping import step_clamping
 from uictest.rig.model.pneumatics import step_air

@@ -1,10 +1,12 @@
 from .block import block as block, fuses as fuses, register_width as register_width
-from .calls import align_stack as align_stack, call as call, record_at as record_at
 from .functions import (
+    align_stack as align_stack,
+    call as call,
     floor as floor,
     fma as fma,
     maximum as maximum,
     minimum as minimum,
+    record_at as record_at,
     select as select,
     sqrt as sqrt,
 )

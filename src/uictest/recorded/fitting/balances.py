@@ -23,12 +23,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.core.lanes import translate
 from uictest.core.physics import contact_stiffness, creep_force, fma, maximum, select
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans import scenario
 from uictest.plans.scenario import Scenario
 from uictest.recorded.fitting.samples import StopSamples, of_wheelsets
-from uictest.rig import translate
 
 # numpy has no fused multiply-add, and a fit does not need its last bit.
 _FOR_ARRAYS: dict[Any, Any] = {fma: lambda a, b, c: a * b + c, maximum: np.maximum, select: np.where}

@@ -16,7 +16,7 @@ from typing import Any
 
 from uictest.controllers import EXCHANGE, OUTPUTS_AT, Controller
 from uictest.core import lanes
-from uictest.core.lanes import translate as translate
+from uictest.core.lanes import translate
 from uictest.core.physics import fma
 from uictest.rig.model.controller import begin, call_step, decide, exchange_at
 

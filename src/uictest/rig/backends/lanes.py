@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.core import lanes as vector_functions
-from uictest.core.lanes import block, register_width
+from uictest.core.lanes import block, register_width, translate
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.core.physics import floor, maximum, minimum, select, sqrt
 from uictest.rig.backends.compiled import (
@@ -16,7 +16,6 @@ from uictest.rig.backends.compiled import (
     compile_inner,
     compiled_operations,
     compiler,
-    translate,
     with_controllers,
 )
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function

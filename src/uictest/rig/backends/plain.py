@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from uictest.controllers import Controller
-from uictest.rig.backends.compiled import translate, with_controllers
+from uictest.core.lanes import translate
+from uictest.rig.backends.compiled import with_controllers
 from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.stop import run_stop
 

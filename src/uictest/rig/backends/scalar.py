@@ -3,14 +3,9 @@
 from typing import Any, Final
 
 from uictest.controllers import EXCHANGE
+from uictest.core.lanes import translate
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.compiled import (
-    compile_inner,
-    compiled_operations,
-    compiler,
-    translate,
-    with_controllers,
-)
+from uictest.rig.backends.compiled import compile_inner, compiled_operations, compiler, with_controllers
 from uictest.rig.backends.machine_code import Entries, Unit
 from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.parameters import PARAMETERS

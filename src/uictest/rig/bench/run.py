@@ -8,15 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 import uictest
+from uictest.core.lanes import translate
 from uictest.core.recording import ORIGIN, Recording
 from uictest.plans.scenario import Case, rig_as_built
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.compiled import (
-    compile_inner,
-    compiled_operations,
-    compiler,
-    translate,
-)
+from uictest.rig.backends.compiled import compile_inner, compiled_operations, compiler
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.bench.inputs import BenchInput, bench_input
 from uictest.rig.bench.recipe import BenchTest
