@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, ClassVar, Final, Literal, NamedTuple, Self, get_args, get_origin
 
 from pydantic import (
@@ -11,6 +12,7 @@ from pydantic import (
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
     PrivateAttr,
+    TypeAdapter,
     model_validator,
 )
 from pydantic_core import CoreSchema, PydanticCustomError
@@ -201,6 +203,14 @@ def quantities_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Quantity]
     for name, inner in inside:
         if type(inner) not in _WITHOUT_QUANTITIES:
             yield from quantities_in(inner, (*key, name))
+
+
+@cache
+def adapter_of(model: Any) -> TypeAdapter[Any]:
+    """Return what validates a model, built at its first use."""
+    if isinstance(model, type) and issubclass(model, BaseModel):
+        model.model_rebuild()  # kept for the models that contain this one; an adapter keeps its own
+    return TypeAdapter(model)
 
 
 def accepted_keys(model: Any, key: Key) -> set[str]:

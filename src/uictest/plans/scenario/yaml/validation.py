@@ -3,10 +3,9 @@
 import re
 from collections.abc import Iterator
 from decimal import Decimal
-from functools import cache
 from typing import Annotated, Any, Final, get_args, get_origin
 
-from pydantic import TypeAdapter, ValidationError, create_model
+from pydantic import ValidationError, create_model
 
 from uictest.plans import library
 from uictest.plans.scenario.yaml.diagnostics import Diagnostic, ScenarioErrors, diagnose
@@ -14,6 +13,7 @@ from uictest.plans.scenario.yaml.model import (
     Key,
     PartReference,
     accepted_keys,
+    adapter_of,
     fields_named,
     models_at,
     models_in,
@@ -124,18 +124,13 @@ def _accepts(field: Any, node: Node) -> bool:
         return False
 
 
-@cache
-def _adapter(model: Any) -> TypeAdapter[Any]:
-    return TypeAdapter(model)
-
-
 def validated(model: Any, data: object, tree: Node, prefix: Key = ()) -> Any:
     """``data`` as an instance of ``model``.
 
     ``tree`` is where ``data`` comes from and ``prefix`` the key of it in the file. Raises ScenarioErrors.
     """
     try:
-        return _adapter(model).validate_python(data)
+        return adapter_of(model).validate_python(data)
     except ValidationError as error:
         errors = error.errors(include_url=False)
     raise ScenarioErrors(
