@@ -145,7 +145,10 @@ def sampling_text(trace: PlotTrace) -> str:
     part = _milliseconds((trace.end - trace.start) / BINS)
     is_long = trace.interval * MOST_SAMPLES < trace.end - trace.start
     drawn = f" Drawn through the smallest and the largest sample of every {part}." if is_long else ""
-    rounded = "Samples are rounded to a fifth of the last decimal that the cursor shows."
+    rounded = (
+        "Samples are rounded to a fifth of the last decimal that the cursor shows; instants in the plots are"
+        " those of samples, while a simulation measures at every step."
+    )
     return f"Sampled every {_milliseconds(trace.interval)}.{drawn} {rounded}"
 
 

@@ -57,7 +57,14 @@ def test_a_locked_wheelset_is_an_interval_in_its_row(marks):
     assert (mark.plot, mark.kind, mark.y) == ("locked", "interval", 3.0)
     # From the sample before the lock to its last, as the measure counts it.
     assert (mark.x0, mark.x1) == (pytest.approx(19.99), pytest.approx(21.99))
-    assert mark.label == "locked: 2 s, upper limit 1 s"
+    assert mark.label == "locked: 2 s, upper limit 1 s, above 10 km/h"
+
+
+@pytest.mark.parametrize(("missed_by", "status"), [((3,), "fail"), ((1, 2), "pass"), ((), "fail")])
+def test_a_wheelset_that_keeps_what_another_misses_is_not_marked_as_missing_it(marks, missed_by, status):
+    own = {"status": "fail", "upper": 1.0, "value": 2.0, "unit": "s", "missed_by": missed_by}
+    (mark,) = marks("longest_lock", LOCKING, **own)
+    assert (mark.wheelset, mark.status) == (3, status)
 
 
 def test_a_stop_that_does_not_stop_is_marked_at_the_end_of_the_record(marks, trace):

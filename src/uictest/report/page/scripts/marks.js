@@ -1,6 +1,6 @@
 /* Criteria in the plots: limits, instants, windows, bars. Their labels stand above a panel, where no data lie. */
 const MARK_COLOURS = { pass: "good", fail: "bad", inconclusive: "odd", not_applicable: "quiet" };
-const MARKS_BELOW = ["window", "band", "tolerance"];
+const MARKS_BELOW = ["window", "band", "tolerance", "fault"];
 const MARKS_ABOVE = ["limit", "mean", "instant", "point"];
 
 /* Heights that an upright axis must include for the marks in it. */
@@ -14,6 +14,25 @@ const clipped = (plot, draw) => {
   ctx.clip();
   draw(ctx, bbox, (x) => plot.valToPos(x, "x", true), (y) => plot.valToPos(y, "y", true), devicePixelRatio);
   ctx.restore();
+};
+
+/* What was injected has a pattern of its own, apart from what is judged and from what the reader chose. */
+const hatch = (ctx, left, right, { top, height }, pixel) => {
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(left, top, right - left, height);
+  ctx.clip();
+  ctx.strokeStyle = colour("fault");
+  ctx.lineWidth = pixel;
+  ctx.globalAlpha = 0.35;
+  ctx.beginPath();
+  for (let x = left - height; x < right; x += 9 * pixel) {
+    ctx.moveTo(x, top + height);
+    ctx.lineTo(x + height, top);
+  }
+  ctx.stroke();
+  ctx.restore();
+  ctx.beginPath();
 };
 
 /* An open end of a mark is the end of the record. */
@@ -30,6 +49,7 @@ const paintMarks = (plot, marks, kinds) => {
       ctx.globalAlpha = kind === "window" || kind === "band" ? 0.75 : 1;
       ctx.beginPath();
       if (kind === "tolerance") ctx.fillRect(bbox.left, up(y), bbox.width, up(-y) - up(y));
+      else if (kind === "fault") hatch(ctx, left, right, bbox, pixel);
       else if (MARKS_BELOW.includes(kind)) ctx.fillRect(left, bbox.top, right - left, bbox.height);
       else if (kind === "point") ctx.arc(left, up(y), 4.5 * pixel, 0, 2 * Math.PI);
       else if (kind === "instant") {
@@ -58,7 +78,7 @@ const paintBars = (plot, { spans, row, half, ink, opacity = 1 }) =>
 
 const CHARACTER = 6.3; /* pixels of a letter of a label, about */
 const LABEL_ROW = 14;
-const SAMPLES = { limit: "┄ ", mean: "━ ", tolerance: "▬ " };
+const SAMPLES = { limit: "┄ ", mean: "━ ", tolerance: "▬ ", fault: "▨ " };
 const widthOf = (text) => CHARACTER * text.length + 8;
 const shortened = (text, width) =>
   widthOf(text) <= width ? text : `${text.slice(0, Math.max(Math.floor((width - 8) / CHARACTER) - 1, 1))}…`;
@@ -78,7 +98,7 @@ const labelsAbove = (title, marks, width, pixel) => {
   return rows.map((row) => {
     const line = make("div", "", { class: "label-row" });
     for (const { text, left, mark } of row) {
-      const label = line.appendChild(make("span", text, { class: mark ? `mark mark-${mark.status}` : "plot-title" }));
+      const label = line.appendChild(make("span", text, { class: mark ? `mark mark-${mark.kind === "fault" ? "fault" : mark.status}` : "plot-title" }));
       label.style.left = `${left}px`;
     }
     return line;

@@ -1,5 +1,5 @@
 /* The buttons that show where the value of a criterion was taken: cursor, light band, ring around the value. */
-const offerMoments = (within, panels, { view, axis, show }) => {
+const offerMoments = (within, { view, axis, show }) => {
   const buttons = all("button.moment", within);
   let lit = null;
   const light = () => {
@@ -15,8 +15,8 @@ const offerMoments = (within, panels, { view, axis, show }) => {
     const [low, high] = view.inView();
     const x = axis().at(moment.start);
     if (x < low || x > high) view.all();
-    show(moment.start);
-    panels.scrollIntoView({ block: "nearest" });
+    show(moment.seen ?? moment.start);
+    aim(() => view.panelOf(moment).scrollIntoView({ block: "nearest" }));
   };
   const press = (button) => {
     for (const each of buttons) each.setAttribute("aria-pressed", String(each === button));
@@ -25,8 +25,10 @@ const offerMoments = (within, panels, { view, axis, show }) => {
     button.addEventListener("click", () => {
       const again = button.getAttribute("aria-pressed") === "true";
       press(again ? null : button);
-      const { plot, start, end, wheelset, value } = button.dataset;
-      go(again ? null : { plot, start: Number(start), end: Number(end), wheelset: Number(wheelset), value: value === "" ? null : Number(value) });
+      const { plot, start, end, seen, wheelset, value } = button.dataset;
+      go(again ? null : {
+        plot, start: Number(start), end: Number(end), seen: Number(seen), wheelset: Number(wheelset), value: value === "" ? null : Number(value),
+      });
     });
   press(null);
   for (const row of all(".vents tbody tr", within)) {

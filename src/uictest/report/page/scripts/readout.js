@@ -35,7 +35,7 @@ const readout = (plots, stop) => {
     if (`${key}_1` in curves) addWheelsets(quantityText(own), (n) => reading(curves[`${key}_${n}`], own.decimals));
   }
   if ("valve_command_1" in curves)
-    addWheelsets("valve", (n) => () => {
+    addWheelsets("valve command", (n) => () => {
       if (pin !== null && chosen(plots, "reading") !== "value") return String(ventsBetween(stop, n, ...ends()));
       return stateText(curves[`valve_command_${n}`], at);
     });
@@ -50,7 +50,7 @@ const readout = (plots, stop) => {
   const read = () => {
     for (const [element, value] of cells) element.textContent = value();
     if (valve && "valve_command_1" in curves)
-      valve.textContent = pin === null || chosen(plots, "reading") === "value" ? "valve" : "vents";
+      valve.textContent = pin === null || chosen(plots, "reading") === "value" ? "valve command" : "vents";
     between.hidden = pin === null;
     if (pin !== null) first("output", between).textContent = `${text(at - pin, 2)} s from ${text(pin, 2)} s`;
   };

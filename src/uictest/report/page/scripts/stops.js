@@ -46,7 +46,7 @@ const drawOnce = async (plots) => {
     ranged: ([low, high]) => loops.within(axis.time(low), axis.time(high)),
   });
   const apart = () => chosen(plots, "view") === "apart" && plots.clientWidth > 640;
-  const light = offerMoments(plots.closest("details"), panels, { view, axis: () => axis, show });
+  const light = offerMoments(plots.closest("details"), { view, axis: () => axis, show });
   const paintPanels = () => {
     view.paint(figureOf(stop, axis, apart(), hiddenRoles(plots)));
     pin(reading.pinned());
@@ -58,9 +58,11 @@ const drawOnce = async (plots) => {
     paintPanels();
     paintLoops();
   };
+  const decides = all("button.moment", plots.closest("details")).find(({ dataset }) => dataset.status !== "pass" && dataset.wheelset);
+  if (decides) first('[data-choice="wheelset"]', plots).value = decides.dataset.wheelset;
   paint();
   redraw.push(paint);
-  const worthwhile = ({ status, kind, along, x0 }) => x0 !== null && along === "time" && (status !== "pass" || kind === "window");
+  const worthwhile = ({ status, kind, along, x0 }) => x0 !== null && along === "time" && (status !== "pass" || ["window", "fault"].includes(kind));
   show(stop.marks.find(worthwhile)?.x0 ?? stop.start);
   offerTables(first(".tables", plots), stop);
 
@@ -86,6 +88,7 @@ const drawOnce = async (plots) => {
     paintPanels();
   });
   plots.dataset.ready = "yes";
+  settle();
 };
 
 /* Buttons for what dragging and a double click do. */
@@ -111,7 +114,7 @@ for (const link of all("a[data-criterion]"))
     event.preventDefault();
     history.pushState(null, "", link.hash);
     stop.open = true;
-    stop.scrollIntoView({ behavior: "instant" });
+    aim(() => stop.scrollIntoView());
     await draw(first(".plots", stop));
     const button = all("button.moment", stop).find((each) => each.dataset.criterion === link.dataset.criterion);
     if (button.getAttribute("aria-pressed") !== "true") button.click();

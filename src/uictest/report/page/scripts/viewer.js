@@ -237,6 +237,8 @@ const viewer = (element, { moved, pinned, ranged = () => {} }) => {
       circle = place;
       putRing();
     },
+    panelOf: ({ plot, wheelset }) =>
+      plots.find(({ row, wheelsets }) => row.key === plot && inColumn(wheelset, wheelsets))?.cell ?? element,
     zoom,
     inView,
     /* A part of the range in view: 0.5 is half of it; moved by a share of it. */

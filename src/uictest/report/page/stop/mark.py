@@ -11,17 +11,17 @@ from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.verdict_sentences import quantity
 
-Kind = Literal["limit", "mean", "window", "band", "tolerance", "instant", "point", "interval"]
+Kind = Literal["limit", "mean", "window", "band", "tolerance", "instant", "point", "interval", "fault"]
 
 
 @dataclass(frozen=True, slots=True)
 class Mark:
     """A mark in a plot, in the units of the plot.
 
-    limit, mean: a level line at `y` from `x0` to `x1`. window, band: everything between `x0` and `x1`. None
-    where it has no end. tolerance: everything from -`y` to `y`. instant: an upright line at `x0`. point: the
-    place `x0`, `y`. interval: from `x0` to `x1` in row `y` of a strip. `wheelset` is None for a mark of all
-    of them, or of the train. `along` is what `x0` and `x1` count: time, s, or distance, m.
+    limit, mean: a level line at `y` from `x0` to `x1`. window, band, fault: everything between `x0` and `x1`.
+    None where it has no end. tolerance: everything from -`y` to `y`. instant: an upright line at `x0`.
+    point: the place `x0`, `y`. interval: from `x0` to `x1` in row `y` of a strip. `wheelset` is None for a
+    mark of all of them, or of the train. `along` is what `x0` and `x1` count: time, s, or distance, m.
     """
 
     plot: str

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 from uictest.core.measures import MEASURES, Decided
-from uictest.core.units import SIZES
+from uictest.core.units import SIZES, in_unit
 from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.page.stop.mark import Mark, instant, limit_marks, misses, point
@@ -18,6 +18,7 @@ from uictest.report.verdict_sentences import failing_first, limits, number, quan
 
 _UNITS: Final = {panel.key: panel.unit for panel in PANELS}
 _STRIPS: Final = frozenset(strip.key for strip in STRIPS)
+_PLOTS: Final = (*(panel.key for panel in PANELS), *(strip.key for strip in STRIPS))
 
 
 def marks_of(verdicts: Iterable[evaluation.Verdict], trace: PlotTrace) -> list[Mark]:
@@ -26,7 +27,7 @@ def marks_of(verdicts: Iterable[evaluation.Verdict], trace: PlotTrace) -> list[M
         replace(
             mark,
             criterion=verdict.id,
-            status=verdict.status,
+            status=_status(verdict, mark.wheelset),
             # In words, not by its colour alone, where a criterion was not decided.
             label=f"{mark.label} (inconclusive)"
             if mark.label and verdict.status == "inconclusive"
@@ -38,11 +39,17 @@ def marks_of(verdicts: Iterable[evaluation.Verdict], trace: PlotTrace) -> list[M
     ]
 
 
+def _status(verdict: evaluation.Verdict, wheelset: int | None) -> evaluation.Status:
+    """Return the verdict, of a wheelset that keeps what another one misses `pass`."""
+    keeps = wheelset is not None and bool(verdict.missed_by) and wheelset not in verdict.missed_by
+    return "pass" if keeps and verdict.status == "fail" else verdict.status
+
+
 def fault_marks(trace: PlotTrace) -> Iterator[Mark]:
-    """Yield the stretches in which faults were active."""
+    """Yield the stretches in which faults were active, in every plot; the first one names them."""
     for span in trace.faults:
-        yield Mark("speed", "window", span.label, span.start, span.end)
-        yield Mark("force", "window", "", span.start, span.end)
+        for place, plot in enumerate(_PLOTS):
+            yield Mark(plot, "fault", "" if place else f"fault: {span.label}", span.start, span.end)
 
 
 def _decided(verdict: evaluation.Verdict) -> Decided | None:
@@ -119,6 +126,8 @@ def _intervals(verdict: evaluation.Verdict, decided: Decided, moments: Moments) 
     rows = [(last - first, first, last, n) for n, own in moments.intervals.items() for first, last in own]
     longest = max((row for row in rows if moments.wheelset in (None, row[3])), default=None)
     label = "" if verdict.status == "pass" else printable(f"{verdict.id}: {value_and_limits(verdict)}")
+    if label and (moving_speed := verdict.defined("moving_speed")) is not None:
+        label += f", above {quantity(in_unit(moving_speed, 'km/h'), 'km/h')}"
     for row in rows:
         _, first, last, n = row
         if decided.plot in _STRIPS:
@@ -142,7 +151,8 @@ class Taken:
     """From `start` to `end`, s since the brake command, in the plot `plot`; one instant where both are equal.
 
     `wheelset` is the one that decides; None for a measure of the train. `value` is the height of the instant
-    in the unit of the plot, None where there is none.
+    in the unit of the plot, None where there is none. `begun` is the time of the first sample that shows it,
+    None for `start`: the first that counts as locked or sliding counts from the sample before it on.
     """
 
     plot: str
@@ -150,6 +160,12 @@ class Taken:
     end: float
     wheelset: int | None = None
     value: float | None = None
+    begun: float | None = None
+
+    @property
+    def seen(self) -> float:
+        """The time at which a cursor shows it."""
+        return self.start if self.begun is None else self.begun
 
     @property
     def text(self) -> str:
@@ -181,6 +197,8 @@ def taken_at(verdict: evaluation.Verdict, trace: PlotTrace) -> Taken | None:
     intervals = [each for k, own in moments.intervals.items() if n in (None, k) for each in own]
     if not intervals:
         return None
-    if decided.how == "longest":
-        return Taken(decided.plot, *max(intervals, key=duration), n)
-    return Taken(decided.plot, min(intervals)[0], max(last for _, last in intervals), n)
+    first, last = max(intervals, key=duration)
+    if decided.how != "longest":
+        first, last = min(intervals)[0], max(last for _, last in intervals)
+    begun = None if decided.how == "outer" else first + trace.interval
+    return Taken(decided.plot, first, last, n, begun=begun)
