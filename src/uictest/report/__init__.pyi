@@ -90,17 +90,18 @@ from .series.series_sentences import (
 )
 from .series.tables import series_table as series_table
 from .sheet import sheet_column as sheet_column
-from .sweep.cases import LARGEST_CSV as LARGEST_CSV, every_case as every_case
-from .sweep.ci_messages import sweep_annotations as sweep_annotations, sweep_suite as sweep_suite
+from .sweep import LARGEST_CSV as LARGEST_CSV, every_case as every_case
 from .sweep.folder import (
     SWEEP_RESULTS as SWEEP_RESULTS,
     SweepContent as SweepContent,
     read_sweep as read_sweep,
-    write_sweep_formats as write_sweep_formats,
     write_sweep_result as write_sweep_result,
 )
-from .sweep.formats import sweep_format_names as sweep_format_names
-from .sweep.formats.md import append_sweep_step_summary as append_sweep_step_summary
+from .sweep.formats import (
+    append_sweep_step_summary as append_sweep_step_summary,
+    sweep_format_names as sweep_format_names,
+    write_sweep_formats as write_sweep_formats,
+)
 from .sweep.limits import (
     OutsideCount as OutsideCount,
     SurveyBias as SurveyBias,
@@ -130,6 +131,8 @@ from .sweep.sweep_sentences import (
     circumstances_words as circumstances_words,
     flip_words as flip_words,
     not_judged_words as not_judged_words,
+    sweep_annotations as sweep_annotations,
+    sweep_suite as sweep_suite,
     sweep_tally as sweep_tally,
 )
 from .sweep.tails import (

@@ -3,7 +3,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from uictest.report import format_names, sweep_format_names
-from uictest.report.sweep.folder import write_sweep_formats
+from uictest.report.sweep.formats import write_sweep_formats
 
 
 @pytest.fixture

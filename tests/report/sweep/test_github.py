@@ -2,8 +2,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from uictest.report.sweep.ci_messages import MOST_ANNOTATED, sweep_annotations
 from uictest.report.sweep.folder import SweepContent
+from uictest.report.sweep.sweep_sentences import MOST_ANNOTATED, sweep_annotations
 
 from ..builders import HOSTILE, MakeSweep, make_result
 

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from uictest.report.sweep.cases import SummaryRows, reported_columns
 from uictest.report.sweep.map_cells import MOST_VALUES, map_cells, mapped_pairs
-from uictest.report.sweep.summary_rows import SummaryRows, reported_columns
 
 from ..sweep_rows import DRAWN, drawn_rows, row, sweep_result, write_rows
 

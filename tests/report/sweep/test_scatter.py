@@ -10,7 +10,7 @@ from hypothesis import given, strategies as st
 from scipy.stats import qmc
 
 from uictest.report.page.sweep.scatter import MOST_POINTS, Scatter, chosen_rows, is_sampled, scatter
-from uictest.report.sweep.summary_rows import SummaryRows
+from uictest.report.sweep.cases import SummaryRows
 
 from ..sweep_rows import DRAWN, drawn_rows, sweep_result, write_rows
 

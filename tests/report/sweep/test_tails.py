@@ -13,8 +13,7 @@ from hypothesis import given, strategies as st
 
 from uictest.report import titled_lines
 from uictest.report.page import sweep_page_html
-from uictest.report.sweep.formats.md import sweep_markdown
-from uictest.report.sweep.formats.xlsx import sweep_workbook_bytes
+from uictest.report.sweep.formats import sweep_markdown
 from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.tail_tables import (
     MOST_TABLES,
@@ -24,6 +23,7 @@ from uictest.report.sweep.tail_tables import (
     tables_left_out,
     tail_tables,
 )
+from uictest.report.sweep.workbook import sweep_workbook_bytes
 
 from ..builders import MakeSweep
 from ..test_page import Page

@@ -1,26 +1,32 @@
-"""The cases of a sweep on a sheet, read from summary.parquet in batches."""
+"""The cases of a sweep in summary.parquet: read in batches, and written on a sheet."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.core.measures import column_unit
+from uictest.core.units import SIZES
 from uictest.report.sheet import Row, Styles, heading_rows, write_table
+from uictest.report.sweep import SUMMARY, every_case
+from uictest.report.sweep.result import OutcomeCount, SweepResult
+from uictest.report.sweep.values import DrawnInterval
 from uictest.report.verdict_sentences import outcome_word
 
 if TYPE_CHECKING:
+    import pyarrow as pa
     import pyarrow.parquet as pq
     from xlsxwriter.worksheet import Worksheet
-
-SUMMARY: Final = "summary.parquet"
-LARGEST_CSV: Final = 100_000
-"""Most cases of which summary.csv is written unless it is asked for; chosen: no spreadsheet likes more."""
 
 MOST_CASES: Final = 100_000
 """Cases that a workbook has: a spreadsheet would take minutes to open a larger one."""
 
-_AT_ONCE: Final = 1024
+_ON_A_SHEET: Final = 1024
 
 
 def write_cases(sheet: Worksheet, folder: Path, styles: Styles, most: int) -> None:
@@ -39,11 +45,6 @@ def write_cases(sheet: Worksheet, folder: Path, styles: Styles, most: int) -> No
         sheet.write_string(heading_rows(columns) + written, 0, left_out(cases, written))
 
 
-def every_case(cases: int) -> str:
-    """Return the name of the file that has a row for every case of a sweep."""
-    return SUMMARY if cases > LARGEST_CSV else "summary.csv"
-
-
 def left_out(cases: int, written: int) -> str:
     """Return which cases a workbook lacks."""
     in_file = f"are in {every_case(cases)} only"
@@ -52,7 +53,102 @@ def left_out(cases: int, written: int) -> str:
 
 def _rows(summary: pq.ParquetFile, *, by_verdict: bool) -> Iterator[Row]:
     for shown_verdict in (False, True) if by_verdict else (None,):
-        for batch in summary.iter_batches(_AT_ONCE):
+        for batch in summary.iter_batches(_ON_A_SHEET):
             for row in batch.to_pylist():
                 if shown_verdict is None or row["met"] == shown_verdict:
                     yield row | {"met": outcome_word(row["outcome"], met=row["met"])}
+
+
+_AT_ONCE: Final = 65_536
+
+
+@dataclass(frozen=True, slots=True)
+class ReportedColumns:
+    """A measure that reports show, in its unit: the largest of some columns of the rows."""
+
+    name: str
+    unit: str
+    columns: tuple[str, ...]
+
+    def of(self, table: pa.Table) -> NDArray[np.float64]:
+        """Return the measure of each row, NaN where it has no value."""
+        largest: NDArray[np.float64] = np.fmax.reduce([_numbers(table, name) for name in self.columns])
+        # A column of a pure number may be shown in per cent.
+        pure = column_unit(self.columns[0]) == "1"
+        return largest / SIZES[self.unit] if pure and self.unit != "1" else largest
+
+
+def reported_columns(result: SweepResult) -> list[ReportedColumns]:
+    """Return the measures of a result that rows have: those of which it has a distribution."""
+    return [
+        ReportedColumns(each.measure, each.unit, each.columns)
+        for each in result.distributions
+        if each.columns
+    ]
+
+
+@dataclass(frozen=True, slots=True)
+class SummaryRows:
+    """The summary of a sweep in its folder."""
+
+    folder: Path
+
+    @property
+    def exists(self) -> bool:
+        """Whether the folder has a summary."""
+        return (self.folder / SUMMARY).is_file()
+
+    def tables(self, columns: Sequence[str]) -> Iterator[pa.Table]:
+        """Yield the rows in batches, with these columns. Raises OSError, ValueError where one is missing."""
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+        with pq.ParquetFile(self.folder / SUMMARY) as summary:
+            missing = [name for name in columns if name not in summary.schema_arrow.names]
+            if missing:
+                raise ValueError(f"{self.folder / SUMMARY}: no column {missing[0]!r}")
+            for batch in summary.iter_batches(_AT_ONCE, columns=list(columns)):
+                yield pa.Table.from_batches([batch])
+
+    def columns_of(self, keys: Sequence[str], measures: Sequence[ReportedColumns]) -> list[str]:
+        """Return the columns of parameters, verdicts and measures."""
+        of_measures = (column for measure in measures for column in measure.columns)
+        return list(dict.fromkeys([*map(_text_column, keys), "outcome", "met", *of_measures]))
+
+    def bins(self, table: pa.Table, key: str, counts: Sequence[OutcomeCount]) -> NDArray[np.int64]:
+        """Return which of the values that a parameter is counted by each row has."""
+        values = [count.value for count in counts]
+        if isinstance(values[0], DrawnInterval):
+            inner = [value.low for value in values[1:] if isinstance(value, DrawnInterval)]
+            return np.searchsorted(inner, self.numbers(table, key), side="right").astype(np.int64)
+        import pyarrow as pa
+        import pyarrow.compute as pc
+
+        labels = pa.array([value.label for value in values])
+        places = pc.index_in(table.column(_text_column(key)), value_set=labels)
+        if places.null_count:
+            raise ValueError(f"{self.folder / SUMMARY}: a value of {key} is not in the result of the sweep")
+        bins: NDArray[np.int64] = places.to_numpy().astype(np.int64)
+        return bins
+
+    def numbers(self, table: pa.Table, key: str) -> NDArray[np.float64]:
+        """Return the numbers of a parameter in the unit in which they are written."""
+        import pyarrow.compute as pc
+
+        texts = pc.replace_substring_regex(table.column(_text_column(key)), " .*$", "")
+        numbers: NDArray[np.float64] = pc.cast(texts, "double").to_numpy()
+        return numbers
+
+    def verdicts(self, table: pa.Table) -> tuple[NDArray[np.bool_], NDArray[Any]]:
+        """Return of each row whether it met its expectation, and its outcome."""
+        met, outcomes = (table.column(name).to_numpy() for name in ("met", "outcome"))
+        return met.astype(bool), outcomes.astype(str)
+
+
+def _text_column(key: str) -> str:
+    return f"parameters.{key}"
+
+
+def _numbers(table: pa.Table, name: str) -> NDArray[np.float64]:
+    numbers: NDArray[np.float64] = np.array(table.column(name).to_numpy(zero_copy_only=False), float)
+    return numbers

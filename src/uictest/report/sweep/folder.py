@@ -1,11 +1,10 @@
-"""A finished sweep in its folder: written, read back, and the formats that it can be reported in."""
+"""A finished sweep in its folder: written and read back."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from importlib import import_module
 from pathlib import Path
 from typing import Any, Final
 
@@ -13,9 +12,8 @@ from uictest.core import files
 from uictest.judging import evaluation
 from uictest.report.junit import WITH_TEST_PROPERTIES, junit_text
 from uictest.report.run_folder import read_traces, require_names
-from uictest.report.sweep import formats
-from uictest.report.sweep.ci_messages import sweep_suite
 from uictest.report.sweep.result import SweepResult, read_sweep_document, sweep_document
+from uictest.report.sweep.sweep_sentences import sweep_suite
 from uictest.report.sweep.tables import csv_tables
 from uictest.report.sweep.tail_tables import K_DRY_FILE, k_dry_yaml
 from uictest.report.traces.trace import PlotTrace
@@ -103,34 +101,3 @@ def write_sweep_result(folder: Path, result: SweepResult, file: str) -> str:
     for name, text in texts.items():
         files.write(folder, name, text)
     return document
-
-
-@dataclass(frozen=True, slots=True)
-class SweepFormat:
-    """A format; a module of `formats/` registers its own under the name `FORMAT`.
-
-    Args:
-        write: writes a sweep into a folder and returns the files.
-
-    """
-
-    write: Callable[[Path, SweepContent], list[Path]]
-
-
-def one_file(name: str, to_bytes: Callable[[SweepContent], bytes]) -> SweepFormat:
-    """Return the format in which a sweep becomes one file of this name."""
-
-    def write(folder: Path, content: SweepContent) -> list[Path]:
-        files.write(folder, name, to_bytes(content))
-        return [folder / name]
-
-    return SweepFormat(write)
-
-
-def write_sweep_formats(folder: Path, content: SweepContent, names: Iterable[str]) -> list[Path]:
-    """Write a sweep in some formats into a folder, and return the files.
-
-    Raises OSError, and ValueError where summary.parquet cannot be read.
-    """
-    registered = [import_module(f"{formats.__name__}.{name}").FORMAT for name in names]
-    return [path for each in registered for path in each.write(folder, content)]

@@ -10,9 +10,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.report.sweep.cases import ReportedColumns, SummaryRows
 from uictest.report.sweep.map_text import MOST_SHOWN, Fold, fold, folded
 from uictest.report.sweep.result import SweepMap, SweepResult
-from uictest.report.sweep.summary_rows import ReportedColumns, SummaryRows
 from uictest.report.sweep.sweep_sentences import measure_words
 from uictest.report.sweep.values import SweptValue, WrittenValue
 

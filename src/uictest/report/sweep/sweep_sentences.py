@@ -1,17 +1,20 @@
-"""The result of a sweep in words: the same in every format, and its notable cases."""
+"""The result of a sweep in words, the same in every format; its notable cases; what a CI server is told."""
 
 from __future__ import annotations
 
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
+from uictest.core.document import Suite, Testcase, TestcaseStatus, class_name
 from uictest.core.measures import column_unit
 from uictest.judging import evaluation
 from uictest.report.escaping import argument, printable
+from uictest.report.github import annotation
+from uictest.report.junit import suite_properties, test_properties
 from uictest.report.sheet import sheet_column
-from uictest.report.sweep.result import Circumstances, Flip, MissedCase, SweepResult
+from uictest.report.sweep.result import Circumstances, Flip, MissedCase, OutcomeCount, SweepResult
 from uictest.report.sweep.values import DrawnInterval, SweptValue, range_label
 from uictest.report.verdict_sentences import counted, counts_text, explanation, outcome_word, result_word
 
@@ -126,3 +129,52 @@ def _from_missed(case: MissedCase) -> NotableCase:
     """Return a case of which only outcome and reason are known."""
     why = printable(": ".join(text for text in (f"got {case.outcome}", case.reason) if text))
     return NotableCase(case.id, False, outcome_word(case.outcome, met=False), case.outcome, why)
+
+
+def sweep_suite(result: SweepResult, file: str, *, with_properties: bool = False) -> Suite:
+    """Return the counts of a sweep as testcases; `file` is the sweep file as shown to users."""
+    parameter, counts = next(iter(result.rates.items()))
+    own = test_properties(result.test_case, result.requirements) if with_properties else {}
+    testcases = [
+        Testcase(
+            class_name(file),
+            f"{result.name}[{parameter}={count.value.label}]",
+            *_outcome(result, count),
+            properties=own,
+        )
+        for count in counts
+    ]
+    about = suite_properties(evaluation.program_in(result.base), (), result.requirements)
+    return Suite(result.name, testcases, properties=about)
+
+
+def _outcome(result: SweepResult, count: OutcomeCount) -> tuple[TestcaseStatus, list[str]]:
+    status: TestcaseStatus = "passed"
+    if count.cases == 0 or count.outcomes["skipped"] == count.cases == count.met:
+        status = "skipped"
+    elif count.outcomes["error"]:
+        status = "error"
+    elif count.met < count.cases:
+        status = "failure"
+    return status, [] if status == "passed" else list(_explanation(result, count))
+
+
+def _explanation(result: SweepResult, count: OutcomeCount) -> Iterator[str]:
+    yield f"{count.cases - count.met} of {count.cases} cases did not meet their expectation"
+    yield ", ".join(f"{name}: {number}" for name, number in count.outcomes.items() if number)
+    if result.missed and count.met < count.cases:
+        yield "the first of the whole sweep:"
+        yield from (f"{case.id}: {case.outcome}, {case.reason}" for case in result.missed)
+
+
+MOST_ANNOTATED: Final = 10
+"""GitHub shows ten annotations of one kind per step."""
+
+
+def sweep_annotations(result: SweepResult, file: str) -> Iterator[str]:
+    """Yield an `::error` for each of the worst cases that are not met, and a `::notice` with the counts."""
+    missed = [case for case in notable_cases(result) if not case.met]
+    for case in missed[:MOST_ANNOTATED]:
+        yield annotation(file, f"{case.word} {case.id}", case.why)
+    title = f"uictest sweep {result.name}"
+    yield annotation(file, title, sweep_tally(result), level="notice")

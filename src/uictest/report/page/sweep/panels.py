@@ -16,7 +16,7 @@ from uictest.report.page.axis import Axis, Tick, axis_title, spanned
 from uictest.report.page.plot import Plot, Shape, dot
 from uictest.report.page.stop.overlay_view import script_json
 from uictest.report.page.sweep.scatter import PointNumbers, Scatter
-from uictest.report.sweep.cases import every_case
+from uictest.report.sweep import every_case
 from uictest.report.verdict_sentences import counted, tone
 
 _SIDES: Final = ((50.0, 292.0), (172.0, 24.0))

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.report.sweep.cases import SummaryRows, reported_columns
 from uictest.report.sweep.result import SweepResult
-from uictest.report.sweep.summary_rows import SummaryRows, reported_columns
 from uictest.report.sweep.values import DrawnInterval
 from uictest.report.verdict_sentences import outcome_word
 

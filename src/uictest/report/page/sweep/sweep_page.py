@@ -14,6 +14,7 @@ from uictest.report.page.sweep.line_plots import cell_lines, frontier_plot, tren
 from uictest.report.page.sweep.maps import maps_of_pair
 from uictest.report.page.sweep.panels import PanelsOfPoints, panels_of_points
 from uictest.report.page.sweep.scatter import is_sampled, scatter
+from uictest.report.sweep.cases import ReportedColumns, SummaryRows, reported_columns
 from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.map_cells import (
     MOST_PARAMETERS,
@@ -23,7 +24,6 @@ from uictest.report.sweep.map_cells import (
     mapped_pairs,
 )
 from uictest.report.sweep.result import OutcomeCount, SweepResult
-from uictest.report.sweep.summary_rows import ReportedColumns, SummaryRows, reported_columns
 from uictest.report.sweep.summary_tables import frontier_table, notable_table, sensitivity_table
 from uictest.report.sweep.sweep_sentences import (
     command_alone,

@@ -1,8 +1,8 @@
 from markdown_it import MarkdownIt
 
-from uictest.report.sweep.formats.md import append_sweep_step_summary, sweep_markdown
+from uictest.report.sweep.formats import append_sweep_step_summary, sweep_markdown
 
-from ...builders import make_result
+from ..builders import make_result
 
 _READER = MarkdownIt("commonmark", {"html": True}).enable("table")
 

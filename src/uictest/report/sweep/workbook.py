@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from uictest.report.formats.xlsx import manifest_rows, parameter_rows, result_row
 from uictest.report.sheet import Row, open_workbook, styles_of, write_sheet
 from uictest.report.sweep.cases import MOST_CASES, left_out, write_cases
-from uictest.report.sweep.folder import SweepContent, one_file
+from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.map_text import write_maps
 from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.sweep_sentences import notable_cases, swept_words
@@ -91,6 +91,3 @@ def _worst(result: SweepResult) -> Iterator[Row]:
     for case in notable_cases(result):
         row: Row = {"case": case.id, "verdict": case.word, "outcome": case.outcome}
         yield row | (result_row(worst[case.id]) if case.id in worst else {}) | {"why": case.why}
-
-
-FORMAT = one_file("report.xlsx", sweep_workbook_bytes)

@@ -5,9 +5,9 @@ import pyarrow.parquet as pq
 import pytest
 
 from uictest.report.escaping import printable
-from uictest.report.sweep.formats.xlsx import sweep_workbook_bytes
+from uictest.report.sweep.workbook import sweep_workbook_bytes
 
-from ...builders import HOSTILE, make_result
+from ..builders import HOSTILE, make_result
 
 openpyxl = pytest.importorskip("openpyxl")
 
