@@ -255,7 +255,7 @@ def test_missed_is_1_and_maxfail_ends_early(call, study):
 
 @pytest.mark.parametrize("options", [(), ("--report", "csv")])
 def test_so_many_cases_are_written_as_csv_only_when_asked(call, study, monkeypatch, options):
-    monkeypatch.setattr("uictest.report.sweep.cases.LARGEST_CSV", 95)
+    monkeypatch.setattr("uictest.report.sweep.LARGEST_CSV", 95)
     monkeypatch.setattr("uictest.report.LARGEST_CSV", 95, raising=False)
     answer = call("sweep", study, "--set", "expect=fail", *options)
     assert Path("reports/study/summary.csv").exists() == bool(options)
