@@ -193,7 +193,7 @@ def test_a_sweeps_worst_case_is_drawn_and_reached_from_the_map(browser: Any, swe
     browser.get(sweep_page.as_uri())
     assert wait(browser, PLOTTED) > 15
     # The page scrolls smoothly: a click with the pointer would come before its end.
-    run(browser, "document.querySelector('.heat table.cells a').click()")
+    run(browser, "document.querySelector('.swept-map a').click()")
     assert browser.current_url.endswith("#case-study%5Ba%5D")
 
 
@@ -204,12 +204,12 @@ def test_a_sweep_can_be_read_without_javascript(browser: Any, sweep_page: Path) 
     for shown in (
         "4 cases: 3 pass, 1 fail; 1 not as expected",
         "study[a]",
-        "Distributions",
+        "Measures over rail.friction",
         "Frontier along",
         "Provenance",
     ):
         assert shown in text
-    assert browser.find_element("css selector", "svg.histogram").size["height"] > 100
+    assert browser.find_element("css selector", "svg.plot").size["height"] > 100
 
 
 _ENDS = """
