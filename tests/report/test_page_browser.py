@@ -209,7 +209,9 @@ def test_a_sweep_can_be_read_without_javascript(browser: Any, sweep_page: Path) 
         "Provenance",
     ):
         assert shown in text
-    assert browser.find_element("css selector", "svg.plot").size["height"] > 100
+    assert (
+        browser.find_element("css selector", "section[aria-labelledby=lines-1] svg.plot").size["height"] > 100
+    )
 
 
 _ENDS = """
