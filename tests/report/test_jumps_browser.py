@@ -74,3 +74,16 @@ def test_the_cursor_shows_the_first_sample_of_a_lock(browser: Any, four_stops: P
     assert speeds[-3] == "0.0"
     chosen = "return document.querySelector('.loops [data-choice=\"wheelset\"]').value"
     assert run(browser, chosen) == "2"
+
+
+def test_on_a_phone_verdict_name_and_figures_of_a_stop_keep_apart(browser: Any, four_stops: Path) -> None:
+    resize(browser, 400)
+    browser.get(four_stops.as_uri())
+    script = """
+      return [...document.querySelectorAll('.stop > summary')].flatMap((summary) => {
+        const boxes = [...summary.children].map((each) => each.getBoundingClientRect());
+        return boxes.flatMap((one, k) => boxes.slice(k + 1).filter((other) => one.left < other.right - 1 &&
+          other.left < one.right - 1 && one.top < other.bottom - 1 && other.top < one.bottom - 1));
+      }).length + Math.max(0, document.documentElement.scrollWidth - 400);
+    """
+    assert run(browser, script) == 0

@@ -15,6 +15,7 @@ from uictest.report.verdict_sentences import (
     result_word,
     tally,
     tone,
+    value_and_limits,
 )
 
 from .builders import make_result, make_verdict
@@ -39,6 +40,13 @@ def test_figures_have_five_digits_and_a_dash_where_there_is_none(value, shown):
 )
 def test_limits(lower, upper, shown):
     assert limits(make_verdict(lower=lower, upper=upper)) == shown
+
+
+def test_a_share_of_time_says_so_and_a_slide_does_not():
+    share = {"value": 0.0, "unit": "%", "lower": 35.0, "upper": None}
+    timed = make_verdict(measure="sliding_share", **share)
+    assert value_and_limits(timed) == "0 % of the time, lower limit 35 %"
+    assert value_and_limits(make_verdict(measure="maximum_slide_above_cutoff", **share)).startswith("0 %, ")
 
 
 def test_a_skipped_case_tells_why_each_criterion_did_not_apply():

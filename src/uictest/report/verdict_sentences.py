@@ -6,6 +6,7 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from typing import Final
 
 from uictest.core.document import Tone
+from uictest.core.measures import MEASURES
 from uictest.judging import evaluation
 from uictest.report.causes import cause_sentences
 from uictest.report.escaping import printable
@@ -54,8 +55,10 @@ def limits(verdict: evaluation.Verdict, word: str = "limits ") -> str:
 
 
 def value_and_limits(verdict: evaluation.Verdict, word: str = "limits ") -> str:
-    """Return the value of a criterion next to its limits, e.g. `0.3 %, upper limit 0.1 %`."""
-    return f"{quantity(verdict.value, verdict.unit)}, {limits(verdict, word)}"
+    """Return the value of a criterion next to its limits, e.g. `0 % of the time, lower limit 35 %`."""
+    measure = MEASURES.get(verdict.measure)
+    of = f" {measure.share_of}" if measure is not None and measure.share_of else ""
+    return f"{quantity(verdict.value, verdict.unit)}{of}, {limits(verdict, word)}"
 
 
 MOST_URGENT: Final = ("fail", "inconclusive", "pass", "not_applicable")
@@ -91,8 +94,7 @@ def missed_by_text(verdict: evaluation.Verdict, wheelsets: int) -> str:
 
 def verdict_sentence(verdict: evaluation.Verdict) -> str:
     """Return the verdict of a criterion on one line, with the reason, or with value, limits and margin."""
-    value, margin = (quantity(size, verdict.unit) for size in (verdict.value, verdict.margin))
-    reason = verdict.reason or f"{value}, {limits(verdict)}, margin {margin}"
+    reason = verdict.reason or f"{value_and_limits(verdict)}, margin {quantity(verdict.margin, verdict.unit)}"
     return printable(f"{verdict.id} ({verdict.layer}) {verdict.status.replace('_', ' ')}: {reason}")
 
 

@@ -109,6 +109,13 @@ def test_a_cell_of_the_matrix_is_shaped_by_its_margin() -> None:
     assert kind(status="not_applicable", value=None, margin=None) == "not-judged"
 
 
+def test_what_does_not_apply_is_told_from_what_a_case_is_not_judged_by() -> None:
+    idle = make_verdict(id="idle", status="not_applicable", value=None, margin=None)
+    html = page_html(make_content(make_result(id="a", criteria=(idle,)), make_result(id="b")))
+    cells = re.findall(r'<td class="number criterion[^>]*>([^<]*)</td>', html)
+    assert cells == ["+5.05", "–", "–", "n/a"]  # noqa: RUF001 - dashes on paper
+
+
 def test_every_case_has_a_cell_for_every_criterion_and_what_has_no_room_is_counted() -> None:
     many = [make_verdict(id=f"criterion-{n:02}") for n in range(12)]
     missed = make_verdict(id="zz-missed", margin=-5.0, status="fail")

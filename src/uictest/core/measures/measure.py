@@ -205,6 +205,7 @@ class Measure:
         observed_by: fields of the scenario's `measures` part that decide what is observed.
         recorded: data of a record that it needs; None for one of a simulation.
         column: of results that needs the same data; None where results do not report it.
+        share_of: what a share is one of, behind its unit: `of the time`.
         finite_field: field of the record in which every simulated stop has a finite number; empty where NaN
             says that something never happened.
 
@@ -225,4 +226,5 @@ class Measure:
     observed_by: tuple[str, ...] = ()
     recorded: RecordedData | None = None
     column: StopColumn | WheelsetColumn | None = None
+    share_of: str = ""
     finite_field: str = ""

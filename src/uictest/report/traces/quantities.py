@@ -145,7 +145,7 @@ class Strip:
 
 
 STRIPS = (
-    Strip("valves", "WSP valves", "commands to the hold and vent magnets", below="speed", lanes=MAGNETS),
+    Strip("valves", "WSP valves", "commands, hold and vent", below="speed", lanes=MAGNETS),
     Strip("locked", "Locked wheelsets"),
     Strip("sliding", "Sliding wheelsets"),
 )

@@ -160,6 +160,7 @@ MEASURES = (
         name="sliding_share",
         kind="share",
         unit="%",
+        share_of="of the time",
         course="settles",
         meaning="share of the time from the brake command to `end_speed` in which at least half of the"
         " wheelsets turn, at once, below the share `sliding_below` of the train's speed",
@@ -179,6 +180,7 @@ MEASURES = (
         name="sliding_share_of_wheelsets",
         kind="share",
         unit="%",
+        share_of="of the time",
         course="settles",
         meaning="share of the time from the brake command to `end_speed` in which the wheelset turns below"
         " the share `sliding_below` of the train's speed",

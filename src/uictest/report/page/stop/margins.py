@@ -14,10 +14,10 @@ from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS, WHEELSETS
 from uictest.report.traces.trace import PlotTrace
 from uictest.report.verdict_sentences import (
     MOST_URGENT,
-    limits,
     missed_by_text,
     quantity,
     rig_sentence,
+    value_and_limits,
     without_rig_that_holds,
 )
 
@@ -92,7 +92,7 @@ class Margin:
         if verdict.value is None and verdict.reason:
             return verdict.reason
         margin = f", margin {quantity(verdict.margin, verdict.unit)}" if verdict.margin else ""
-        return f"{quantity(verdict.value, verdict.unit)}, {limits(verdict, word='')}{margin}"
+        return f"{value_and_limits(verdict, word='')}{margin}"
 
     @property
     def missed_by_text(self) -> str:
