@@ -236,7 +236,7 @@ def test_a_controller_of_the_library_that_is_not_the_default_is_a_change() -> No
 def test_every_report_names_the_controller_under_test_and_its_version() -> None:
     parts = {"controller": BAND}
     content = make_content(make_result(parts=parts, outcome="fail"))
-    headline = "slip-band (uictest 0.1.0)"
+    headline = "slip-band (built into uictest 0.1.0)"
     files = JUNIT.files(content) | CSV.files(content) | MARKDOWN.files(content)
     suite = ElementTree.fromstring(files["junit.xml"])[0]
     properties = {each.get("name"): each.get("value") for each in suite.iter("property")}
@@ -248,6 +248,14 @@ def test_every_report_names_the_controller_under_test_and_its_version() -> None:
     assert f"WSP controller: <strong>{headline}</strong>" in page_html(content)
 
 
+def test_the_page_names_every_vehicle_once() -> None:
+    cars = [EffectivePart("vehicle", "vehicle", name, name, ()) for name in ("wagon", "coach", "wagon")]
+    results = [
+        make_result(id=str(k), parts={"controller": PLAIN, "vehicle": car}) for k, car in enumerate(cars)
+    ]
+    assert "vehicle: <strong>wagon, coach</strong>" in page_html(make_content(*results))
+
+
 def test_controllers_are_named_once_and_one_that_never_acted_is_marked() -> None:
     bypassed = EffectivePart(
         "scenario.rig", "rig", "", None, (Parameter("rig.wsp", "bypassed", "", "bypassed", "user"),)
@@ -255,8 +263,11 @@ def test_controllers_are_named_once_and_one_that_never_acted_is_marked() -> None
     own, idle = ({"controller": PLAIN, "scenario.rig": each} for each in (rig("one-caliper"), bypassed))
     outside = make_result(parts={"controller": LIBRARY}, controller_version="1.2")
     both = [make_result(parts=own), make_result(parts=idle), outside, make_result(parts={})]
-    assert controllers_text(both, "0.2.0") == "threshold (uictest 0.2.0), wsp (version 1.2)"
-    assert controllers_text([make_result(parts=idle)], "0.2.0") == "threshold (uictest 0.2.0), bypassed"
+    assert controllers_text(both, "0.2.0") == "threshold (built into uictest 0.2.0), wsp (version 1.2)"
+    assert (
+        controllers_text([make_result(parts=idle)], "0.2.0")
+        == "threshold (built into uictest 0.2.0), bypassed"
+    )
 
 
 def test_the_largest_slide_says_above_which_speed_it_counts() -> None:

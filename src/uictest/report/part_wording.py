@@ -11,7 +11,7 @@ from uictest.core.units import KINDS, in_unit, value_text
 from uictest.judging import evaluation
 from uictest.report.causes import fault_sentences, is_bypassed
 from uictest.report.escaping import printable
-from uictest.report.verdict_sentences import counted
+from uictest.report.verdict_sentences import counted, listed
 
 _PATHS = (".yaml", ".yml")
 _DIGITS = 12
@@ -81,7 +81,7 @@ def controller_of(result: evaluation.CaseResult, uictest_version: str = "") -> t
 
 
 def controllers_text(results: Iterable[evaluation.CaseResult], uictest_version: str = "") -> str:
-    """Return the controllers under test, each once: `slip-band (uictest 0.2.0)`; empty where none is known.
+    """Return the controllers under test, each once: `slip-band (built into uictest 0.2.0)`; empty if unknown.
 
     One whose valves are bypassed in every case is marked so: it was not tested.
     """
@@ -90,11 +90,17 @@ def controllers_text(results: Iterable[evaluation.CaseResult], uictest_version: 
         name, version = controller_of(result, uictest_version)
         if not name:
             continue
-        if version and evaluation.program_in(result.parts) is not None:
-            version = f"version {version}"
-        text = f"{name} ({version})" if version else name
+        kind = "built into" if evaluation.program_in(result.parts) is None else "version"
+        text = f"{name} ({kind} {version})" if version else name
         acts[text] = acts.get(text, False) or not is_bypassed(result.parts)
     return ", ".join(text if active else f"{text}, bypassed" for text, active in acts.items())
+
+
+def vehicles_text(results: Iterable[evaluation.CaseResult]) -> str:
+    """Return the vehicles of some cases, each once; empty where none is known."""
+    return listed(
+        list(dict.fromkeys(each.parts["vehicle"].name for each in results if "vehicle" in each.parts))
+    )
 
 
 def slide_speed(results: Iterable[evaluation.CaseResult]) -> str:

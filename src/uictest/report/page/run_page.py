@@ -29,6 +29,7 @@ from uictest.report.page.links import case_anchor, rerun_commands
 from uictest.report.page.overview import maps_of, shown_parts
 from uictest.report.page.rendering import render
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
+from uictest.report.part_wording import vehicles_text
 from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
 from uictest.report.verdict_sentences import (
     CASE_WORDS,
@@ -72,6 +73,7 @@ def page_html(content: RunContent) -> str:
         all_parts_in="results.json",
         words={word: words.count(word) for word in CASE_WORDS if word in words},
         measure_columns=measure_columns(content.results),
+        vehicles=vehicles_text(content.all_results),
         differences_table=differences_table,
         plots=plots_json(),
         with_plots=bool(drawn),
