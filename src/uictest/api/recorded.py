@@ -22,7 +22,9 @@ from uictest.api.arguments import (
     thread_count,
 )
 from uictest.api.results import Results, frame_of
+from uictest.core import recording
 from uictest.plans import scenario as scenarios
+from uictest.running import campaign
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -103,17 +105,16 @@ def evaluate(
         "-o": output,
     }
     words = command_words(["evaluate", *paths, *(["--strict"] if strict else [])], options)
-
-    def conditions() -> runs.Conditions:
+    if any(map(runs.is_series, paths)):
+        runs.require_nothing_stated((scenario, select, *statements, trigger), "set")
+        stops = runs.stops_of_series(paths, overrides, folders)
+    else:
         case_of = _case_of(scenario, select, [*statements, *overrides], folders)
         mapped, inputs = runs.named_map(str(channel_map), folders)
-        return runs.Conditions(mapped.triggered_by(trigger), inputs, case_of)
-
-    said = (scenario, select, *statements, trigger)
-    batch, _ = runs.recorded_batch(
-        paths, words, conditions, overrides, folders, stated=said, option="set", strict=strict
-    )
-    content, recordings = runs.judge_recordings(batch)
+        stops = runs.stops_in_recordings(paths, mapped.triggered_by(trigger), inputs, case_of)
+    batch = runs.recorded_batch(stops, words, campaign.RecordingRequest("all"), strict=strict)
+    recordings: dict[str, recording.Recording] = {}
+    content = runs.run_batch(batch, runs.Observer(), draws_stops=True, keep=recordings.__setitem__).content
     if output is None:
         return Results(content, recordings=recordings)
     wanted = request.among(recordings, content.all_results)

@@ -38,7 +38,7 @@ class Display(TerminalObserver):
         if self.verbose:
             self.case(run, differences)
 
-    def show(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
+    def show(self, result: evaluation.CaseResult, differences: Sequence[report.Difference]) -> None:
         """Show one result; `differences` are its quantities out of the tolerance of the baseline."""
 
     def end(self, content: report.RunContent, document: str) -> None:
@@ -48,7 +48,7 @@ class Display(TerminalObserver):
 class Lines(Display):
     """One line per case as it finishes; with -v also per criterion, with -q only what does not pass."""
 
-    def show(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
+    def show(self, result: evaluation.CaseResult, differences: Sequence[report.Difference]) -> None:
         """Show one result."""
         if self.quiet and result.met and not differences:
             return
@@ -84,7 +84,7 @@ class Lines(Display):
 class Annotations(Lines):
     """Lines, and a GitHub annotation below each case that does not pass."""
 
-    def show(self, result: evaluation.CaseResult, differences: Sequence[report.Difference] = ()) -> None:
+    def show(self, result: evaluation.CaseResult, differences: Sequence[report.Difference]) -> None:
         """Show one result."""
         super().show(result, differences)
         for line in report.case_annotations(result, differences):
@@ -172,29 +172,24 @@ def publish_and_show(
 ) -> runs.Published | None:
     """Run a batch, publish its reports and show them; after an interruption, those of the finished cases.
 
-    Returns None if no case is finished. Raises OSError if the reports cannot be written, and removes those
-    that were.
+    `junit` is the file of `--junitxml`. Returns None if no case is finished. Raises OSError if the reports
+    cannot be written, and removes those that were.
     """
     started = perf_counter()
     published = runs.publish_batch(batch, output, formats, display)
     if published is None:
         message("uictest: interrupted before the first case was finished; there is nothing to report")
         return None
-    append_summary(lambda: report.append_step_summary(published.content))
-    _show_published(published, junit, display)
-    if not display.quiet:
-        _sum_up(batch, published, perf_counter() - started)
-    return published
-
-
-def _show_published(published: runs.Published, junit: Path | None, display: Display) -> None:
-    """Write the file of `--junitxml`, if there is to be one, and show the rest of a run. Raises OSError."""
     content = published.content
+    append_summary(lambda: report.append_step_summary(content))
     if junit is not None:
         files.write_to(junit, report.junit_text(report.suites_of_run(content)))
     display.end(content, published.document)
     if published.index_problem:
         message(f"uictest: {published.index_problem}")
+    if not display.quiet:
+        _sum_up(batch, published, perf_counter() - started)
+    return published
 
 
 def _sum_up(batch: runs.Batch, published: runs.Published, seconds: float) -> None:
@@ -205,35 +200,3 @@ def _sum_up(batch: runs.Batch, published: runs.Published, seconds: float) -> Non
     for notice in report.domain_notices(content.all_results):
         message(f"uictest: {notice}")
     message(f"uictest: {ended}{content.tally}{not_run} in {seconds:.1f} s; reports in {published.place}")
-
-
-_FORMATS = ("html",)
-
-
-def judge_and_show(
-    batch: runs.Batch,
-    request: campaign.RecordingRequest,
-    output: Path,
-    junit: Path | None,
-    display: Display,
-) -> runs.Published:
-    """Judge recorded stops, publish the reports and show them. Raises OSError."""
-    content, recordings = runs.judge_recordings(batch)
-    wanted = request.among(recordings, content.all_results)
-    published = runs.publish_run(content, wanted, output, _FORMATS)
-    for result in published.content.results:
-        display.show(result)
-    for each in published.content.series:
-        display.series(each)
-    _show_published(published, junit, display)
-    return published
-
-
-def write_preparation(files: Sequence[runs.RecordedFile]) -> None:
-    """Write to stderr how each record was prepared, and its defects."""
-    for file in files:
-        if file.stop is not None:
-            choices = "; ".join(f"{name}: {text}" for name, text in file.stop.choices.items())
-            message(f"uictest: {file.path}: {choices}")
-        for defect in file.defects:
-            message(f"uictest: {file.path}: {defect}")

@@ -19,18 +19,18 @@ from .publishing import (
 )
 from .recorded import (
     CaseOfStop as CaseOfStop,
-    Conditions as Conditions,
     RecordedFile as RecordedFile,
+    RecordedStops as RecordedStops,
     case_of_stop as case_of_stop,
     each_file as each_file,
-    judge_recordings as judge_recordings,
     named_map as named_map,
-    read_files as read_files,
-    read_recorded_series as read_recorded_series,
     read_recording as read_recording,
     read_stop as read_stop,
     recorded_batch as recorded_batch,
+    require_nothing_stated as require_nothing_stated,
     stop_names as stop_names,
+    stops_in_recordings as stops_in_recordings,
+    stops_of_series as stops_of_series,
 )
 from .scenario_files import (
     DEFAULT_FOLDER as DEFAULT_FOLDER,

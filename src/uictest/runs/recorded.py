@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 from uictest import report
 from uictest.core import recording
@@ -16,8 +16,7 @@ from uictest.plans import scenario, series
 from uictest.plans.scenario import yaml
 from uictest.recorded import field_data
 from uictest.running import campaign
-from uictest.runs.batch import Batch, all_cases, run_batch
-from uictest.runs.observer import Observer
+from uictest.runs.batch import Batch, all_cases
 from uictest.runs.scenario_files import InvalidInputError, is_series, load_series
 
 CaseOfStop = Callable[[str, float], scenario.Case]
@@ -48,7 +47,7 @@ class RecordedFile:
     stop: field_data.RecordedStop | None
     defects: tuple[field_data.Defect, ...]
 
-    def case(self, case_of: CaseOfStop, inputs: dict[str, str]) -> scenario.Case:
+    def case(self, case_of: CaseOfStop, inputs: Mapping[str, str]) -> scenario.Case:
         """Return the case that this stop is judged as; `inputs` are the other files read for it."""
         speed = _UNKNOWN_SPEED if self.stop is None else float(self.stop.recording["speed"][0])
         case = case_of(self.name, speed)
@@ -139,28 +138,59 @@ def stop_names(paths: Sequence[Path]) -> list[str]:
     return names
 
 
-def read_recorded_series(
-    paths: Sequence[Path],
-    overrides: Sequence[str] | None,
-    trusted: Sequence[Path] | None,
-    stated: Iterable[object],
-    option: str,
-) -> tuple[list[series.Series], list[RecordedFile]]:
-    """Return series with one stop for each recording, and the recordings in the order of the stops.
+@dataclass(frozen=True, slots=True)
+class RecordedStops:
+    """Recorded stops to judge.
 
-    `stated` is what was said of recordings besides, and `option` what changes the files.
-    Raises InvalidInputError where a recording cannot be read, a stop names none, a path is none of a series,
-    or anything is stated that the file of a series says itself; and ScenarioErrors.
+    Args:
+        files: of the recordings, in the order of the cases and then of the stops of series.
+        cases: that stops are judged as.
+        series: with one stop for each recording.
+
+    """
+
+    files: Sequence[RecordedFile]
+    cases: Sequence[scenario.Case] = ()
+    series: Sequence[series.Series] = ()
+
+
+def stops_in_recordings(
+    paths: Sequence[Path],
+    channel_map: field_data.ChannelMap,
+    inputs: Mapping[str, str],
+    case_of: CaseOfStop,
+) -> RecordedStops:
+    """Return the stops in recordings; `inputs` are the files read for the channel map.
+
+    Raises InvalidInputError where a recording cannot be read, ScenarioErrors.
+    """
+    files = read_files(paths, channel_map)
+    return RecordedStops(files, [file.case(case_of, inputs) for file in files])
+
+
+def stops_of_series(
+    paths: Sequence[Path], overrides: Sequence[str] | None, trusted: Sequence[Path] | None
+) -> RecordedStops:
+    """Return the stops of series that name recordings.
+
+    Raises InvalidInputError where a recording cannot be read, a stop names none or a path is none of a
+    series; and ScenarioErrors.
     """
     if not all(map(is_series, paths)):
         raise InvalidInputError("name series files or recordings, not both")
+    read = [_recorded(each, trusted) for each in load_series(paths, overrides, None, trusted)]
+    return RecordedStops(
+        [file for _, files in read for file in files], series=[planned for planned, _ in read]
+    )
+
+
+def require_nothing_stated(stated: Iterable[object], option: str) -> None:
+    """Raise InvalidInputError if anything is stated of the recordings of series; `option` changes series."""
     if any(stated):
         raise InvalidInputError(
             "a series says itself which scenario and channel map each of its recordings has:"
             f" state it in the file, or with {option}"
         )
-    read = [_recorded(each, trusted) for each in load_series(paths, overrides, None, trusted)]
-    return [planned for planned, _ in read], [file for _, files in read for file in files]
 
 
 def _recorded(
@@ -206,14 +236,6 @@ def _require_distinct_stops(planned: series.Series, stops: Sequence[series.Plann
         seen.add(stop.case.id)
 
 
-class Conditions(NamedTuple):
-    """The map that recordings are read through, the files read for it, and the cases they are judged as."""
-
-    channel_map: field_data.ChannelMap
-    inputs: dict[str, str]
-    case_of: CaseOfStop
-
-
 def case_of_stop(
     case: scenario.Case | None,
     statements: Sequence[str],
@@ -235,54 +257,28 @@ def case_of_stop(
 
 
 def recorded_batch(
-    paths: Sequence[Path],
-    arguments: Sequence[str],
-    conditions: Callable[[], Conditions],
-    overrides: Sequence[str] | None,
-    trusted: Sequence[Path] | None,
-    *,
-    stated: Iterable[object],
-    option: str,
-    strict: bool,
-) -> tuple[Batch, list[RecordedFile]]:
-    """Return the batch of recorded stops, and the files that were read for it in the order of its cases.
+    stops: RecordedStops, arguments: Sequence[str], request: campaign.RecordingRequest, *, strict: bool
+) -> Batch:
+    """Return the batch that judges recorded stops.
 
-    `paths` are recordings, judged under `conditions`, or series, which say themselves what their stops are
-    judged under: see :func:`read_recorded_series`. `arguments` are those of the command line; `strict` as for
-    :class:`campaign.RunSettings`. Raises InvalidInputError, ScenarioErrors.
+    `arguments` are those of the command line; `request` and `strict` as for :class:`campaign.RunSettings`.
     """
-    planned: Sequence[series.Series] = ()
-    cases: Sequence[scenario.Case] = ()
-    if any(map(is_series, paths)):
-        planned, files = read_recorded_series(paths, overrides, trusted, stated, option)
-    else:
-        of_all = conditions()
-        files = read_files(paths, of_all.channel_map)
-        cases = [file.case(of_all.case_of, of_all.inputs) for file in files]
-    everything = all_cases(cases, planned)
-    stops = {case.id: file for file, case in zip(files, everything, strict=True)}
+    everything = all_cases(stops.cases, stops.series)
+    files = {case.id: file for file, case in zip(stops.files, everything, strict=True)}
     parts = campaign.parts_of_recorded(everything)
     inputs = {name: digest for case in everything for name, digest in case.inputs.items()}
 
     def judge(case: scenario.Case) -> campaign.CaseRun:
-        file = stops[case.id]
+        file = files[case.id]
         if file.stop is None:
             return campaign.CaseRun(field_data.unusable_result(case, file.defects))
         return campaign.CaseRun(*field_data.judge_recording(case, file.stop))
 
-    batch = Batch(
-        cases,
-        planned,
+    return Batch(
+        stops.cases,
+        stops.series,
         report.run_manifest(arguments, None, inputs, len(everything), parts.values()),
-        {case.id: field_data.recorded_description(case, stops[case.id].stop) for case in everything},
-        campaign.RunSettings(recording=campaign.RecordingRequest("all"), strict=strict, parts=parts),
+        {case.id: field_data.recorded_description(case, files[case.id].stop) for case in everything},
+        campaign.RunSettings(recording=request, strict=strict, parts=parts),
         judge=judge,
     )
-    return batch, files
-
-
-def judge_recordings(batch: Batch) -> tuple[report.RunContent, dict[str, recording.Recording]]:
-    """Judge every recorded stop; return what reports show, and the samples that each was judged by, by id."""
-    recordings: dict[str, recording.Recording] = {}
-    judged = run_batch(batch, Observer(), draws_stops=True, keep=recordings.__setitem__)
-    return judged.content, recordings

@@ -74,6 +74,25 @@ def test_a_missed_criterion_exits_1_and_keeps_the_samples(call, workplace):
     assert Path("reports/latest/recordings/locked.parquet").exists()
 
 
+def test_samples_of_no_stop_are_kept_where_none_are_asked_for(call, stop):
+    call("evaluate", stop, *STATED, "--record", "none", code=0)
+    assert not list(Path("reports/latest").glob("recordings/*"))
+
+
+def test_a_file_of_junitxml_that_cannot_be_written_is_refused_before_anything_is_judged(call, stop):
+    refused = call("evaluate", stop, *STATED, "--junitxml", "nowhere/deep/j.xml", code=4)
+    assert "there is no folder nowhere/deep" in refused.err
+    assert not Path("reports").exists()
+    call("evaluate", stop, *STATED, "--junitxml", "reports/j.xml", code=0)
+    assert 'name="stop-1"' in Path("reports/j.xml").read_text()
+
+
+def test_the_step_summary_has_recorded_stops_as_well(call, stop, monkeypatch):
+    monkeypatch.setenv("GITHUB_STEP_SUMMARY", "step.md")
+    call("evaluate", stop, *STATED, code=0)
+    assert "stop-1" in Path("step.md").read_text()
+
+
 @pytest.mark.parametrize("end", [8.0, 2.0, 0.02])
 def test_a_record_that_is_cut_off_is_inconclusive_and_exits_1(call, workplace, end):
     writer_of("csv")(rolling_train(end), workplace / "cut.csv")
@@ -81,9 +100,7 @@ def test_a_record_that_is_cut_off_is_inconclusive_and_exits_1(call, workplace, e
     assert answer.out.startswith("inconclusive cut outcome=inconclusive expect=pass")
     assert "standstill (requirement) inconclusive: no standstill; the record ends after" in answer.out
     assert "locked-wheels (requirement) inconclusive" in answer.out
-    assert answer.err.splitlines()[-1].startswith(
-        "uictest: 1 case: 1 inconclusive; 1 not as expected; reports in"
-    )
+    assert answer.err.splitlines()[-1].startswith("uictest: 1 case: 1 inconclusive; 1 not as expected in ")
 
 
 def test_a_record_without_wheel_speeds_is_inconclusive_and_an_unusable_one_an_error(call, workplace):

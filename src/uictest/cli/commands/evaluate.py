@@ -51,25 +51,24 @@ def evaluate(
     state them with --scenario, or with --set: rail.condition, brake.position, rig.wsp and criteria.
     """
     named = named_paths(*files, scenario, junit)
-    request = campaign.RecordingRequest(recorded.value)
-    display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
-    if listing and not any(map(runs.is_series, files)):
-        mapped, _ = recordings.channel_map(map_name, trusted, trigger)
-        return _list(files, mapped)
-
-    def conditions() -> runs.Conditions:
+    junit = options.junit_file(junit, output)
+    if any(map(runs.is_series, files)):
+        runs.require_nothing_stated((listing, scenario, expression, trigger), "--set")
+        stops = runs.stops_of_series(files, overrides, trusted)
+    else:
         mapped, inputs = recordings.channel_map(map_name, trusted, trigger)
-        return runs.Conditions(mapped, inputs, _case_of_stop(scenario, expression, overrides or (), trusted))
-
-    stated = (listing, scenario, expression, trigger)
-    arguments = context.obj.arguments
-    batch, stops = runs.recorded_batch(
-        files, arguments, conditions, overrides, trusted, stated=stated, option="--set", strict=strict
-    )
-    published = run_display.judge_and_show(batch, request, output, junit, display)
+        if listing:
+            return _list(files, mapped)
+        case_of = _case_of_stop(scenario, expression, overrides or (), trusted)
+        stops = runs.stops_in_recordings(files, mapped, inputs, case_of)
+    request = campaign.RecordingRequest(recorded.value)
+    batch = runs.recorded_batch(stops, context.obj.arguments, request, strict=strict)
     if not quiet:
-        run_display.write_preparation(stops)
-        message(f"uictest: {published.content.tally}; reports in {published.place}")
+        _write_preparation(stops.files)
+    display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
+    published = run_display.publish_and_show(batch, output, ("html",), junit, display)
+    if published is None:
+        return ExitCode.INTERRUPTED
     return keep_newest(of_run(published), keep, published.place, "evaluate", named)
 
 
@@ -89,6 +88,16 @@ def _case_of_stop(
         trusted,
         lambda keys: f"--scenario FILE, or with {' '.join(f'--set {key}=...' for key in keys)}",
     )
+
+
+def _write_preparation(files: Sequence[runs.RecordedFile]) -> None:
+    """Write to stderr how each record was prepared, and its defects."""
+    for file in files:
+        if file.stop is not None:
+            choices = "; ".join(f"{name}: {text}" for name, text in file.stop.choices.items())
+            message(f"uictest: {file.path}: {choices}")
+        for defect in file.defects:
+            message(f"uictest: {file.path}: {defect}")
 
 
 def _list(files: Sequence[Path], mapped: field_data.ChannelMap) -> ExitCode:
