@@ -3,10 +3,8 @@
 import ctypes
 import gc
 import os
-from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 # Two processes of tests have two processors: threads of numpy's BLAS would only wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -19,8 +17,7 @@ from uictest.controllers import CONTROLLERS
 from uictest.core import lanes
 from uictest.core.physics import FILL, VENT, fma
 from uictest.core.record import fields_of
-from uictest.core.recording.formats import Dialect, isolation, reader
-from uictest.plans import scenario
+from uictest.core.recording.formats import isolation, reader
 
 _LONGEST = (
     "rig/backends/test_lanes.py",
@@ -54,25 +51,25 @@ settings.register_profile("search", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+def pytest_collection_modifyitems(items):
     """Put the tests of the files that take longest first."""
     tests = Path(__file__).parent
     places = {tests / name: place for place, name in enumerate(_LONGEST)}
     items.sort(key=lambda item: places.get(item.path, len(places)))
 
 
-def pytest_collection_finish() -> None:
+def pytest_collection_finish():
     """Spare the collector of garbage what stays to the end: thousands of tests and all that is imported."""
     gc.freeze()
 
 
-FUSED: dict[Any, Any] = {fma: ctypes.CDLL(None if os.name == "posix" else "ucrtbase").fma}
+FUSED = {fma: ctypes.CDLL(None if os.name == "posix" else "ucrtbase").fma}
 """The C library's fused operation for ours, which plain Python works out in twenty operations."""
 FUSED[fma].argtypes = [ctypes.c_double] * 3
 FUSED[fma].restype = ctypes.c_double
 
 
-def quick(function: Callable[..., Any]) -> Any:
+def quick(function):
     """A function of physics or model in plain Python, with the same bits in a third of the time."""
     return lanes.translate(function, lambda copy: copy, dict(FUSED))
 
@@ -81,7 +78,7 @@ READ_IN_PROCESS = isolation._read_in_process
 """Reads a recording in a process of its own."""
 
 
-def _read_here(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> int:
+def _read_here(name, path, dialect, folder, seconds):
     """Read a recording as that process does, in this one; formats of libraries are read there."""
     if name not in ("csv", "parquet"):
         return READ_IN_PROCESS(name, path, dialect, folder, seconds)
@@ -89,7 +86,7 @@ def _read_here(name: str, path: Path, dialect: Dialect, folder: Path, seconds: f
 
 
 @pytest.fixture(autouse=True, scope="session")
-def _reading() -> Iterator[None]:
+def _reading():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(isolation, "_read_in_process", _read_here)
         yield
@@ -98,7 +95,7 @@ def _reading() -> Iterator[None]:
 class ControllerOutside:
     """The built-in controller of a case on records of its own, that only sees what a sensor shows."""
 
-    def __init__(self, case: scenario.Case) -> None:
+    def __init__(self, case):
         inputs = rig.assemble(case)
         names = inputs.parameters.dtype.names
         self.parameters = SimpleNamespace(**{name: inputs.parameters[name].tolist() for name in names})
@@ -108,7 +105,7 @@ class ControllerOutside:
         self.wheelsets = [SimpleNamespace(**dict.fromkeys(memory, 0.0)) for _ in range(4)]
         self.controller.begin(self.train, self.wheelsets, self.parameters.initial_speed)
 
-    def magnets(self, wheel_speeds: Sequence[float]) -> tuple[list[int], list[int]]:
+    def magnets(self, wheel_speeds):
         """Return the state of the holding and of the venting magnets for one cycle."""
         for wheelset, speed in zip(self.wheelsets, wheel_speeds, strict=True):
             wheelset.measured_speed, wheelset.speed_valid = speed, 1
@@ -117,12 +114,12 @@ class ControllerOutside:
         return [int(each != FILL) for each in commands], [int(each == VENT) for each in commands]
 
     @property
-    def reference_speed(self) -> float:
+    def reference_speed(self):
         """Its estimate of the train's speed, m/s."""
         return float(self.train.reference_speed)
 
 
 @pytest.fixture(name="controller_outside", scope="session")
-def _controller_outside() -> Callable[[scenario.Case], ControllerOutside]:
+def _controller_outside():
     """Put the controller of a case outside the rig."""
     return ControllerOutside

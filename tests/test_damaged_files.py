@@ -13,7 +13,7 @@ import json
 import re
 import shutil
 import zipfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
@@ -108,14 +108,14 @@ def _written_parquet(tree):
     return stream.getvalue()
 
 
-READ_FORM: Mapping[str, Callable[[bytes], Tree]] = {
+READ_FORM = {
     "yaml": _read_yaml,
     "json": json.loads,
     "csv": _read_csv,
     "xml": _read_xml,
     "parquet": _read_parquet,
 }
-WRITTEN_FORM: Mapping[str, Callable[[Tree], bytes]] = {
+WRITTEN_FORM = {
     "yaml": _written_json,
     "json": _written_json,
     "csv": _written_csv,
@@ -123,7 +123,7 @@ WRITTEN_FORM: Mapping[str, Callable[[Tree], bytes]] = {
     "parquet": _written_parquet,
 }
 
-VALUES: tuple[Tree, ...] = (
+VALUES = (
     *(None, True, False, 0, 1, -1, 2, 4, 5, 10**30, 0.1, -0.0, 1e-320, 1e308, float("nan"), float("inf")),
     *(
         "",

@@ -1,7 +1,5 @@
 """A release: one version, stated in one place and named alike wherever a user copies it from."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import subprocess
@@ -19,40 +17,40 @@ VERSION = uictest.__version__
 _NAMED = re.compile(r"(?:uictest@v|rev: v|uictest-)(\d+\.\d+\.\d+)")
 
 
-def read(name: str) -> str:
+def read(name):
     return (REPOSITORY / name).read_text("utf-8")
 
 
-def test_the_installed_version_is_that_of_the_sources() -> None:
+def test_the_installed_version_is_that_of_the_sources():
     assert metadata.version("uictest") == VERSION
 
 
-def test_the_changelog_and_the_known_errors_begin_with_it() -> None:
+def test_the_changelog_and_the_known_errors_begin_with_it():
     headings = re.findall(r"^## \[(\S+)\](?: - \d{4}-\d{2}-\d{2})?$", read("CHANGELOG.md"), re.MULTILINE)
     assert next(each for each in headings if each != "Unreleased") == VERSION
     assert re.findall(r"^## (\d\S*)$", read("docs/known-errors.md"), re.MULTILINE)[0] == VERSION
 
 
-def test_it_is_cited_with_its_date() -> None:
+def test_it_is_cited_with_its_date():
     citation = yaml.safe_load(read("CITATION.cff"))
     assert citation["version"] == VERSION
     assert f"## [{VERSION}] - {citation['date-released']}\n" in read("CHANGELOG.md")
 
 
 @pytest.mark.parametrize("name", ["docs/ci.md", "docs/trust.md", "examples/ci/github.yml", "scripts/sbom.py"])
-def test_what_users_copy_names_it(name: str) -> None:
+def test_what_users_copy_names_it(name):
     assert set(_NAMED.findall(read(name))) == {VERSION}
 
 
 @pytest.fixture(scope="session")
-def distributions(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def distributions(tmp_path_factory):
     """A folder with the sdist and the wheel that is built from it."""
     folder = tmp_path_factory.mktemp("dist")
     subprocess.run([sys.executable, "-m", "build", "--outdir", folder, REPOSITORY], check=True)
     return folder
 
 
-def interpreters() -> list[str]:
+def interpreters():
     """Return the Pythons of this machine that can run uictest."""
     named = (shutil.which(f"python3.{minor}") for minor in range(11, 16))
     # A shim of a version manager can be there without its version.
@@ -64,9 +62,7 @@ def interpreters() -> list[str]:
 @pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".whl", ".tar.gz"])
 @pytest.mark.parametrize("python", interpreters(), ids=lambda path: Path(path).name)
-def test_it_works_in_a_clean_environment(
-    distributions: Path, tmp_path: Path, python: str, suffix: str
-) -> None:
+def test_it_works_in_a_clean_environment(distributions, tmp_path, python, suffix):
     [package] = (each for each in distributions.iterdir() if each.name.endswith(suffix))
     subprocess.run([python, "-m", "venv", tmp_path / "env"], check=True)
     programs = tmp_path / "env" / "bin"

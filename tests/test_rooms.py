@@ -3,7 +3,6 @@
 import ast
 import re
 import sys
-from collections.abc import Callable, Iterator
 from functools import cache
 from graphlib import TopologicalSorter
 from importlib import import_module
@@ -19,7 +18,7 @@ LONGEST = 300
 """Lines that a file may have: beyond, it holds two ideas."""
 
 
-def module_name(path: Path) -> str:
+def module_name(path):
     parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
@@ -30,7 +29,7 @@ FACES = {
 }
 
 
-def room(module: str) -> str:
+def room(module):
     """Return the room or the module of the top level that a module belongs to."""
     return ".".join(module.split(".")[:2])
 
@@ -39,14 +38,14 @@ COMPOSED = ("analysis", "core", "judging", "plans", "recorded", "running")
 """Rooms without a face of their own: each of their parts has one."""
 
 
-def part(module: str) -> str:
+def part(module):
     """Return the room that a module belongs to, or its part where the room is composed."""
     words = module.split(".")
     return ".".join(words[: 3 if words[1:2] and words[1] in COMPOSED else 2])
 
 
 @cache
-def names_of_face(module: str) -> list[str]:
+def names_of_face(module):
     """Return the names that a face offers, none where a module is no face."""
     if module not in FACES:
         return []
@@ -55,12 +54,12 @@ def names_of_face(module: str) -> list[str]:
 
 
 @cache
-def imports(module: str) -> frozenset[str]:
+def imports(module):
     """Return the modules of the package that a module imports anywhere, for types alone included."""
     return frozenset(_imports(ast.parse(MODULES[module].read_text("utf-8"))))
 
 
-def _imports(tree: ast.Module) -> Iterator[str]:
+def _imports(tree):
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] == "uictest":
             for alias in node.names:
@@ -69,7 +68,7 @@ def _imports(tree: ast.Module) -> Iterator[str]:
                 yield name if name in MODULES and not of_a_face else str(node.module)
 
 
-def test_rooms_import_each_other_by_their_faces() -> None:
+def test_rooms_import_each_other_by_their_faces():
     past_the_face = [
         f"{module} imports {imported}"
         for module in MODULES
@@ -82,8 +81,8 @@ def test_rooms_import_each_other_by_their_faces() -> None:
 
 
 @pytest.mark.parametrize("unit", [room, part, str], ids=["rooms", "parts", "modules"])
-def test_imports_run_in_one_direction(unit: Callable[[str], str]) -> None:
-    graph: dict[str, set[str]] = {}
+def test_imports_run_in_one_direction(unit):
+    graph = {}
     for module in MODULES:
         needed = {unit(imported) for imported in imports(module)} - {unit(module), "uictest"}
         graph.setdefault(unit(module), set()).update(needed)
@@ -91,7 +90,7 @@ def test_imports_run_in_one_direction(unit: Callable[[str], str]) -> None:
     assert len(list(TopologicalSorter(graph).static_order())) > 1
 
 
-def listed_parts() -> Iterator[str]:
+def listed_parts():
     """Yield the rooms, and the parts of composed ones, in the order of the list for contributors."""
     above = ""
     for indent, names in re.findall(
@@ -107,7 +106,7 @@ def listed_parts() -> Iterator[str]:
                 yield f"uictest.{above}.{name}"
 
 
-def test_the_list_of_rooms_names_each_and_imports_run_down_it() -> None:
+def test_the_list_of_rooms_names_each_and_imports_run_down_it():
     listed = list(listed_parts())
     parts = {part(module) for module in MODULES} - {"uictest", *(f"uictest.{name}" for name in COMPOSED)}
     assert sorted(listed) == sorted(parts)
@@ -122,14 +121,14 @@ def test_the_list_of_rooms_names_each_and_imports_run_down_it() -> None:
 
 
 @pytest.mark.parametrize("face", FACES)
-def test_every_name_of_a_face_is_there(face: str) -> None:
+def test_every_name_of_a_face_is_there(face):
     names = names_of_face(face)
     module = import_module(face)
     assert sorted(module.__all__) == sorted(names)
     assert [name for name in names if not resolves(module, name)] == []
 
 
-def resolves(module: object, name: str) -> bool:
+def resolves(module, name):
     """Return whether a name of a face leads somewhere; one that needs an extra may lack the extra."""
     try:
         return hasattr(module, name)
@@ -137,12 +136,12 @@ def resolves(module: object, name: str) -> bool:
         return not str(error.name).startswith("uictest")
 
 
-def test_no_file_is_too_long() -> None:
+def test_no_file_is_too_long():
     lengths = {name: len(path.read_text("utf-8").splitlines()) for name, path in MODULES.items()}
     assert {name: length for name, length in lengths.items() if length > LONGEST} == {}
 
 
-def test_every_room_can_be_mutated_and_has_tests() -> None:
+def test_every_room_can_be_mutated_and_has_tests():
     """`scripts/mutate.py` finds the code of each room and what tests it."""
     script = spec_from_file_location("mutate", PACKAGE.parents[1] / "scripts/mutate.py")
     assert script is not None

@@ -1,14 +1,10 @@
 """`scripts/same_outputs.py`: what varies is replaced before outputs are compared, and nothing else is."""
 
-from __future__ import annotations
-
 import hashlib
 import importlib
 import os
 import zipfile
 from pathlib import Path
-from types import ModuleType
-from typing import Any
 
 import pytest
 import yaml
@@ -17,13 +13,13 @@ REPOSITORY = Path(__file__).parents[1]
 
 
 @pytest.fixture
-def contents(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+def contents(monkeypatch):
     monkeypatch.syspath_prepend(REPOSITORY / "scripts")
     return importlib.import_module("output_contents")
 
 
 @pytest.fixture
-def outputs(contents: ModuleType) -> ModuleType:
+def outputs(contents):
     return importlib.import_module("same_outputs")
 
 
@@ -43,7 +39,7 @@ def outputs(contents: ModuleType) -> ModuleType:
         (f"{REPOSITORY}/src/uictest", "<path>/src/uictest"),
     ],
 )
-def test_replaces_what_cannot_be_the_same_twice(contents: ModuleType, text: str, expected: str) -> None:
+def test_replaces_what_cannot_be_the_same_twice(contents, text, expected):
     assert contents.steady(text) == expected
 
 
@@ -59,19 +55,19 @@ def test_replaces_what_cannot_be_the_same_twice(contents: ModuleType, text: str,
         'fill="#d55e00" width="20261123"',
     ],
 )
-def test_replaces_nothing_else(contents: ModuleType, text: str) -> None:
+def test_replaces_nothing_else(contents, text):
     assert contents.steady(text) == text
 
 
-def test_a_digest_in_a_list_counts_as_right_or_wrong(contents: ModuleType, tmp_path: Path) -> None:
+def test_a_digest_in_a_list_counts_as_right_or_wrong(contents, tmp_path):
     (tmp_path / "a.csv").write_text("1\n")
     digest = hashlib.sha256(b"1\n").hexdigest()
     (tmp_path / "SHA256SUMS").write_text(f"# Files\n{digest}  a.csv\n{digest[::-1]}  a.csv\n")
     assert contents.content(tmp_path / "SHA256SUMS") == "# Files\nright  a.csv\nwrong  a.csv"
 
 
-def test_an_archive_is_compared_by_its_members(outputs: ModuleType, tmp_path: Path) -> None:
-    def archive(name: str, text: str, day: int) -> Path:
+def test_an_archive_is_compared_by_its_members(outputs, tmp_path):
+    def archive(name, text, day):
         with zipfile.ZipFile(tmp_path / name, "w") as file:
             file.writestr(zipfile.ZipInfo("a.txt", (2026, 1, day, 0, 0, 0)), text)
         return tmp_path / name
@@ -81,16 +77,14 @@ def test_an_archive_is_compared_by_its_members(outputs: ModuleType, tmp_path: Pa
     assert outputs.difference(first, archive("3.zip", "other", 1)) == [" member a.txt", "-same", "+other"]
 
 
-def test_a_difference_far_down_a_long_line_is_shown(outputs: ModuleType, tmp_path: Path) -> None:
+def test_a_difference_far_down_a_long_line_is_shown(outputs, tmp_path):
     one, other = tmp_path / "one.html", tmp_path / "other.html"
     one.write_text("x" * 3_000_000 + "<p>colour</p>")
     other.write_text("x" * 3_000_000 + "<p>color</p>")
     assert [line for line in outputs.difference(one, other) if "color" in line]
 
 
-def test_counts_what_differs_and_what_is_missing(
-    outputs: ModuleType, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_counts_what_differs_and_what_is_missing(outputs, tmp_path, capsys):
     for side, text in (("one", "12"), ("other", "13")):
         (tmp_path / side / "texts").mkdir(parents=True)
         (tmp_path / side / "texts/01").write_text(f"$ uictest\n{text}\n")
@@ -99,8 +93,8 @@ def test_counts_what_differs_and_what_is_missing(
     assert "group/texts/01 $ uictest\n $ uictest\n-12\n+13\n" in capsys.readouterr().out
 
 
-def test_every_group_of_commands_can_be_run(outputs: ModuleType) -> None:
-    groups: dict[str, Any] = yaml.safe_load(outputs.COMMANDS.read_text("utf-8"))
+def test_every_group_of_commands_can_be_run(outputs):
+    groups = yaml.safe_load(outputs.COMMANDS.read_text("utf-8"))
     for name, group in groups.items():
         assert group.keys() <= {"files", "commands", "compilers", "on_request"}, name
         assert group["commands"].splitlines(), name

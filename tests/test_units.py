@@ -12,11 +12,11 @@ from uictest.core.units import (
 )
 
 
-def test_one_normal_litre_of_air_weighs_1_185_g() -> None:
+def test_one_normal_litre_of_air_weighs_1_185_g():
     assert in_unit(normal_volume(1.185e-3), "NL") == pytest.approx(1.0)
 
 
-def test_a_bound_comes_back_as_it_was_written() -> None:
+def test_a_bound_comes_back_as_it_was_written():
     assert to_12_digits(in_unit(0.08 * 9.80665, "g")) == 0.08
     assert to_12_digits(in_unit(120 / 3.6, "km/h")) == 120.0
 
@@ -31,7 +31,7 @@ def test_a_bound_comes_back_as_it_was_written() -> None:
         (11.0, "1", "11"),
     ],
 )
-def test_values_are_printed_to_four_digits_with_their_unit(value: float, unit: str, shown: str) -> None:
+def test_values_are_printed_to_four_digits_with_their_unit(value, unit, shown):
     assert value_text(value, unit) == shown
 
 
@@ -39,11 +39,11 @@ def test_values_are_printed_to_four_digits_with_their_unit(value: float, unit: s
     ("unit", "si", "size"),
     [("km/h", "m/s", 1 / 3.6), ("KM/H", "m/s", 1 / 3.6), ("mbar", "Pa", 100.0), ("kNm", "N m", 1000.0)],
 )
-def test_a_recording_may_write_a_unit_as_people_do(unit: str, si: str, size: float) -> None:
+def test_a_recording_may_write_a_unit_as_people_do(unit, si, size):
     assert recorded_unit_size(unit, si) == pytest.approx(size)
 
 
-def test_degrees_celsius_have_their_own_zero() -> None:
+def test_degrees_celsius_have_their_own_zero():
     """What only multiplies, as the unit of a recorded channel does, cannot take them."""
     assert in_unit(373.15, "degC") == pytest.approx(100.0)
     assert in_unit(373.15, "K") == 373.15
@@ -51,22 +51,22 @@ def test_degrees_celsius_have_their_own_zero() -> None:
     assert recorded_unit_size("degC", "K") is None
 
 
-def test_a_unit_of_another_kind_or_an_ambiguous_one_has_no_size() -> None:
+def test_a_unit_of_another_kind_or_an_ambiguous_one_has_no_size():
     assert recorded_unit_size("bar", "m/s") is None
     assert recorded_unit_size("mPa", "Pa") is None
 
 
-def test_a_symbol_has_one_size_whatever_it_measures() -> None:
+def test_a_symbol_has_one_size_whatever_it_measures():
     for kind in KINDS.values():
         for unit in kind.units.values():
             assert unit.offset or SIZES[unit.symbol] == float(unit.factor)
 
 
-def test_a_unit_of_recordings_alone_is_no_unit_of_scenarios() -> None:
+def test_a_unit_of_recordings_alone_is_no_unit_of_scenarios():
     assert recorded_unit_size("mbar", "Pa") == 100.0
     assert "mbar" not in KINDS["pressure"].units
     assert "torque" not in KINDS
 
 
-def test_normal_litres_per_minute_are_of_the_density_of_iso_8778() -> None:
+def test_normal_litres_per_minute_are_of_the_density_of_iso_8778():
     assert float(KINDS["mass flow"].units["NL/min"].factor) == pytest.approx(REFERENCE_DENSITY / 60e3)

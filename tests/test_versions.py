@@ -1,7 +1,5 @@
 """The versions of packages that a release was tested with, and the ends of those that it allows."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys
@@ -19,7 +17,7 @@ CONSTRAINTS = Path(uictest.__file__).with_name("constraints.txt")
 _LINE = re.compile(r"([a-z0-9-]+)==([0-9][0-9a-z.+!]*)")
 
 
-def test_the_constraints_name_versions_and_nothing_else() -> None:
+def test_the_constraints_name_versions_and_nothing_else():
     """No path of a machine, no host of a registry."""
     lines = CONSTRAINTS.read_text("utf-8").splitlines()
     assert all(_LINE.fullmatch(line) for line in lines)
@@ -27,7 +25,7 @@ def test_the_constraints_name_versions_and_nothing_else() -> None:
     assert names == sorted(set(names))
 
 
-def test_the_constraints_hold_a_version_of_every_package_that_is_allowed() -> None:
+def test_the_constraints_hold_a_version_of_every_package_that_is_allowed():
     project = tomllib.loads((REPOSITORY / "pyproject.toml").read_text("utf-8"))["project"]
     extras = project["optional-dependencies"]
     of_use = [each for name in extras if name not in ("dev", "docs") for each in extras[name]]
@@ -48,7 +46,7 @@ def test_the_constraints_hold_a_version_of_every_package_that_is_allowed() -> No
         ),
     ],
 )
-def test_the_package_works_with_other_versions(versions: str) -> None:
+def test_the_package_works_with_other_versions(versions):
     """Downloads every package; takes some ten minutes."""
     command = [sys.executable, REPOSITORY / "scripts" / "try_versions.py", versions]
     assert subprocess.run(command, check=False).returncode == 0

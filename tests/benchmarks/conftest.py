@@ -1,5 +1,4 @@
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -8,7 +7,7 @@ BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
 @pytest.fixture(autouse=True)
-def benchmarks_on_path(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def benchmarks_on_path(monkeypatch):
     """The benchmarks are scripts beside each other; they are found as when one of them is run."""
     before = set(sys.modules)
     monkeypatch.syspath_prepend(str(BENCHMARKS))

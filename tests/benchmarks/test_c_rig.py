@@ -1,16 +1,14 @@
-from typing import Any
-
 import numpy as np
 import pytest
 
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
+from uictest.rig.single_stop import run_to_end
 
 FIVE_SECONDS = 500
 """Controller cycles of a stop that is cut short."""
 
 
-def c_stop() -> Any:
+def c_stop():
     from c_library import STRICT, CStop, NoCompilerError
 
     try:
@@ -19,7 +17,7 @@ def c_stop() -> Any:
         pytest.skip(str(reason))
 
 
-def short_stop(name: str) -> StopInputs:
+def short_stop(name):
     from stops import shipped
 
     stop = shipped()[name]
@@ -27,7 +25,7 @@ def short_stop(name: str) -> StopInputs:
     return stop
 
 
-def bits(outcome: FinishedStop) -> bytes:
+def bits(outcome):
     records = (outcome.measures, outcome.wheelset_measures, outcome.car, outcome.wheelsets)
     return b"".join(np.asarray(record).tobytes() for record in records)
 
@@ -35,12 +33,12 @@ def bits(outcome: FinishedStop) -> bytes:
 @pytest.mark.parametrize(
     "name", ["dry-120", "slide-80[compensation=none]", "slide-80-four-caliper", "low-adhesion-80"]
 )
-def test_c_rig_agrees_bit_for_bit(name: str) -> None:
+def test_c_rig_agrees_bit_for_bit(name):
     stop = short_stop(name)
     assert bits(run_to_end(c_stop(), stop)) == bits(run_to_end(compiled_stop(), stop))
 
 
-def test_c_rig_refuses_the_modelled_air_that_it_lacks() -> None:
+def test_c_rig_refuses_the_modelled_air_that_it_lacks():
     """It would compute something else and say nothing."""
     stop = short_stop("dry-120")
     stop.parameters.uses_module_air = 1.0
@@ -48,7 +46,7 @@ def test_c_rig_refuses_the_modelled_air_that_it_lacks() -> None:
         run_to_end(c_stop(), stop)
 
 
-def test_c_rig_runs_wheelsets_that_differ() -> None:
+def test_c_rig_runs_wheelsets_that_differ():
     """With the same bits: its formulae read the same fields."""
     stop = short_stop("low-adhesion-80")
     stop.wheelset_parameters["brake_force"] = 0.9, 1.0, 1.1, 1.2
@@ -57,14 +55,14 @@ def test_c_rig_runs_wheelsets_that_differ() -> None:
     assert bits(run_to_end(c_stop(), stop)) == bits(run_to_end(compiled_stop(), stop))
 
 
-def test_c_rig_refuses_the_pole_wheels_that_it_lacks() -> None:
+def test_c_rig_refuses_the_pole_wheels_that_it_lacks():
     stop = short_stop("dry-120")
     stop.parameters.uses_pole_wheels = 1.0
     with pytest.raises(ValueError, match="whole-teeth"):
         run_to_end(c_stop(), stop)
 
 
-def test_c_rig_refuses_a_rail_that_sliding_cleans() -> None:
+def test_c_rig_refuses_a_rail_that_sliding_cleans():
     stop = short_stop("dry-120")
     stop.parameters.cleans_rail = 1.0
     with pytest.raises(ValueError, match=r"rail\.cleaning"):
@@ -72,7 +70,7 @@ def test_c_rig_refuses_a_rail_that_sliding_cleans() -> None:
 
 
 @pytest.mark.parametrize("feature", ["varies_pad_friction", "models_disc_temperature"])
-def test_c_rig_refuses_pads_and_discs_that_it_lacks(feature: str) -> None:
+def test_c_rig_refuses_pads_and_discs_that_it_lacks(feature):
     """It would brake with constant pads and say nothing."""
     stop = short_stop("dry-120")
     stop.parameters[feature] = 1.0
@@ -80,7 +78,7 @@ def test_c_rig_refuses_pads_and_discs_that_it_lacks(feature: str) -> None:
         run_to_end(c_stop(), stop)
 
 
-def test_header_follows_the_records() -> None:
+def test_header_follows_the_records():
     from c_library import records_header
 
     from uictest.rig.model.parameters import PARAMETERS
@@ -91,7 +89,7 @@ def test_header_follows_the_records() -> None:
     assert "real speed_after_sliding[11];" in header
 
 
-def test_lanes_agree_with_the_scalar_c_rig() -> None:
+def test_lanes_agree_with_the_scalar_c_rig():
     """Lanes are built with -ffast-math, and the poles of the cylinder dynamics magnify what that rounds."""
     from c_library import CLanes
 
@@ -112,7 +110,7 @@ def test_lanes_agree_with_the_scalar_c_rig() -> None:
     )
 
 
-def test_strict_lanes_have_the_bits_of_ours() -> None:
+def test_strict_lanes_have_the_bits_of_ours():
     from c_library import CLanes
 
     from uictest.core.lanes import fuses, register_width

@@ -1,18 +1,12 @@
 """The benchmark of controllers from outside compares what is the same, and says what keeps its bound."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 
 from uictest.rig import run_in_process
 
 
-def test_the_python_twin_has_the_bits_of_the_built_in_controller(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    import controllers as benchmark  # type: ignore[import-not-found]
+def test_the_python_twin_has_the_bits_of_the_built_in_controller(tmp_path, monkeypatch):
+    import controllers as benchmark
 
     monkeypatch.chdir(tmp_path)
     with benchmark.python_class(tmp_path) as written:
@@ -34,8 +28,8 @@ def test_the_python_twin_has_the_bits_of_the_built_in_controller(
         ("rate_of_cases", 0.6, "0.50 of it", False),
     ],
 )
-def test_a_bound_is_met_or_missed(limit: str, bound: float, text: str, kept: bool) -> None:
-    from timing import Comparison  # type: ignore[import-not-found]
+def test_a_bound_is_met_or_missed(limit, bound, text, kept):
+    from timing import Comparison
 
     import controllers as benchmark
 

@@ -1,18 +1,9 @@
-from __future__ import annotations
+def test_each_row_is_printed_as_soon_as_its_sweep_has_run(monkeypatch, capsys):
+    import growth
 
-from typing import Any
+    printed = []
 
-import pytest
-
-
-def test_each_row_is_printed_as_soon_as_its_sweep_has_run(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    import growth  # type: ignore[import-not-found]
-
-    printed: list[int] = []
-
-    def timed_sweep(cases: int, jobs: int) -> Any:
+    def timed_sweep(cases, jobs):
         printed.append(len(capsys.readouterr().out.splitlines()))
         return growth.Run(cases, jobs, 10.0 / jobs, 10.0, 0.3)
 

@@ -1,55 +1,44 @@
-from __future__ import annotations
-
 import threading
 import time
-from collections.abc import Callable
-from typing import Any
 
 import pytest
 
 from uictest.judging.evaluation import CaseResult, error_result
 from uictest.running.campaign import (
-    BatchResult,
     CaseRun,
-    RecordingRequest,
     RunSettings,
     StopRun,
     batch,
     run_cases,
 )
 
-MakeCase = Callable[..., Any]
-Examine = Callable[[Any, RecordingRequest, Any], CaseRun]
 
-
-def _result(case: Any) -> CaseResult:
+def _result(case):
     outcome = "fail" if "fail" in case.scenario.tags else "pass"
-    return CaseResult(case.id, case.path.as_posix(), {}, case.scenario.expect, outcome)  # type: ignore[arg-type]
+    return CaseResult(case.id, case.path.as_posix(), {}, case.scenario.expect, outcome)
 
 
-def _ids(campaign: BatchResult) -> list[str]:
+def _ids(campaign):
     return [result.id for result in campaign.results]
 
 
 @pytest.fixture
-def examined_by(monkeypatch: pytest.MonkeyPatch) -> Callable[[Examine], None]:
+def examined_by(monkeypatch):
     return lambda examine: monkeypatch.setattr(
         batch, "run_stop", lambda stop, wish, run: StopRun(stop, examine(stop.case, wish, run))
     )
 
 
 @pytest.mark.parametrize("jobs", [1, 2, 7])
-def test_results_come_in_the_order_of_the_cases(
-    make_case: MakeCase, examined_by: Callable[[Examine], None], jobs: int
-) -> None:
+def test_results_come_in_the_order_of_the_cases(make_case, examined_by, jobs):
     cases = [make_case(f"case-{number}") for number in range(30)]
 
-    def uneven(case: Any, wish: RecordingRequest, run: object) -> CaseRun:
+    def uneven(case, wish, run):
         time.sleep(0.004 if case.id.endswith("0") else 0.0)
         return CaseRun(_result(case))
 
     examined_by(uneven)
-    seen: list[str] = []
+    seen = []
     campaign = run_cases(
         cases, RunSettings(jobs=jobs), on_result=lambda examined: seen.append(examined.result.id)
     )
@@ -58,33 +47,27 @@ def test_results_come_in_the_order_of_the_cases(
 
 
 @pytest.mark.parametrize("jobs", [1, 4])
-def test_what_maxfail_leaves_does_not_depend_on_the_number_of_threads(
-    make_case: MakeCase, examined_by: Callable[[Examine], None], jobs: int
-) -> None:
+def test_what_maxfail_leaves_does_not_depend_on_the_number_of_threads(make_case, examined_by, jobs):
     examined_by(lambda case, wish, run: CaseRun(_result(case)))
     cases = [make_case(str(number), *(["fail"] if number % 3 == 2 else [])) for number in range(20)]
     assert _ids(run_cases(cases, RunSettings(jobs=jobs, maxfail=2))) == ["0", "1", "2", "3", "4", "5"]
 
 
-def test_an_expected_failure_does_not_count(
-    make_case: MakeCase, examined_by: Callable[[Examine], None]
-) -> None:
+def test_an_expected_failure_does_not_count(make_case, examined_by):
     examined_by(lambda case, wish, run: CaseRun(_result(case)))
     cases = [make_case(str(number), "fail", expect="fail") for number in range(3)]
     assert len(run_cases(cases, RunSettings(maxfail=1)).results) == 3
 
 
-def test_an_interrupt_keeps_what_is_finished_and_waits_for_nothing(
-    make_case: MakeCase, examined_by: Callable[[Examine], None]
-) -> None:
+def test_an_interrupt_keeps_what_is_finished_and_waits_for_nothing(make_case, examined_by):
     released = threading.Event()
 
-    def examine(case: Any, wish: RecordingRequest, run: object) -> CaseRun:
+    def examine(case, wish, run):
         if case.id == "long":
             released.wait(60.0)
         return CaseRun(_result(case))
 
-    def interrupt(examined: CaseRun) -> None:
+    def interrupt(examined):
         if examined.result.id == "second":
             raise KeyboardInterrupt
 
@@ -98,8 +81,8 @@ def test_an_interrupt_keeps_what_is_finished_and_waits_for_nothing(
     assert _ids(campaign) == ["first", "second"]
 
 
-def test_an_error_of_the_caller_goes_on(make_case: MakeCase, examined_by: Callable[[Examine], None]) -> None:
-    def full(examined: CaseRun) -> None:
+def test_an_error_of_the_caller_goes_on(make_case, examined_by):
+    def full(examined):
         raise OSError("No space left on device")
 
     examined_by(lambda case, wish, run: CaseRun(_result(case)))
@@ -107,12 +90,10 @@ def test_an_error_of_the_caller_goes_on(make_case: MakeCase, examined_by: Callab
         run_cases([make_case("first"), make_case("second")], on_result=full)
 
 
-def test_few_cases_are_examined_ahead_of_the_one_awaited(
-    make_case: MakeCase, examined_by: Callable[[Examine], None]
-) -> None:
-    started: list[str] = []
+def test_few_cases_are_examined_ahead_of_the_one_awaited(make_case, examined_by):
+    started = []
 
-    def examine(case: Any, wish: RecordingRequest, run: object) -> CaseRun:
+    def examine(case, wish, run):
         started.append(case.id)
         return CaseRun(error_result(case, "made up"))
 

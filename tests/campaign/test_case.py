@@ -1,8 +1,4 @@
-from __future__ import annotations
-
-from collections.abc import Callable
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
@@ -12,17 +8,15 @@ from uictest.controllers import ControllerError
 from uictest.judging.evaluation import CaseResult
 from uictest.running.campaign import RecordingRequest, Stop, run_stop
 
-MakeCase = Callable[..., Any]
-
 
 class Rig:
     """Stands in for the rig and the judgement: remembers how it was asked to record."""
 
-    def __init__(self, outcome: str) -> None:
+    def __init__(self, outcome):
         self.outcome = outcome
-        self.asked: list[float | None] = []
+        self.asked = []
 
-    def simulate(self, case: Any, record_every: float | None, run: object) -> Any:
+    def simulate(self, case, record_every, run):
         self.asked.append(record_every)
         recording = None if record_every is None else f"every {record_every} s"
         made_up = {"measures": None, "wheelset_measures": None, "response_times": None}
@@ -34,15 +28,13 @@ class Rig:
             noise_key="00c0ffee",
         )
 
-    def evaluate(
-        self, case: Any, measures: Any, wheelsets: Any, duration: float, explain: bool, response_times: object
-    ) -> CaseResult:
-        return CaseResult(case.id, "a.yaml", {}, case.scenario.expect, self.outcome, duration=duration)  # type: ignore[arg-type]
+    def evaluate(self, case, measures, wheelsets, duration, explain, response_times):
+        return CaseResult(case.id, "a.yaml", {}, case.scenario.expect, self.outcome, duration=duration)
 
 
 @pytest.fixture
-def make_rig(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Rig]:
-    def make(outcome: str) -> Rig:
+def make_rig(monkeypatch):
+    def make(outcome):
         rig = Rig(outcome)
         monkeypatch.setattr(uictest.rig, "simulate", rig.simulate)
         monkeypatch.setattr(uictest.judging.evaluation, "evaluate_simulated", rig.evaluate)
@@ -61,13 +53,8 @@ def make_rig(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], Rig]:
     ],
 )
 def test_a_stop_is_simulated_again_only_for_the_recording_of_a_missed_case(
-    make_case: MakeCase,
-    make_rig: Callable[[str], Rig],
-    wish: RecordingRequest,
-    outcome: str,
-    asked: list[float | None],
-    recording: str | None,
-) -> None:
+    make_case, make_rig, wish, outcome, asked, recording
+):
     rig = make_rig(outcome)
     examined = run_stop(Stop(make_case("dry")), wish).case_run
     assert rig.asked == asked
@@ -76,9 +63,7 @@ def test_a_stop_is_simulated_again_only_for_the_recording_of_a_missed_case(
 
 
 @pytest.mark.parametrize(("outcome", "recording"), [("pass", None), ("fail", "every 0.02 s")])
-def test_a_stop_with_a_controller_from_outside_is_never_repeated(
-    make_case: MakeCase, make_rig: Callable[[str], Rig], outcome: str, recording: str | None
-) -> None:
+def test_a_stop_with_a_controller_from_outside_is_never_repeated(make_case, make_rig, outcome, recording):
     """It may answer differently another time, and the recording would be of another stop."""
     rig, case = make_rig(outcome), make_case("dry")
     case.scenario.controller.program = object()
@@ -86,21 +71,17 @@ def test_a_stop_with_a_controller_from_outside_is_never_repeated(
     assert (rig.asked, examined.recording) == ([0.02], recording)
 
 
-def test_a_result_says_which_controller_answered_in_which_stop(
-    make_case: MakeCase, make_rig: Callable[[str], Rig]
-) -> None:
+def test_a_result_says_which_controller_answered_in_which_stop(make_case, make_rig):
     make_rig("pass")
     result = run_stop(Stop(make_case("dry")), RecordingRequest("none")).case_run.result
     assert (result.controller_version, result.case_sha256) == ("wsp 1.2.0", "ab" * 32)
     assert result.noise_key == "00c0ffee"
 
 
-def test_a_stop_in_which_the_controller_failed_is_named_as_well(
-    make_case: MakeCase, make_rig: Callable[[str], Rig], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_stop_in_which_the_controller_failed_is_named_as_well(make_case, make_rig, monkeypatch):
     """A log of the controller has it, too, and is looked at first."""
 
-    def crash(case: Any, record_every: float | None, run: object) -> Any:
+    def crash(case, record_every, run):
         raise ControllerError("step failed: no memory (cycle 7)")
 
     make_rig("pass")
@@ -111,10 +92,8 @@ def test_a_stop_in_which_the_controller_failed_is_named_as_well(
     assert (result.controller_version, result.case_sha256) == ("", "ab" * 32)
 
 
-def test_a_crash_of_one_case_is_its_result(
-    make_case: MakeCase, make_rig: Callable[[str], Rig], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def crash(case: Any, record_every: float | None, run: object) -> Any:
+def test_a_crash_of_one_case_is_its_result(make_case, make_rig, monkeypatch):
+    def crash(case, record_every, run):
         raise ZeroDivisionError("no wheel load")
 
     make_rig("pass")

@@ -1,24 +1,20 @@
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
 
 from uictest.plans.scenario import load
-from uictest.report import CaseDescription, subjects_form
+from uictest.report import subjects_form
 from uictest.report.run_folder import read_subjects
 from uictest.running.campaign import descriptions_of
 
 _TEXT = "schema: uictest/scenario/1\nname: stop\ntitle: A stop\ntags: [a, b]\ninitial_speed: 80 km/h\n"
 
 
-def _subject(tmp_path: Path, text: str = "") -> CaseDescription:
+def _subject(tmp_path, text=""):
     path = tmp_path / "stop.yaml"
     path.write_text(_TEXT + text)
     return descriptions_of(load([path]))["stop"]
 
 
-def test_a_subject_is_in_the_users_words(tmp_path: Path) -> None:
+def test_a_subject_is_in_the_users_words(tmp_path):
     subject = _subject(tmp_path, "rail: {condition: wet, friction: 0.10}\n")
     assert (subject.title, subject.tags) == ("A stop", ("a", "b"))
     assert subject.settings["initial speed"] == "80 km/h"
@@ -37,7 +33,5 @@ def test_a_subject_is_in_the_users_words(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_friction_is_a_number_a_course_or_the_condition_s_own(
-    tmp_path: Path, friction: str, shown: str
-) -> None:
+def test_friction_is_a_number_a_course_or_the_condition_s_own(tmp_path, friction, shown):
     assert _subject(tmp_path, f"rail:\n  condition: dry\n{friction}").settings["rail"].startswith(shown)

@@ -9,7 +9,7 @@ import pytest
 from uictest import rig
 from uictest.judging.evaluation import json_form, result_document, to_json
 from uictest.plans import scenario
-from uictest.running.campaign import CaseRun, RecordingRequest, RunSettings, Stop, run_cases, run_stop
+from uictest.running.campaign import RecordingRequest, RunSettings, Stop, run_cases, run_stop
 
 STOP = """
 schema: uictest/scenario/1
@@ -172,7 +172,7 @@ def test_a_result_names_the_noise_that_its_stops_met(cases, fails_with):
 @pytest.mark.parametrize("rule", ["all", "median", "{at_least: 50 %}"])
 def test_an_error_with_one_seed_never_vanishes(cases, fails_with, rule):
     fails_with(2)
-    runs: list[CaseRun] = []
+    runs = []
     run_cases(
         cases(more=f"repeat: 4\noutcome_of_repeats: {rule}"),
         RunSettings(recording=NOTHING),
@@ -208,7 +208,7 @@ def test_an_interrupt_keeps_cases_all_of_whose_stops_are_finished(cases, monkeyp
 
 
 def test_stops_are_counted_as_they_finish(cases):
-    stops: list[None] = []
+    stops = []
     run_cases(cases(more="repeat: 3"), RunSettings(recording=NOTHING), on_stop=lambda: stops.append(None))
     assert len(stops) == 3
 

@@ -1,12 +1,9 @@
 """The parts for CI services: files of the repository, and the program on the path as a job finds it."""
 
-from __future__ import annotations
-
 import os
 import re
 import sysconfig
 from pathlib import Path
-from typing import Any
 
 import pytest
 import yaml
@@ -20,7 +17,7 @@ _INPUT = re.compile(r"\$\[\[ inputs\.(\w+) \]\]")
 
 
 @pytest.fixture
-def job(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def job(tmp_path, monkeypatch):
     """The working folder of a job: one scenario, the program on the path, and a pip that installs nothing."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "scenarios").mkdir()
@@ -35,7 +32,7 @@ def job(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def gitlab_component(**given: str) -> tuple[dict[str, Any], dict[str, Any]]:
+def gitlab_component(**given):
     """Return the inputs that the GitLab component declares, and its jobs with inputs filled in."""
     text = (REPOSITORY / "templates" / "uictest" / "template.yml").read_text("utf-8")
     header, _, body = text.partition("\n---\n")
@@ -44,18 +41,17 @@ def gitlab_component(**given: str) -> tuple[dict[str, Any], dict[str, Any]]:
     return inputs, yaml.safe_load(_INPUT.sub(lambda match: values[match[1]], body))
 
 
-def used_inputs() -> set[str]:
+def used_inputs():
     """Return the inputs that the jobs of the GitLab component use."""
     return set(_INPUT.findall((REPOSITORY / "templates" / "uictest" / "template.yml").read_text("utf-8")))
 
 
-def action() -> dict[str, Any]:
+def action():
     """Return the GitHub action."""
-    content: dict[str, Any] = yaml.safe_load((REPOSITORY / "action.yml").read_text("utf-8"))
-    return content
+    return yaml.safe_load((REPOSITORY / "action.yml").read_text("utf-8"))
 
 
-def blocks_of_page() -> dict[str, str]:
+def blocks_of_page():
     """Return the YAML files that docs/ci.md shows, by name."""
     page = (REPOSITORY / "docs" / "ci.md").read_text("utf-8")
     return dict(re.findall(r"^```yaml\n# (\S+)\n(.*?)^```$", page, re.MULTILINE | re.DOTALL))

@@ -1,10 +1,7 @@
 """The key of a CI cache changes with what compiled code depends on."""
 
-from __future__ import annotations
-
 import re
 import runpy
-from collections.abc import Callable
 from importlib import metadata
 from types import SimpleNamespace
 
@@ -15,19 +12,17 @@ from .conftest import REPOSITORY
 
 
 @pytest.fixture
-def key(capsys: pytest.CaptureFixture[str]) -> Callable[[], str]:
+def key(capsys):
     """Return what the action adds to its outputs."""
 
-    def printed() -> str:
+    def printed():
         runpy.run_path(str(REPOSITORY / "scripts" / "cache_key.py"), run_name="__main__")
         return capsys.readouterr().out
 
     return printed
 
 
-def test_the_key_names_version_files_and_processor(
-    key: Callable[[], str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_key_names_version_files_and_processor(key, monkeypatch):
     first = key()
     assert re.fullmatch(rf"key=uictest-{metadata.version('uictest')}-[0-9a-f]{{12}}-[0-9a-f]{{12}}\n", first)
     assert key() == first
@@ -37,7 +32,7 @@ def test_the_key_names_version_files_and_processor(
     assert other != first
     installed = metadata.distribution
 
-    def with_other_files(name: str) -> SimpleNamespace:
+    def with_other_files(name):
         return SimpleNamespace(version=installed(name).version, read_text=lambda file: "other files")
 
     monkeypatch.setattr(metadata, "distribution", with_other_files)

@@ -1,12 +1,9 @@
 """What the jobs run, run here by the shell that the service would start: arguments, exit codes, files."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import pytest
@@ -18,7 +15,7 @@ _SCENARIOS = {0: "", 1: "expect: fail\n", 4: "brake: {command: 200 %}\n"}
 _JENKINS_RUN = re.compile(r"script: '\.venv/bin/(uictest run [^']*)'")
 
 
-def bash(script: str, **environment: str) -> subprocess.CompletedProcess[str]:
+def bash(script, **environment):
     """Run a script as GitHub and GitLab do: it ends at the first command that fails."""
     command = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", script]
     return subprocess.run(
@@ -31,13 +28,13 @@ def bash(script: str, **environment: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-def run_step() -> dict[str, Any]:
+def run_step():
     [step] = [step for step in action()["runs"]["steps"] if step.get("id") == "run"]
     return dict(step)
 
 
 @pytest.mark.parametrize("code", _SCENARIOS)
-def test_the_github_action_hands_on_the_exit_code(job: Path, code: int) -> None:
+def test_the_github_action_hands_on_the_exit_code(job, code):
     (job / "scenarios/stop.yaml").write_text(SCENARIO.format(name="stop", text=_SCENARIOS[code]), "utf-8")
     inputs = {"SCENARIOS": "scenarios", "OPTIONS": "--maxfail 3 --record none", "OUTPUT": "out"}
     done = bash(run_step()["run"], GITHUB_OUTPUT=str(job / "outputs"), **inputs)
@@ -48,7 +45,7 @@ def test_the_github_action_hands_on_the_exit_code(job: Path, code: int) -> None:
 
 
 @pytest.mark.parametrize("folders", ["one two", "one\ntwo\n"], ids=["a line", "lines"])
-def test_the_github_action_runs_several_folders(job: Path, folders: str) -> None:
+def test_the_github_action_runs_several_folders(job, folders):
     (job / "scenarios").rename(job / "one")
     (job / "two").mkdir()
     (job / "two" / "again.yaml").write_text(SCENARIO.format(name="again", text=""), "utf-8")
@@ -57,13 +54,13 @@ def test_the_github_action_runs_several_folders(job: Path, folders: str) -> None
     assert "2 cases: 2 pass" in done.stderr
 
 
-def test_inputs_reach_the_shell_of_the_github_action_as_variables_only() -> None:
+def test_inputs_reach_the_shell_of_the_github_action_as_variables_only():
     steps = [step["run"] for step in action()["runs"]["steps"] if "run" in step]
     assert [step for step in steps if "${{" in step] == []
 
 
 @pytest.mark.parametrize("code", _SCENARIOS)
-def test_the_gitlab_component_ends_with_the_exit_code(job: Path, code: int) -> None:
+def test_the_gitlab_component_ends_with_the_exit_code(job, code):
     (job / "scenarios/stop.yaml").write_text(SCENARIO.format(name="stop", text=_SCENARIOS[code]), "utf-8")
     _, jobs = gitlab_component(version="0.2.0", options="--record none")
     done = bash("\n".join(jobs["brake-rig"]["script"]))
@@ -74,7 +71,7 @@ def test_the_gitlab_component_ends_with_the_exit_code(job: Path, code: int) -> N
         assert all(Path(path).is_dir() for path in kept["paths"])
 
 
-def test_the_jenkins_stage_runs_a_command_whose_codes_it_tells_apart(job: Path) -> None:
+def test_the_jenkins_stage_runs_a_command_whose_codes_it_tells_apart(job):
     text = (REPOSITORY / "examples" / "ci" / "Jenkinsfile").read_text("utf-8")
     [command] = _JENKINS_RUN.findall(text)
     assert bash(command).returncode == 0
@@ -85,7 +82,7 @@ def test_the_jenkins_stage_runs_a_command_whose_codes_it_tells_apart(job: Path) 
     assert unstable < text.index("unstable(") < failed < text.index("error(")
 
 
-def test_scripts_have_no_shell_defects() -> None:
+def test_scripts_have_no_shell_defects():
     _, jobs = gitlab_component(version="0.2.0")
     scripts = [step["run"] for step in action()["runs"]["steps"] if "run" in step]
     for script in [*scripts, "\n".join(jobs["brake-rig"]["script"])]:

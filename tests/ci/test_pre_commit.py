@@ -1,29 +1,24 @@
 """The pre-commit hook, run by pre-commit in a project of somebody else."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
 from .conftest import HANGING, REPOSITORY, SCENARIO
 
-Commit = Callable[[Path], None]
 _MADE_OF = ("src", "pyproject.toml", "README.md", "LICENSE")
 
 
-def git(folder: Path, *arguments: str) -> None:
+def git(folder, *arguments):
     identity = ["-c", "user.name=t", "-c", "user.email=t@example.org", "-c", "commit.gpgsign=false"]
     command = ["git", *identity, *arguments]
     subprocess.run(command, cwd=folder, check=True, capture_output=True)
 
 
-def commit_all(folder: Path) -> None:
+def commit_all(folder):
     """Make a folder a repository with one commit."""
     git(folder, "init", "-q")
     git(folder, "add", "--all")
@@ -31,7 +26,7 @@ def commit_all(folder: Path) -> None:
     git(folder, "tag", "v1")
 
 
-def hook(project: Path) -> subprocess.CompletedProcess[str]:
+def hook(project):
     """Run the hook as `git commit` would."""
     command = [sys.executable, "-m", "pre_commit", "run", "--color", "never"]
     environment = {**os.environ, "PRE_COMMIT_HOME": str(project.parent / "pre-commit")}
@@ -40,7 +35,7 @@ def hook(project: Path) -> subprocess.CompletedProcess[str]:
     )
 
 
-def project_with(folder: Path, hooks: Path, *, language: str) -> Path:
+def project_with(folder, hooks, *, language):
     """Return a project whose configuration names the hook in the repository `hooks`."""
     folder.mkdir()
     entry = f"{{id: uictest-check, language: {language}}}"
@@ -52,7 +47,7 @@ def project_with(folder: Path, hooks: Path, *, language: str) -> Path:
     return folder
 
 
-def check_hook(project: Path) -> None:
+def check_hook(project):
     """Add a broken scenario, then mend it, then change a file that is none."""
     scenario = project / "scenarios" / "new.yaml"
     scenario.write_text(SCENARIO.format(name="new", text="brake: {command: 200 %}\n"), "utf-8")
@@ -71,7 +66,7 @@ def check_hook(project: Path) -> None:
 
 
 @pytest.mark.usefixtures("job")
-def test_the_hook_checks_the_folder_of_scenarios(tmp_path: Path) -> None:
+def test_the_hook_checks_the_folder_of_scenarios(tmp_path):
     """With the program on the path: `language: system` makes no environment, so nothing is downloaded."""
     hooks = tmp_path / "hooks"
     hooks.mkdir()
@@ -81,13 +76,13 @@ def test_the_hook_checks_the_folder_of_scenarios(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_pre_commit_installs_what_the_hook_needs(tmp_path: Path) -> None:
+def test_pre_commit_installs_what_the_hook_needs(tmp_path):
     """Downloads the dependencies. The repository has no more files than the image is built of."""
     hooks = tmp_path / "hooks"
     hooks.mkdir()
     shutil.copy(REPOSITORY / ".pre-commit-hooks.yaml", hooks)
     for name in _MADE_OF:
         copy = shutil.copytree if (REPOSITORY / name).is_dir() else shutil.copy
-        copy(REPOSITORY / name, hooks / name)  # type: ignore[operator]
+        copy(REPOSITORY / name, hooks / name)
     commit_all(hooks)
     check_hook(project_with(tmp_path / "project", hooks, language="python"))

@@ -18,7 +18,7 @@ from uictest.cli.entry import execute
 from uictest.core.measures import STOP_COLUMNS
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, error_result
-from uictest.running.campaign import CaseRun, RecordingRequest, Stop, StopRun, batch
+from uictest.running.campaign import CaseRun, StopRun, batch
 
 STATED = tuple(
     f"--set={each}"
@@ -131,7 +131,7 @@ def program():
 @pytest.fixture
 def start():
     """Start the installed program in a process that answers Ctrl-C; it is killed at the end of the test."""
-    started: list[subprocess.Popen[str]] = []
+    started = []
 
     def run(*arguments, **options):
         # A shell that starts the tests in the background lets every process below it ignore SIGINT.
@@ -167,16 +167,16 @@ def two_worst_cases(monkeypatch):
 @pytest.fixture
 def made_up(monkeypatch):
     """Let stops come out as their tags say (`fail`, `invalid`, `error`, else `pass`); the ids as examined."""
-    examined: list[str] = []
+    examined = []
 
-    def examine(stop: Stop, wish: RecordingRequest, run: object) -> StopRun:
+    def examine(stop, wish, run):
         case = stop.case
         examined.append(case.id)
         if "error" in case.scenario.tags:
             return StopRun(stop, CaseRun(error_result(case, "ZeroDivisionError: no wheel load")))
         outcome = next((tag for tag in ("fail", "invalid") if tag in case.scenario.tags), "pass")
         given = (case.id, case.path.as_posix(), dict(case.parameters), case.scenario.expect)
-        result = CaseResult(*given, outcome, measures=FIGURES, reason="made up")  # type: ignore[arg-type]
+        result = CaseResult(*given, outcome, measures=FIGURES, reason="made up")
         return StopRun(stop, CaseRun(result))
 
     monkeypatch.setattr(batch, "run_stop", examine)

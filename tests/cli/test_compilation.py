@@ -13,7 +13,7 @@ from uictest.rig.backends import machine_code
 @pytest.fixture
 def clock(monkeypatch):
     """Seconds that the clock shows, one after the other."""
-    seconds: list[float] = []
+    seconds = []
     monkeypatch.setattr(progress, "monotonic", lambda: seconds.pop(0))
     return seconds
 

@@ -1,7 +1,5 @@
 """Scenarios that ship with the program, by name: as arguments, as parents, in series, as sweeps."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -11,28 +9,26 @@ import uictest
 from uictest.plans import library
 from uictest.plans.scenario import ScenarioErrors
 
-from .conftest import Call
-
 SHIPPED = Path(__file__).parents[2] / "scenarios"
 
 
-def test_every_shipped_file_has_a_name_of_its_own() -> None:
+def test_every_shipped_file_has_a_name_of_its_own():
     assert sorted(library.scenarios().values()) == sorted(SHIPPED.glob("*.yaml"))
 
 
-def test_a_name_stands_for_the_shipped_scenario_and_is_what_results_show(workplace: Path) -> None:
+def test_a_name_stands_for_the_shipped_scenario_and_is_what_results_show(workplace):
     (case,) = uictest.load("slip-120")
     assert case.id == "slip-120"
     assert case.path == Path("slip-120")
     assert next(iter(case.inputs)) == "slip-120"
 
 
-def test_a_file_of_that_name_comes_first(workplace: Path) -> None:
+def test_a_file_of_that_name_comes_first(workplace):
     (workplace / "slip-120").write_text("schema: uictest/scenario/1\nname: own\ninitial_speed: 50 km/h\n")
     assert [case.id for case in uictest.load("slip-120")] == ["own"]
 
 
-def test_a_scenario_may_extend_a_shipped_one(workplace: Path) -> None:
+def test_a_scenario_may_extend_a_shipped_one(workplace):
     (workplace / "own.yaml").write_text(
         "schema: uictest/scenario/1\nname: own\nextends: slip-120\nrail: {friction: 0.1}\n"
     )
@@ -42,7 +38,7 @@ def test_a_scenario_may_extend_a_shipped_one(workplace: Path) -> None:
     assert "slip-120" in case.inputs
 
 
-def test_a_sweep_and_its_parent_may_ship(workplace: Path, call: Call) -> None:
+def test_a_sweep_and_its_parent_may_ship(workplace, call):
     (workplace / "own.sweep.yaml").write_text(
         "schema: uictest/scenario/1\nname: own\nextends: slide-80\n"
         "vary: {matrix: {rig.compensation: [none, full]}}\n"
@@ -60,19 +56,19 @@ def test_a_sweep_and_its_parent_may_ship(workplace: Path, call: Call) -> None:
         ("nothing", "by name there are"),
     ],
 )
-def test_a_file_that_is_missing_says_what_ships(workplace: Path, name: str, hint: str) -> None:
+def test_a_file_that_is_missing_says_what_ships(workplace, name, hint):
     with pytest.raises(ScenarioErrors, match="no such file") as raised:
         uictest.load(name)
     assert hint in str(raised.value)
 
 
-def test_a_missing_file_of_another_name_gets_no_such_hint(workplace: Path) -> None:
+def test_a_missing_file_of_another_name_gets_no_such_hint(workplace):
     with pytest.raises(ScenarioErrors) as raised:
         uictest.load("own.yaml")
     assert "ship" not in str(raised.value)
 
 
-def test_copies_are_the_shipped_files_and_run(workplace: Path, call: Call) -> None:
+def test_copies_are_the_shipped_files_and_run(workplace, call):
     call("init", "--scenarios", code=0)
     copies = {each.name: each.read_bytes() for each in (workplace / "scenarios").iterdir()}
     assert copies == {each.name: each.read_bytes() for each in SHIPPED.glob("*.yaml")}
@@ -80,7 +76,7 @@ def test_copies_are_the_shipped_files_and_run(workplace: Path, call: Call) -> No
     call("init", "--scenarios", code=4, says="already there")
 
 
-def test_a_run_by_name_is_repeated_by_name(workplace: Path, call: Call) -> None:
+def test_a_run_by_name_is_repeated_by_name(workplace, call):
     call("run", "dry-120", "-q", code=0)
     folder = workplace / "reports" / "latest"
     assert json.loads((folder / "results.json").read_text("utf-8"))["cases"][0]["scenario"] == "dry-120"
@@ -88,6 +84,6 @@ def test_a_run_by_name_is_repeated_by_name(workplace: Path, call: Call) -> None:
     assert command[1:3] == ["run", "dry-120"]
 
 
-def test_check_counts_names_of_every_kind(call: Call) -> None:
+def test_check_counts_names_of_every_kind(call):
     says = "1 scenario with 1 case and 1 sweep and 1 series"
     call("check", "slip-120", "wsp-120", "slide-80-sensitivity", code=0, says=says)

@@ -1,7 +1,5 @@
 """The accepted values of criteria beside those of a run that is compared with them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from uictest.analysis.comparison import Baseline, Scope, Tolerances
@@ -15,7 +13,7 @@ from ..report.builders import make_content, make_recording, make_result, make_ve
 NOW = make_result(id="dry", criteria=(make_verdict(value=465.25), make_verdict(id="slide", unit="%")))
 
 
-def _compared(*accepted: object) -> RunContent:
+def _compared(*accepted):
     """A drawn case, compared with what was accepted of it."""
     kept = {"dry": replace(NOW, criteria=accepted)}
     baseline = Baseline(
@@ -31,7 +29,7 @@ def _compared(*accepted: object) -> RunContent:
     return replace(run, baseline=baseline.compare(run))
 
 
-def test_the_table_of_criteria_of_a_stop_has_the_accepted_values() -> None:
+def test_the_table_of_criteria_of_a_stop_has_the_accepted_values():
     content = _compared(make_verdict(value=460.5), make_verdict(id="slide", unit="%", value=None))
     assert content.baseline is not None
     assert content.baseline.values == {"dry": {"braking-distance": 460.5}}
@@ -40,11 +38,11 @@ def test_the_table_of_criteria_of_a_stop_has_the_accepted_values() -> None:
     assert read_baseline_comparison({"baseline": baseline_form(content.baseline)}) == content.baseline
 
 
-def test_a_value_in_another_unit_is_not_set_beside() -> None:
+def test_a_value_in_another_unit_is_not_set_beside():
     content = _compared(make_verdict(value=0.4605, unit="km"), make_verdict(id="slide", unit="%", value=7.0))
     assert content.baseline is not None
     assert content.baseline.values == {"dry": {"slide": 7.0}}
 
 
-def test_without_a_baseline_the_table_has_no_accepted_values() -> None:
+def test_without_a_baseline_the_table_has_no_accepted_values():
     assert "<small>baseline " not in page_html(replace(_compared(make_verdict()), baseline=None))

@@ -1,18 +1,16 @@
 """Braking distances of both sides as rows: order, places, what is left out."""
 
-from __future__ import annotations
-
 import pytest
 
 from uictest.analysis.comparison.dumbbells import MEASURE, MOST, dumbbells
 from uictest.report import Difference
 
 
-def _difference(case: str, first: float | str, second: float | str, quantity: str = MEASURE) -> Difference:
+def _difference(case, first, second, quantity=MEASURE):
     return Difference(case, quantity, first, second, within=False)
 
 
-def test_the_case_that_differs_most_stands_first_and_places_are_in_proportion() -> None:
+def test_the_case_that_differs_most_stands_first_and_places_are_in_proportion():
     drawn = dumbbells([_difference("a", 400.0, 410.0), _difference("b", 500.0, 460.0)])
     assert drawn is not None
     assert [name for _, name in drawn.plot.y_ticks] == ["b", "a"]
@@ -26,12 +24,12 @@ def test_the_case_that_differs_most_stands_first_and_places_are_in_proportion() 
     assert len(long.plot.y_ticks[0][1]) == 40
 
 
-def test_what_is_no_distance_of_both_sides_has_no_row() -> None:
+def test_what_is_no_distance_of_both_sides_has_no_row():
     other = _difference("a", 1.0, 2.0, quantity="braking_time_s")
     assert dumbbells([other, _difference("b", "missing", 400.0), _difference("c", float("nan"), 1.0)]) is None
 
 
-def test_of_many_cases_those_that_differ_most_are_drawn() -> None:
+def test_of_many_cases_those_that_differ_most_are_drawn():
     drawn = dumbbells([_difference(str(k), 400.0, 401.0 + k) for k in range(MOST + 5)])
     assert drawn is not None
     assert (len(drawn.plot.y_ticks), drawn.left_out) == (MOST, 5)

@@ -1,9 +1,6 @@
 """Controllers that miss one fact each: changes of the first controller that `uictest init` writes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
@@ -16,13 +13,13 @@ Examine = Callable[..., selftest.Examination]
 
 
 @pytest.fixture
-def examine(tmp_path: Path) -> Examine:
+def examine(tmp_path):
     """Examine the first controller in Python with one stretch of its text replaced by another.
 
     Its cycles take twice as long as those of the library, so that each drive has half as many.
     """
 
-    def changed(before: str = "", after: str = "", time_limit: str = "60 s") -> selftest.Examination:
+    def changed(before="", after="", time_limit="60 s"):
         files = templates.controller_files("python")
         assert before in files["my_wsp.py"]
         (tmp_path / "my_wsp.py").write_text(files["my_wsp.py"].replace(before, after, 1), "utf-8")

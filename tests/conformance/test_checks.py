@@ -1,10 +1,6 @@
 """Each check rejects the controller that breaks its fact, and the controllers that ship pass fair limits."""
 
-from __future__ import annotations
-
 import json
-from collections.abc import Callable
-from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -17,25 +13,24 @@ from uictest.selftest import conformance
 from uictest.selftest.conformance import checks
 from uictest.selftest.conformance.page import recording_of
 
-Examine = Callable[..., selftest.Examination]
 STEP = '        """Answer one controller cycle."""\n'
 RESULT = "            hold=[hold for hold, _ in states],\n            vent=[vent for _, vent in states],\n"
 
 
-def missed(examination: selftest.Examination) -> set[str]:
+def missed(examination):
     """The checks that failed; how fast this machine is does not count."""
     return {each.id for each in examination.findings if each.status in ("fail", "error")}
 
 
-def built_in(name: str) -> selftest.Examination:
+def built_in(name):
     return conformance.examine(conformance.subject_of(name, load_part(f"controllers/{name}")))
 
 
-def test_the_default_controller_conforms() -> None:
+def test_the_default_controller_conforms():
     assert missed(built_in("threshold")) == set()
 
 
-def test_what_a_controller_answered_where_it_misses_a_check_is_a_recording_of_valves() -> None:
+def test_what_a_controller_answered_where_it_misses_a_check_is_a_recording_of_valves():
     examined = conformance.examined(conformance.subject_of("slip-band", load_part("controllers/slip-band")))
     assert examined.missed.keys() == {"ends-vents", "lost-sensor"}
     locked = examined.missed["ends-vents"]["wheelset 2 locked"]
@@ -47,7 +42,7 @@ def test_what_a_controller_answered_where_it_misses_a_check_is_a_recording_of_va
     assert np.isnan(recording_of(locked)["valve_command_2"]).all()
 
 
-def test_the_simplest_controller_has_no_watchdog() -> None:
+def test_the_simplest_controller_has_no_watchdog():
     examination = built_in("slip-band")
     assert missed(examination) == {"ends-vents", "lost-sensor"}
     assert examination.status == "fail"
@@ -79,15 +74,13 @@ def test_the_simplest_controller_has_no_watchdog() -> None:
     ],
     ids=lambda value: value if isinstance(value, str) else "-".join(sorted(value)),
 )
-def test_a_controller_that_breaks_a_fact_is_found(
-    examine: Examine, before: str, after: str, expected: set[str]
-) -> None:
+def test_a_controller_that_breaks_a_fact_is_found(examine, before, after, expected):
     examination = examine(before, after)
     assert expected <= missed(examination)
     assert examination.status == "fail"
 
 
-def test_memory_that_controllers_share_is_found(examine: Examine) -> None:
+def test_memory_that_controllers_share_is_found(examine):
     """A second controller must not begin where the first one is."""
     examination = examine("        self.reference_speed = self.initial_speed\n", SHARED)
     [finding] = [each for each in examination.findings if each.id == "same-after-reset"]
@@ -103,7 +96,7 @@ SHARED = """\
 """
 
 
-def test_only_fields_of_answers_are_compared() -> None:
+def test_only_fields_of_answers_are_compared():
     """A controller in C that assigns the whole structure leaves anything behind them."""
     one, other = np.zeros((2, 5), OUTPUTS)
     other["padding"] = 7
@@ -112,7 +105,7 @@ def test_only_fields_of_answers_are_compared() -> None:
     assert checks._different(one, other) == 1
 
 
-def test_a_controller_without_a_reference_speed_is_not_judged_by_it(examine: Examine) -> None:
+def test_a_controller_without_a_reference_speed_is_not_judged_by_it(examine):
     examination = examine("            reference_speed=self.reference_speed,\n", "")
     [finding] = [each for each in examination.findings if each.id == "reference-speed"]
     assert (finding.status, finding.found) == ("skipped", None)
@@ -128,9 +121,7 @@ def test_a_controller_without_a_reference_speed_is_not_judged_by_it(examine: Exa
         ("return None", "step returned NoneType, expected Outputs"),
     ],
 )
-def test_a_controller_that_fails_is_an_error_with_the_cycle(
-    examine: Examine, fault: str, message: str
-) -> None:
+def test_a_controller_that_fails_is_an_error_with_the_cycle(examine, fault, message):
     """In one situation alone: the checks that do not need it are decided all the same."""
     sudden = f"{STEP}        if max(inputs.wheel_speed) > 69.0: {fault}\n"
     examination = examine(STEP, sudden, time_limit="500 ms" if "sleep" in fault else "60 s")
@@ -141,17 +132,17 @@ def test_a_controller_that_fails_is_an_error_with_the_cycle(
     assert by_id["keeps-brake"].status == "pass"
 
 
-def test_a_controller_that_cannot_be_created_is_an_error(examine: Examine) -> None:
+def test_a_controller_that_cannot_be_created_is_an_error(examine):
     examination = examine('parameters["pause"]', 'parameters["paus"]')
     assert {each.status for each in examination.findings} == {"error"}
     assert "KeyError: 'paus'" in examination.findings[0].reason
 
 
-def test_the_report_has_every_check_in_each_form(examine: Examine) -> None:
+def test_the_report_has_every_check_in_each_form(examine):
     examination = examine("slide < self.upper_slide", "slide < 2.0")
     table = list(report.document_lines(selftest.finding_document(examination), None))
     assert table[-2].startswith("fail vents-sliding: ")
-    document: dict[str, Any] = json.loads(selftest.findings_json(examination))
+    document = json.loads(selftest.findings_json(examination))
     assert [each["id"] for each in document["checks"]] == [each.id for each in conformance.CHECKS]
     assert document["about"]["controller.version"] == "0.1.0"
     suite = ElementTree.fromstring(report.junit_text([selftest.findings_suite(examination)]))[0]

@@ -1,10 +1,7 @@
 """What each check reads from answers that are written down: no controller, only what one might answer."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from types import SimpleNamespace
-from typing import Any, cast
+from typing import cast
 
 import numpy as np
 import pytest
@@ -14,48 +11,45 @@ from uictest.rig import Driven
 from uictest.selftest import conformance
 from uictest.selftest.conformance import situations
 from uictest.selftest.conformance.bench import Answers, Bench
-from uictest.selftest.conformance.checks import Observation
-from uictest.selftest.conformance.situations import ROLLS_AGAIN, SLIDE_BEGINS, Situation
+from uictest.selftest.conformance.situations import ROLLS_AGAIN, SLIDE_BEGINS
 
 CYCLE = 0.05
 NEVER = float("inf")
-Write = Callable[[Any, np.ndarray], object]
-"""Writes commands into the answers to a situation, whose times are given."""
 
 
-def nothing(outputs: Any, time: np.ndarray) -> None:
+def nothing(outputs, time):
     """Fill, always: no magnet is energised."""
 
 
-def vents(wheelset: int, begin: float, end: float) -> Write:
+def vents(wheelset, begin, end):
     """Vent one wheelset from one time to another."""
 
-    def write(outputs: Any, time: np.ndarray) -> None:
+    def write(outputs, time):
         for magnet in ("hold", "vent"):
             outputs[magnet][(time > begin - 1e-6) & (time < end - 1e-6), wheelset] = 1
 
     return write
 
 
-def observed(check_id: str, write: Write, only: str = "", wheelset: int = 0) -> Observation:
+def observed(check_id, write, only="", wheelset=0):
     """Observe answers that are `write` in one situation, for one wheelset, and to fill in all others."""
 
-    def answers(kind: str, situation: Situation, which: int = 0) -> Answers:
+    def answers(kind, situation, which=0):
         outputs = np.zeros(len(situation.time), OUTPUTS)
         outputs["reference_speed"] = situation.train_speed
         (write if (kind, which) == (only, wheelset) else nothing)(outputs, situation.time)
         return Answers(situation, (Driven(outputs, np.full(len(outputs), 0.2 * CYCLE)),))
 
-    def one_slides(which: int) -> Answers:
+    def one_slides(which):
         return answers("slides", situations.one_slides(CYCLE, which), which)
 
-    def good_rail() -> Answers:
+    def good_rail():
         return answers("rolls", situations.good_rail(CYCLE))
 
-    def locked(*which: int) -> Answers:
+    def locked(*which):
         return answers("locked", situations.locked(CYCLE, which), which[0] if len(which) == 1 else -1)
 
-    def sensor_lost(which: int) -> Answers:
+    def sensor_lost(which):
         return answers("lost", situations.sensor_lost(CYCLE, which), which)
 
     bench = SimpleNamespace(
@@ -74,17 +68,17 @@ def observed(check_id: str, write: Write, only: str = "", wheelset: int = 0) -> 
     ("hold", "vent", "illegal"),
     [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 1), (2, 0, 1), (-1, 0, 1), (2, 2, 1), (1, -1, 1)],
 )
-def test_a_valve_has_three_commands(hold: int, vent: int, illegal: int) -> None:
+def test_a_valve_has_three_commands(hold, vent, illegal):
     """Fill, hold and vent; each other pair counts once."""
 
-    def write(outputs: Any, time: np.ndarray) -> None:
+    def write(outputs, time):
         outputs["hold"][7, 2], outputs["vent"][7, 2] = hold, vent
 
     assert observed("legal-commands", write, "rolls").value == illegal
 
 
-def test_cycles_in_which_any_wheelset_is_held_on_a_good_rail_are_counted() -> None:
-    def write(outputs: Any, time: np.ndarray) -> None:
+def test_cycles_in_which_any_wheelset_is_held_on_a_good_rail_are_counted():
+    def write(outputs, time):
         outputs["hold"][20:23, 1] = 1
         outputs["hold"][22:24, 3] = 1
 
@@ -93,7 +87,7 @@ def test_cycles_in_which_any_wheelset_is_held_on_a_good_rail_are_counted() -> No
     assert found.words.endswith("; first at 1.00 s")
 
 
-def vents_all_at_once(outputs: Any, time: np.ndarray) -> None:
+def vents_all_at_once(outputs, time):
     """Vent every wheelset a second after one begins to slide."""
     for wheelset in range(4):
         vents(wheelset, SLIDE_BEGINS + 1.0, SLIDE_BEGINS + 1.5)(outputs, time)
@@ -109,7 +103,7 @@ def vents_all_at_once(outputs: Any, time: np.ndarray) -> None:
         (ROLLS_AGAIN, 8.0, NEVER),
     ],
 )
-def test_a_slide_is_answered_by_the_first_vent_while_it_lasts(begin: float, end: float, value: float) -> None:
+def test_a_slide_is_answered_by_the_first_vent_while_it_lasts(begin, end, value):
     """Wheelset 3 is asked alone: the others never vent, which is longer than any time."""
     found = observed("vents-sliding", vents(2, begin, end), "slides", 2)
     third = "never" if value == NEVER else f"{value:.2f} s"
@@ -117,12 +111,12 @@ def test_a_slide_is_answered_by_the_first_vent_while_it_lasts(begin: float, end:
     assert found.value == NEVER
 
 
-def test_wheelsets_that_are_vented_beside_the_one_that_slides_are_counted_by_cycles() -> None:
+def test_wheelsets_that_are_vented_beside_the_one_that_slides_are_counted_by_cycles():
     assert observed("spares-rolling", vents_all_at_once, "slides", 1).value == 10
     assert observed("spares-rolling", vents(1, 3.0, 3.5), "slides", 1).value == 0
 
 
-def test_the_brake_is_given_back_with_the_last_command_after_the_wheelset_rolls() -> None:
+def test_the_brake_is_given_back_with_the_last_command_after_the_wheelset_rolls():
     """It rolls at the train's speed again some 1.6 s after its slide ends."""
     situation = situations.one_slides(CYCLE, 0)
     speed, time = situation.inputs["wheel_speed"][:, 0], situation.time
@@ -137,8 +131,8 @@ def test_the_brake_is_given_back_with_the_last_command_after_the_wheelset_rolls(
 
 
 @pytest.mark.parametrize(("check_id", "situation"), [("ends-vents", "locked"), ("lost-sensor", "lost")])
-def test_the_longest_vent_without_a_pause_counts(check_id: str, situation: str) -> None:
-    def write(outputs: Any, time: np.ndarray) -> None:
+def test_the_longest_vent_without_a_pause_counts(check_id, situation):
+    def write(outputs, time):
         vents(1, 2.0, 5.0)(outputs, time)
         vents(1, 6.0, 8.0)(outputs, time)
         vents(2, 8.0, 9.0)(outputs, time)
@@ -146,22 +140,22 @@ def test_the_longest_vent_without_a_pause_counts(check_id: str, situation: str) 
     assert observed(check_id, write, situation, 3).value == pytest.approx(3.0)
 
 
-def test_vents_of_a_train_that_is_locked_altogether_count_as_well() -> None:
+def test_vents_of_a_train_that_is_locked_altogether_count_as_well():
     found = observed("ends-vents", vents(1, 2.0, 5.0), "locked", -1)
     assert found.value == pytest.approx(3.0)
     assert found.words.endswith("all together: 3.00 s")
 
 
 @pytest.mark.parametrize("error", [-2.5, 2.5])
-def test_the_largest_error_of_the_reference_speed_counts_where_there_is_one(error: float) -> None:
-    def write(outputs: Any, time: np.ndarray) -> None:
+def test_the_largest_error_of_the_reference_speed_counts_where_there_is_one(error):
+    def write(outputs, time):
         outputs["reference_speed"][30] += error
         outputs["reference_speed"][40] = np.nan
 
     assert observed("reference-speed", write, "slides", 3).value == pytest.approx(2.5)
 
 
-def test_the_time_of_an_answer_is_a_share_of_the_cycle() -> None:
+def test_the_time_of_an_answer_is_a_share_of_the_cycle():
     found = observed("in-time", nothing)
     assert found.value == pytest.approx(20.0)
     assert "answers within 10.0 ms, the longest 10.0 ms" in found.words

@@ -1,19 +1,17 @@
 """Records that hold what the contract lets a controller see, and nothing else."""
 
-from collections.abc import Callable
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
-from uictest.controllers import CONTROLLERS, Controller
+from uictest.controllers import CONTROLLERS
 from uictest.core.record import fields_of
 from uictest.plans.scenario import load_part
 
 CYCLE = 0.01
 
 
-def _record(*fields: str) -> Any:
+def _record(*fields):
     """An object with these fields alone: reading or writing any other is an AttributeError."""
     return type("Record", (), {"__slots__": fields})()
 
@@ -21,18 +19,18 @@ def _record(*fields: str) -> Any:
 class Bench:
     """A controller with its memory and four speed sensors."""
 
-    def __init__(self, controller: Controller, parameters: Any, speed: float) -> None:
+    def __init__(self, controller, parameters, speed):
         self.controller = controller
         self.parameters = parameters
         self.train = _record(*fields_of(controller.train_memory))
         self.wheelsets = [_record(*fields_of(controller.wheelset_memory)) for _ in range(4)]
         controller.begin(self.train, self.wheelsets, speed)
 
-    def commands(self, *speeds: float) -> list[int]:
+    def commands(self, *speeds):
         """Commands of one cycle in which the sensors read these speeds, m/s."""
         return self.commands_of(*speeds, valid=(1, 1, 1, 1))
 
-    def commands_of(self, *speeds: float, valid: tuple[int, ...]) -> list[int]:
+    def commands_of(self, *speeds, valid):
         """Commands of one cycle in which some sensors may report a fault."""
         for wheelset, speed, sound in zip(self.wheelsets, speeds, valid, strict=True):
             wheelset.measured_speed, wheelset.speed_valid = speed, sound
@@ -40,16 +38,16 @@ class Bench:
         return [wheelset.valve_command for wheelset in self.wheelsets]
 
     @property
-    def reference(self) -> float:
+    def reference(self):
         """The controller's estimate of the train's speed, m/s."""
         return float(self.train.reference_speed)
 
 
-def _shipped(name: str) -> dict[str, Any]:
+def _shipped(name):
     return {key: float(value) for key, value in load_part(f"controllers/{name}") if isinstance(value, float)}
 
 
-def _threshold(speed: float, **changes: float) -> Bench:
+def _threshold(speed, **changes):
     """With speeds that jump or stand still, as no wheelset's do: any of them is plausible unless changed."""
     any_speed = {"largest_acceleration": 1e4, "jump_tolerance": 100.0, "stuck_time": 60.0}
     fixed = {"cycle_time": CYCLE, "reference_deceleration": 1.8, **any_speed}
@@ -58,7 +56,7 @@ def _threshold(speed: float, **changes: float) -> Bench:
     )
 
 
-def _slip_band(speed: float) -> Bench:
+def _slip_band(speed):
     parameters = SimpleNamespace(
         cycle_time=CYCLE,
         lower_slide=0.08,
@@ -70,13 +68,13 @@ def _slip_band(speed: float) -> Bench:
 
 
 @pytest.fixture(name="threshold_bench", scope="session")
-def _threshold_bench() -> Callable[..., Bench]:
+def _threshold_bench():
     """Build a bench with the threshold controller at a speed in m/s and changed parameters."""
     return _threshold
 
 
 @pytest.fixture(name="slip_band_bench", scope="session")
-def _slip_band_bench() -> Callable[..., Bench]:
+def _slip_band_bench():
     """Build a bench with the slip-band controller at a speed in m/s."""
     return _slip_band
 
@@ -84,6 +82,6 @@ def _slip_band_bench() -> Callable[..., Bench]:
 @pytest.fixture(
     name="bench", params=[_threshold, _slip_band], ids=["threshold", "slip-band"], scope="session"
 )
-def _bench(request: pytest.FixtureRequest) -> Any:
+def _bench(request):
     """Build a bench with either controller."""
     return request.param

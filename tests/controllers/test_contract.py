@@ -1,8 +1,5 @@
 """What every controller keeps: the benches hold nothing that a controller must not see."""
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
@@ -13,29 +10,26 @@ from uictest.core.record import fields_of, layout_of
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.state import CAR, WHEELSET, Car
 
-Benches = Callable[..., Any]
 CYCLE = 0.01
 speeds = st.lists(st.lists(st.floats(0.0, 60.0), min_size=4, max_size=4), min_size=1, max_size=40)
 
 
 @given(history=speeds)
-def test_any_speeds_give_each_wheelset_a_command(bench: Benches, history: list[list[float]]) -> None:
+def test_any_speeds_give_each_wheelset_a_command(bench, history):
     controller = bench(30.0)
     for measured in history:
         assert all(command in (FILL, HOLD, VENT) for command in controller.commands(*measured))
 
 
 @given(history=speeds)
-def test_the_same_speeds_give_the_same_commands(bench: Benches, history: list[list[float]]) -> None:
+def test_the_same_speeds_give_the_same_commands(bench, history):
     """All memory is set at the start: nothing of an earlier stop is left."""
     one, other = bench(30.0), bench(30.0)
     assert [one.commands(*s) for s in history] == [other.commands(*s) for s in history]
 
 
 @given(history=speeds)
-def test_reference_speed_is_never_below_every_wheelset_and_falls_slowly(
-    bench: Benches, history: list[list[float]]
-) -> None:
+def test_reference_speed_is_never_below_every_wheelset_and_falls_slowly(bench, history):
     """At most at the deceleration of a train, unless a wheelset was released to show the speed."""
     controller = bench(30.0)
     fall = 1.8 * CYCLE
@@ -46,7 +40,7 @@ def test_reference_speed_is_never_below_every_wheelset_and_falls_slowly(
         assert controller.reference >= min(before, before - fall) - 1e-9
 
 
-def test_a_train_that_brakes_on_a_good_rail_keeps_its_brake_force(bench: Benches) -> None:
+def test_a_train_that_brakes_on_a_good_rail_keeps_its_brake_force(bench):
     controller = bench(33.0)
     noise = np.random.default_rng(1).normal(0.0, 5e-4, (2800, 4))
     for k in range(2800):
@@ -54,7 +48,7 @@ def test_a_train_that_brakes_on_a_good_rail_keeps_its_brake_force(bench: Benches
         assert controller.commands(*np.maximum(rolling, 0.0).tolist()) == [FILL] * 4
 
 
-def test_a_wheelset_that_slides_is_vented_and_the_others_are_not(bench: Benches) -> None:
+def test_a_wheelset_that_slides_is_vented_and_the_others_are_not(bench):
     controller = bench(20.0)
     commands = []
     for k in range(150):
@@ -65,7 +59,7 @@ def test_a_wheelset_that_slides_is_vented_and_the_others_are_not(bench: Benches)
     assert np.all(np.array(commands)[:, [0, 2, 3]] == FILL)
 
 
-def test_a_wheelset_that_rolls_again_gets_its_brake_back(bench: Benches) -> None:
+def test_a_wheelset_that_rolls_again_gets_its_brake_back(bench):
     controller = bench(20.0)
     for k in range(100):
         controller.commands(20.0, max(20.0 - 8.0 * k * CYCLE, 0.0), 20.0, 20.0)
@@ -74,25 +68,25 @@ def test_a_wheelset_that_rolls_again_gets_its_brake_back(bench: Benches) -> None
     assert commands == [FILL] * 4
 
 
-def test_below_a_walking_pace_the_brake_is_left_alone(bench: Benches) -> None:
+def test_below_a_walking_pace_the_brake_is_left_alone(bench):
     """Locked wheels at a standstill must hold the train."""
     controller = bench(1.0)
     for _ in range(10):
         assert controller.commands(1.0, 0.0, 0.0, 1.0) == [FILL] * 4
 
 
-def test_reference_speed_is_recorded_from_the_memory_that_every_controller_has() -> None:
+def test_reference_speed_is_recorded_from_the_memory_that_every_controller_has():
     assert all(issubclass(controller.train_memory, TrainMemory) for controller in CONTROLLERS.values())
 
 
-def test_fields_of_every_controller_are_in_the_records() -> None:
+def test_fields_of_every_controller_are_in_the_records():
     for controller in CONTROLLERS.values():
         assert fields_of(controller.train_memory).keys() <= set(CAR.names)
         assert fields_of(controller.wheelset_memory).keys() <= set(WHEELSET.names)
         assert fields_of(controller.parameters).keys() <= set(PARAMETERS.names)
 
 
-def test_a_controller_cannot_take_a_field_of_the_rig() -> None:
+def test_a_controller_cannot_take_a_field_of_the_rig():
     """It would write over what the rig steps, or read what no sensor shows."""
 
     class Greedy(TrainMemory):

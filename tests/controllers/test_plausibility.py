@@ -1,15 +1,12 @@
 """Which readings the threshold controller believes, and what becomes of a wheelset without a speed."""
 
-from collections.abc import Callable, Iterator
 from itertools import groupby
-from typing import Any
 
 import pytest
 
 from uictest.core.physics import FILL, VENT
 from uictest.plans.scenario import load_part
 
-Benches = Callable[..., Any]
 CYCLE = 0.01
 NAMES = ("largest_acceleration", "jump_tolerance", "distrust_time", "stuck_time", "trust_time")
 SHIPPED = {name: float(getattr(load_part("controllers/threshold"), name)) for name in NAMES}
@@ -18,19 +15,16 @@ TRAIN = 1.0
 
 
 @pytest.fixture(name="watching")
-def _watching(threshold_bench: Benches) -> Callable[..., Any]:
+def _watching(threshold_bench):
     """A bench with the shipped controller at 30 m/s."""
     return lambda **changes: threshold_bench(30.0, **{**SHIPPED, **changes})
 
 
-def train(cycle: int) -> float:
+def train(cycle):
     return 30.0 - TRAIN * CYCLE * cycle
 
 
-Reads = Callable[[int, float], float | None]
-
-
-def driven(controller: Any, cycles: int, reads: Reads) -> Iterator[tuple[float, list[int]]]:
+def driven(controller, cycles, reads):
     """Yield the train's speed and the commands of each cycle; the second sensor says nothing where None."""
     for cycle in range(cycles):
         speed = train(cycle)
@@ -39,7 +33,7 @@ def driven(controller: Any, cycles: int, reads: Reads) -> Iterator[tuple[float, 
         yield speed, controller.commands_of(*speeds, valid=(1, int(read is not None), 1, 1))
 
 
-def test_a_flagged_sensor_is_out_of_the_estimate_at_once(watching: Callable[..., Any]) -> None:
+def test_a_flagged_sensor_is_out_of_the_estimate_at_once(watching):
     """Whatever it reads: neither the estimate nor the others see anything of it."""
     controller = watching()
     for _, commands in driven(controller, 500, lambda cycle, speed: None):
@@ -47,9 +41,7 @@ def test_a_flagged_sensor_is_out_of_the_estimate_at_once(watching: Callable[...,
     assert controller.reference == pytest.approx(train(499), abs=0.05)
 
 
-def test_a_wheelset_without_a_speed_gets_the_commands_of_the_other_one_of_its_bogie(
-    watching: Callable[..., Any],
-) -> None:
+def test_a_wheelset_without_a_speed_gets_the_commands_of_the_other_one_of_its_bogie(watching):
     controller = watching()
     rows = []
     for cycle in range(300):
@@ -60,7 +52,7 @@ def test_a_wheelset_without_a_speed_gets_the_commands_of_the_other_one_of_its_bo
     assert all(row[2:] == [FILL, FILL] for row in rows)
 
 
-def test_a_bogie_without_any_speed_gets_its_brake_force(watching: Callable[..., Any]) -> None:
+def test_a_bogie_without_any_speed_gets_its_brake_force(watching):
     """Also where one of them was being vented when its sensor failed."""
     controller = watching()
     for cycle in range(60):
@@ -72,12 +64,12 @@ def test_a_bogie_without_any_speed_gets_its_brake_force(watching: Callable[..., 
         assert controller.commands_of(0.0, 0.0, speed, speed, valid=(0, 0, 1, 1)) == [FILL] * 4
 
 
-def test_a_reading_that_falls_to_zero_at_once_is_no_lock(watching: Callable[..., Any]) -> None:
+def test_a_reading_that_falls_to_zero_at_once_is_no_lock(watching):
     for _, commands in driven(watching(), 500, lambda cycle, speed: 0.0 if cycle > 100 else speed):
         assert commands == [FILL] * 4
 
 
-def test_a_wheel_that_locks_as_fast_as_a_brake_can_is_vented(watching: Callable[..., Any]) -> None:
+def test_a_wheel_that_locks_as_fast_as_a_brake_can_is_vented(watching):
     controller = watching()
     locking = driven(controller, 200, lambda cycle, speed: max(30.0 - 25.0 * CYCLE * cycle, 0.0))
     commands = [all_four[1] for _, all_four in locking]
@@ -93,9 +85,7 @@ def test_a_wheel_that_locks_as_fast_as_a_brake_can_is_vented(watching: Callable[
     ],
     ids=["up and stays there", "up and down"],
 )
-def test_readings_that_jump_do_not_raise_the_estimate(
-    watching: Callable[..., Any], reads: Reads, excess: float
-) -> None:
+def test_readings_that_jump_do_not_raise_the_estimate(watching, reads, excess):
     """Some of them are plausible after others; while there is doubt, none counts."""
     controller = watching()
     for speed, _ in driven(controller, 500, reads):
@@ -103,7 +93,7 @@ def test_readings_that_jump_do_not_raise_the_estimate(
     assert controller.wheelsets[1].distrusted == 1
 
 
-def test_a_single_bad_reading_does_nothing(watching: Callable[..., Any]) -> None:
+def test_a_single_bad_reading_does_nothing(watching):
     """As the gap of a pole wheel gives one in every turn."""
     controller = watching()
     for _, commands in driven(controller, 1000, lambda cycle, speed: speed * (1.0 if cycle % 8 else 0.9)):
@@ -111,21 +101,21 @@ def test_a_single_bad_reading_does_nothing(watching: Callable[..., Any]) -> None
     assert controller.wheelsets[1].distrusted == 0
 
 
-def test_a_reading_that_stands_still_while_others_fall_is_distrusted(watching: Callable[..., Any]) -> None:
+def test_a_reading_that_stands_still_while_others_fall_is_distrusted(watching):
     controller = watching()
     for speed, commands in driven(controller, 1000, lambda cycle, speed: train(min(cycle, 100))):
         assert commands == [FILL] * 4
         assert controller.reference < speed + TRAIN * SHIPPED["stuck_time"] + 0.05
 
 
-def test_a_train_at_a_steady_speed_has_no_stuck_sensor(watching: Callable[..., Any]) -> None:
+def test_a_train_at_a_steady_speed_has_no_stuck_sensor(watching):
     controller = watching()
     for _ in range(300):
         controller.commands(*[30.0] * 4)
     assert [each.distrusted for each in controller.wheelsets] == [0] * 4
 
 
-def test_a_sensor_that_comes_back_is_trusted_after_a_while(watching: Callable[..., Any]) -> None:
+def test_a_sensor_that_comes_back_is_trusted_after_a_while(watching):
     controller = watching()
     cycles = driven(controller, 600, lambda cycle, speed: None if 100 <= cycle < 200 else speed)
     distrusted = [controller.wheelsets[1].distrusted for _ in cycles]
@@ -134,7 +124,7 @@ def test_a_sensor_that_comes_back_is_trusted_after_a_while(watching: Callable[..
     assert last == pytest.approx(200 + SHIPPED["trust_time"] / CYCLE, abs=2)
 
 
-def test_wheelsets_without_a_speed_are_not_probed(watching: Callable[..., Any]) -> None:
+def test_wheelsets_without_a_speed_are_not_probed(watching):
     """All others slide together: one of them is released to find the train's speed."""
     controller = watching(sounding_interval=0.5)
     probed = set()

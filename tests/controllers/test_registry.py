@@ -1,7 +1,6 @@
 """A controller is one module: found, offered to scenarios and run without a further edit."""
 
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -40,7 +39,7 @@ CONTROLLER = Controller("always-vents", Parameters, TrainMemory, ControlledWheel
 STOP = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\n"
 
 
-def test_a_module_in_the_folder_is_a_controller(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_module_in_the_folder_is_a_controller(tmp_path, monkeypatch):
     (tmp_path / "always_vents.py").write_text(MODULE)
     (tmp_path / "stop.yaml").write_text(STOP)
     monkeypatch.setattr(built_in, "__path__", [*built_in.__path__, str(tmp_path)])
@@ -61,13 +60,13 @@ def test_a_module_in_the_folder_is_a_controller(tmp_path: Path, monkeypatch: pyt
     assert finished.wheelsets.valve_command.tolist() == [VENT] * 4
 
 
-def test_every_controller_has_a_model_that_scenarios_choose_by_its_name() -> None:
+def test_every_controller_has_a_model_that_scenarios_choose_by_its_name():
     assert CONTROLLER_MODELS.keys() == CONTROLLERS.keys()
     for name, model in CONTROLLER_MODELS.items():
         assert model.__doc__ == CONTROLLERS[name].parameters.__doc__
 
 
-def test_a_conflict_shows_values_as_the_user_wrote_them(tmp_path: Path) -> None:
+def test_a_conflict_shows_values_as_the_user_wrote_them(tmp_path):
     path = tmp_path / "stop.yaml"
     path.write_text(STOP + "controller: {extends: threshold, hold_limit: 9 ms}\n")
     with pytest.raises(ScenarioErrors, match="9 ms is shorter than one controller cycle \\(10 ms\\)"):

@@ -1,9 +1,6 @@
 """The pages and the tools that renew them."""
 
-from __future__ import annotations
-
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,19 +9,19 @@ REPOSITORY = Path(__file__).parents[2]
 TOOLS = REPOSITORY / "docs" / "tools"
 
 
-def pages() -> list[Path]:
+def pages():
     """Return every Markdown page that the repository shows."""
     return [*sorted(REPOSITORY.glob("*.md")), *sorted((REPOSITORY / "docs").glob("*.md"))]
 
 
-def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+def pytest_generate_tests(metafunc):
     """A test that asks for a page runs for each of them."""
     if "page" in metafunc.fixturenames:
         metafunc.parametrize("page", pages(), ids=lambda path: path.name)
 
 
 @pytest.fixture(autouse=True)
-def tools_on_path(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def tools_on_path(monkeypatch):
     """The tools are scripts beside each other; they are found as when one of them is run."""
     before = set(sys.modules)
     monkeypatch.syspath_prepend(str(TOOLS))

@@ -1,12 +1,8 @@
 """Every command line that a page shows can be typed, and every command and option is described."""
 
-from __future__ import annotations
-
 import re
 import shlex
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 import typer
@@ -20,7 +16,7 @@ _END_OF_CALL = re.compile(r" \| |; | > | 2>| &&|  #|' *$|\\$| &$")
 _IN_PROSE = re.compile(r"`uictest ([^`]*)`")
 
 
-def leaves(command: Any, name: str = "") -> Iterator[tuple[str, Any]]:
+def leaves(command, name=""):
     """Yield every command by the words that call it."""
     inner = getattr(command, "commands", None)
     if inner is None:
@@ -33,7 +29,7 @@ def leaves(command: Any, name: str = "") -> Iterator[tuple[str, Any]]:
 COMMANDS = dict(leaves(typer.main.get_command(application())))
 
 
-def calls(text: str) -> Iterator[str]:
+def calls(text):
     """Yield the arguments of every call of uictest in the code of a page."""
     for match in _CODE.finditer(text):
         for line in "".join(group or "" for group in match.groups()).splitlines():
@@ -42,17 +38,17 @@ def calls(text: str) -> Iterator[str]:
                 yield _END_OF_CALL.split(call[1])[0]
 
 
-def command_of(arguments: str) -> tuple[str, list[str]]:
+def command_of(arguments):
     words = shlex.split(arguments)
     count = 2 if " ".join(words[:2]) in COMMANDS else 1
     return " ".join(words[:count]), words[count:]
 
 
-def options_of(name: str) -> set[str]:
+def options_of(name):
     return {option for parameter in COMMANDS[name].params for option in parameter.opts} | {"-h", "--help"}
 
 
-def test_every_call_can_be_parsed(page: Path) -> None:
+def test_every_call_can_be_parsed(page):
     for arguments in calls(page.read_text("utf-8")):
         name, rest = command_of(arguments)
         assert name in COMMANDS, arguments
@@ -60,7 +56,7 @@ def test_every_call_can_be_parsed(page: Path) -> None:
             COMMANDS[name].make_context(name, rest)
 
 
-def test_every_command_named_in_prose_exists_with_its_options(page: Path) -> None:
+def test_every_command_named_in_prose_exists_with_its_options(page):
     groups = {name.split()[0] for name in COMMANDS}
     for arguments in _IN_PROSE.findall(page.read_text("utf-8")):
         name, rest = command_of(arguments)
@@ -69,13 +65,13 @@ def test_every_command_named_in_prose_exists_with_its_options(page: Path) -> Non
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_every_command_stands_on_the_page_of_commands(name: str) -> None:
+def test_every_command_stands_on_the_page_of_commands(name):
     text = (REPOSITORY / "docs" / "commands.md").read_text("utf-8")
     assert re.search(rf"`(?:{name}|{name.split()[0]})`", text)
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_every_option_says_in_the_help_what_it_does(name: str) -> None:
+def test_every_option_says_in_the_help_what_it_does(name):
     """The pages show no help of a command: it has to be enough."""
     options = [each for each in COMMANDS[name].params if each.param_type_name == "option"]
     assert [each.name for each in options if not each.help] == []

@@ -1,7 +1,5 @@
 """Examples are files that load, and console blocks show what the program prints."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import os
@@ -9,9 +7,7 @@ import re
 import runpy
 import shlex
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 from unittest.mock import patch
 
 import pytest
@@ -47,13 +43,13 @@ KEYS = {
 }
 
 
-def load_validation_model(path: Path) -> Any:
+def load_validation_model(path):
     """The page's commands make the recordings that the file names."""
     tree = read_file(path)
     return validated(ValidationFile, plain(tree), tree)
 
 
-LOADERS: dict[str, Callable[[Path], Any]] = {
+LOADERS = {
     "bench": load_bench,
     "channel-map": lambda path: load_map(str(path)),
     "sweep": load_sweep,
@@ -62,20 +58,20 @@ LOADERS: dict[str, Callable[[Path], Any]] = {
 }
 
 
-def examples(page: Path) -> list[Any]:
-    from markup import blocks  # type: ignore[import-not-found]
+def examples(page):
+    from markup import blocks
 
     return list(blocks(page.read_text("utf-8"), "yaml"))
 
 
-def kind_of(text: str) -> str:
+def kind_of(text):
     """What a YAML example is: the word in its schema, empty where it belongs to another program."""
     schema = str(yaml.safe_load(text).get("schema", ""))
     return schema.split("/")[1] if schema.startswith("uictest/") else ""
 
 
-def test_examples_load(page: Path, tmp_path: Path) -> None:
-    from consoles import prepare  # type: ignore[import-not-found]
+def test_examples_load(page, tmp_path):
+    from consoles import prepare
 
     prepare(page.read_text("utf-8"), tmp_path)
     for block in examples(page):
@@ -92,7 +88,7 @@ def test_examples_load(page: Path, tmp_path: Path) -> None:
             assert block.file_name, f"{page.name}:{block.line}: neither ours nor a named file"
 
 
-def load_scenario(block: Any, folder: Path) -> None:
+def load_scenario(block, folder):
     path = folder / (block.file_name or "example.yaml")
     path.write_text(block.text, "utf-8")
     if "mistakes" in path.name:
@@ -102,7 +98,7 @@ def load_scenario(block: Any, folder: Path) -> None:
     assert scenario.load([path])
 
 
-def load_part(block: Any, kind: str, folder: Path) -> None:
+def load_part(block, kind, folder):
     path = folder / "with-part.yaml"
     key = KEYS.get(kind, f"{kind}: %s") % block.file_name
     path.write_text(f"schema: uictest/scenario/1\nname: with-part\ninitial_speed: 80 km/h\n{key}\n", "utf-8")
@@ -110,7 +106,7 @@ def load_part(block: Any, kind: str, folder: Path) -> None:
     assert any(name.endswith(block.file_name) for name in case.inputs)
 
 
-def takes_long(block: Any) -> bool:
+def takes_long(block):
     """Whether a console block runs all studies, or one whose bands are judged among the slow tests.
 
     The block with all of them is compared to the digit by tests/studies/test_claims.py.
@@ -119,11 +115,11 @@ def takes_long(block: Any) -> bool:
 
 
 class Terminal(io.StringIO):
-    def isatty(self) -> bool:
+    def isatty(self):
         return True
 
 
-def commands_of(line: str) -> list[str]:
+def commands_of(line):
     """The commands of a line, one after the other."""
     loop = LOOP.fullmatch(line)
     if loop is None:
@@ -131,7 +127,7 @@ def commands_of(line: str) -> list[str]:
     return [each for seed in loop[1].split() for each in commands_of(loop[2].replace("$seed", seed))]
 
 
-def output_of(line: str, folder: Path, on_terminal: bool) -> str:
+def output_of(line, folder, on_terminal):
     """What a line of a page prints: ours and its scripts in this process, what else there is in a shell."""
     from consoles import in_shell
 
@@ -148,7 +144,7 @@ def output_of(line: str, folder: Path, on_terminal: bool) -> str:
     return shown
 
 
-def called(call: re.Match[str], folder: Path, on_terminal: bool) -> tuple[str, int]:
+def called(call, folder, on_terminal):
     """What a call of ours shows, and its exit code."""
     from consoles import environment
 
@@ -175,7 +171,7 @@ def called(call: re.Match[str], folder: Path, on_terminal: bool) -> tuple[str, i
     return shown.getvalue(), code
 
 
-def check_consoles(page: Path, folder: Path, chosen: Callable[[Any], bool]) -> None:
+def check_consoles(page, folder, chosen):
     """Run the console blocks of a page that are chosen, and compare what they print with the page."""
     from consoles import executed, prepare, shape
     from markup import blocks
@@ -186,7 +182,7 @@ def check_consoles(page: Path, folder: Path, chosen: Callable[[Any], bool]) -> N
         assert shape(executed(block, folder, output_of)) == shape(block.text), "run docs/tools/refresh.py"
 
 
-def test_console_blocks_show_what_the_program_prints(page: Path, tmp_path: Path) -> None:
+def test_console_blocks_show_what_the_program_prints(page, tmp_path):
     """Up to the digits: figures move with calibration, and docs/tools/refresh.py renews them.
 
     Blocks of studies that take long are compared among the slow tests.
@@ -194,7 +190,7 @@ def test_console_blocks_show_what_the_program_prints(page: Path, tmp_path: Path)
     check_consoles(page, tmp_path, lambda block: not takes_long(block))
 
 
-def test_console_blocks_of_slow_studies_show_their_quantities() -> None:
+def test_console_blocks_of_slow_studies_show_their_quantities():
     from markup import blocks
 
     page = (REPOSITORY / "docs" / "studies.md").read_text("utf-8")
@@ -209,5 +205,5 @@ def test_console_blocks_of_slow_studies_show_their_quantities() -> None:
 
 
 @pytest.mark.slow
-def test_console_blocks_of_slow_studies_show_what_the_program_prints(tmp_path: Path) -> None:
+def test_console_blocks_of_slow_studies_show_what_the_program_prints(tmp_path):
     check_consoles(REPOSITORY / "docs" / "studies.md", tmp_path, takes_long)

@@ -1,7 +1,5 @@
 """What every page keeps to: links that lead somewhere, lines that can be read, generated parts up to date."""
 
-from __future__ import annotations
-
 import dataclasses
 import re
 from pathlib import Path
@@ -20,18 +18,18 @@ _FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 
 
-def prose(page: Path) -> str:
+def prose(page):
     return _FENCED.sub("", page.read_text("utf-8"))
 
 
-def anchors(page: Path) -> set[str]:
+def anchors(page):
     """The anchors that GitHub and GitLab give to the headings of a page."""
     headings = re.findall(r"^#+ (.+)$", prose(page), re.MULTILINE)
     kept = (re.sub(r"[^\w\- ]", "", heading.lower()) for heading in headings)
     return {text.strip().replace(" ", "-") for text in kept}
 
 
-def test_every_link_leads_somewhere(page: Path) -> None:
+def test_every_link_leads_somewhere(page):
     for target in _LINK.findall(prose(page)):
         if target.startswith(("http://", "https://", "mailto:")):
             continue
@@ -41,20 +39,20 @@ def test_every_link_leads_somewhere(page: Path) -> None:
         assert not anchor or anchor in anchors(place), target
 
 
-def test_prose_fits_a_window(page: Path) -> None:
+def test_prose_fits_a_window(page):
     lines = [line for line in prose(page).splitlines() if not line.startswith(("|", "<!--"))]
     assert [line for line in lines if len(line) > LONGEST] == []
 
 
-def test_generated_tables_are_those_of_the_models(page: Path) -> None:
-    from markup import with_generated  # type: ignore[import-not-found]
-    from refresh import generated  # type: ignore[import-not-found]
+def test_generated_tables_are_those_of_the_models(page):
+    from markup import with_generated
+    from refresh import generated
 
     text = page.read_text("utf-8")
     assert with_generated(text, generated) == text, "run docs/tools/refresh.py"
 
 
-def test_every_field_of_a_result_is_described() -> None:
+def test_every_field_of_a_result_is_described():
     text = (REPOSITORY / "docs/commands.md").read_text("utf-8")
     names = {field.name for each in (CaseResult, Verdict) for field in dataclasses.fields(each)}
     # How long the simulation took is not part of a result; the status of a verdict stands at `verdict`.
@@ -62,13 +60,13 @@ def test_every_field_of_a_result_is_described() -> None:
     assert {name for name in names if not re.search(rf"`(?:\S*[.])?{name}`", text)} == set()
 
 
-def test_every_channel_of_a_recording_is_described() -> None:
+def test_every_channel_of_a_recording_is_described():
     text = (REPOSITORY / "docs/commands.md").read_text("utf-8")
     names = [name for name, _ in (*CAR_CHANNELS, *WHEELSET_CHANNELS)]
     assert [name for name in names if f"`{name}`" not in text] == []
 
 
-def test_every_key_of_a_scenario_is_named() -> None:
+def test_every_key_of_a_scenario_is_named():
     text = (REPOSITORY / "docs/scenarios.md").read_text("utf-8")
     groups = {"brake": Brake, "rail": Rail, "rig": Rig, "simulation": Simulation}
     keys = {field.alias or name for name, field in Scenario.model_fields.items()} - groups.keys()
@@ -76,7 +74,7 @@ def test_every_key_of_a_scenario_is_named() -> None:
     assert {key for key in keys if f"`{key}`" not in text} == set()
 
 
-def test_the_definitions_of_the_measures_are_those_of_the_library() -> None:
+def test_the_definitions_of_the_measures_are_those_of_the_library():
     lines = (REPOSITORY / "docs/parts.md").read_text("utf-8").splitlines()
     file = REPOSITORY / "src/uictest/plans/library/measures/standard.yaml"
     numbers = {key: each for key, each in yaml.safe_load(file.read_text("utf-8")).items() if "value" in each}
@@ -85,7 +83,7 @@ def test_the_definitions_of_the_measures_are_those_of_the_library() -> None:
         assert any(f"`{key}`" in line and each["value"] in line for line in lines), key
 
 
-def test_every_measure_of_a_series_is_described() -> None:
+def test_every_measure_of_a_series_is_described():
     """A median or worst value has the row of its figure."""
     text = (REPOSITORY / "docs/series.md").read_text("utf-8")
     names = {
@@ -95,6 +93,6 @@ def test_every_measure_of_a_series_is_described() -> None:
     assert {name for name in names if not re.search(rf"^[|].*`{name}`.*[|]", text, re.MULTILINE)} == set()
 
 
-def test_the_first_screen_shows_the_two_commands() -> None:
+def test_the_first_screen_shows_the_two_commands():
     first = (REPOSITORY / "README.md").read_text("utf-8").splitlines()[:20]
     assert [line.strip() for line in first if line.startswith("    ")] == ["./demo", "./test"]

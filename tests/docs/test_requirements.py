@@ -1,7 +1,5 @@
 """The requirements of the tool are numbered without a gap, and the tests that they name exist."""
 
-from __future__ import annotations
-
 import ast
 import re
 from functools import cache
@@ -16,18 +14,18 @@ ROWS = {match[1]: (match[2], match[3]) for match in _ROW.finditer(PAGE.read_text
 
 
 @cache
-def names_in(path: Path) -> frozenset[str]:
+def names_in(path):
     tree = ast.parse(path.read_text("utf-8"))
     return frozenset(node.name for node in tree.body if isinstance(node, ast.FunctionDef))
 
 
-def test_requirements_are_numbered_without_a_gap_and_each_once() -> None:
+def test_requirements_are_numbered_without_a_gap_and_each_once():
     assert list(ROWS) == [f"TOOL-{number}" for number in range(1, len(ROWS) + 1)]
     assert len(_ROW.findall(PAGE.read_text("utf-8"))) == len(ROWS) > 20
 
 
 @pytest.mark.parametrize("requirement", ROWS)
-def test_the_tests_of_a_requirement_exist(requirement: str) -> None:
+def test_the_tests_of_a_requirement_exist(requirement):
     named = _TEST.findall(ROWS[requirement][1])
     assert named, f"{requirement} names no test"
     assert len(named) == ROWS[requirement][1].count("[")

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from itertools import product
-from typing import Any
 
 import pytest
 
@@ -24,7 +23,7 @@ FLIPPING = Sensitivity(
 
 
 def verdict(**changes):
-    content: dict[str, Any] = {
+    content = {
         "id": "distance",
         "layer": "requirement",
         "value": 450.0,

@@ -1,13 +1,10 @@
 """The controllers in examples/, built as a user builds them, and every shipped case with one of them."""
 
-from __future__ import annotations
-
 import dataclasses
 import hashlib
 import os
 import shutil
 import subprocess
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -16,9 +13,8 @@ import pytest
 import uictest
 from uictest import rig
 from uictest.controllers import CONTROLLERS, DEFAULT
-from uictest.plans.scenario import Case, load
+from uictest.plans.scenario import load
 from uictest.plans.scenario.parts.external_controller import (
-    ExternalController,
     FmuController,
     LibraryController,
     SocketController,
@@ -29,12 +25,10 @@ from uictest.plans.scenario.yaml import Document
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
 HEADERS = Path(uictest.__file__).parent / "controllers"
-WithController = Callable[[Case, Path | str], Case]
-Serve = Callable[[Path], Path]
 
 
 @pytest.fixture(scope="session")
-def compiler() -> str:
+def compiler():
     """The C compiler: $CC, else gcc."""
     path = shutil.which(os.environ.get("CC", "gcc"))
     if path is None:
@@ -43,7 +37,7 @@ def compiler() -> str:
 
 
 @pytest.fixture(scope="session")
-def threshold_library(compiler: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def threshold_library(compiler, tmp_path_factory):
     """examples/threshold-c, made by its Makefile."""
     folder = tmp_path_factory.mktemp("threshold-c") / "built"
     shutil.copytree(EXAMPLES / "threshold-c", folder, ignore=shutil.ignore_patterns("*.so"))
@@ -55,10 +49,10 @@ def threshold_library(compiler: str, tmp_path_factory: pytest.TempPathFactory) -
 
 
 @pytest.fixture(scope="session")
-def serve(compiler: str, tmp_path_factory: pytest.TempPathFactory) -> Serve:
+def serve(compiler, tmp_path_factory):
     """Compile examples/socket/serve.c with a controller, without a warning, and return the program."""
 
-    def compiled(controller: Path) -> Path:
+    def compiled(controller):
         program = tmp_path_factory.mktemp("serve") / "wsp"
         options = ("-O2", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", f"-I{HEADERS}", "-o", program)
         sources = (EXAMPLES / "socket" / "serve.c", controller)
@@ -69,7 +63,7 @@ def serve(compiler: str, tmp_path_factory: pytest.TempPathFactory) -> Serve:
 
 
 @contextmanager
-def listening(*command: str | Path) -> Iterator[str]:
+def listening(*command):
     """Start a program at a port that the system chooses, yield where it listens, and end it."""
     with subprocess.Popen([*command, "0"], stdout=subprocess.PIPE, text=True) as process:
         try:
@@ -79,19 +73,19 @@ def listening(*command: str | Path) -> Iterator[str]:
             process.kill()
 
 
-def _parameters(case: Case) -> dict[str, float]:
+def _parameters(case):
     """The parameters of the built-in controller of a case, in SI units."""
     declared = CONTROLLERS[DEFAULT].declared_parameters()
     return {name: float(getattr(case.scenario.controller, name)) for name in declared if name != "cycle_time"}
 
 
 @pytest.fixture(scope="session")
-def parameters_of() -> Callable[[Case], dict[str, float]]:
+def parameters_of():
     """The parameters of the built-in controller of a case, in SI units."""
     return _parameters
 
 
-def _external(case: Case, program: Path | str) -> ExternalController:
+def _external(case, program):
     common = {
         "parameters": _parameters(case),
         "free_parameters": True,
@@ -107,10 +101,10 @@ def _external(case: Case, program: Path | str) -> ExternalController:
 
 
 @pytest.fixture(scope="session")
-def with_controller() -> WithController:
+def with_controller():
     """Put a library, an FMU or what listens at an address into a case, with the built-in's parameters."""
 
-    def replaced(case: Case, program: Path | str) -> Case:
+    def replaced(case, program):
         scenario = case.scenario.model_copy(update={"controller": _external(case, program)})
         return dataclasses.replace(case, scenario=scenario)
 
@@ -118,18 +112,18 @@ def with_controller() -> WithController:
 
 
 @pytest.fixture(scope="session")
-def shipped() -> list[Case]:
+def shipped():
     """Every shipped case with the threshold controller."""
     cases = load([ROOT / "scenarios"])
     return [case for case in cases if case.scenario.controller.algorithm == DEFAULT]
 
 
-def bits(stop: rig.SimulatedStop) -> bytes:
+def bits(stop):
     """What a stop has measured, to the bit."""
     return bytes(stop.measures.tobytes() + stop.wheelset_measures.tobytes())
 
 
 @pytest.fixture(scope="session")
-def built_in(shipped: list[Case]) -> list[bytes]:
+def built_in(shipped):
     """The bits of every shipped stop with the built-in controller."""
     return [bits(rig.simulate(case)) for case in shipped]

@@ -1,22 +1,19 @@
 """The threshold controller in C, exported as an FMU, is the built-in controller, bit for bit."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from fmpy.validation import validate_fmu
 
 from uictest import rig
-from uictest.plans.scenario import Case, load
+from uictest.plans.scenario import load
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.workers import Workers
 
-from .conftest import WithController, bits
+from .conftest import bits
 
 STOP = """\
 schema: uictest/scenario/1
@@ -28,12 +25,7 @@ controller: {fmu: wsp.fmu, parameters: {slip_threshold: 0.9993, vent_deceleratio
 
 
 @pytest.fixture(scope="session", params=["2", "3"], ids=["FMI 2.0", "FMI 3.0"])
-def fmu(
-    request: pytest.FixtureRequest,
-    threshold_library: Path,
-    compiler: str,
-    tmp_path_factory: pytest.TempPathFactory,
-) -> Path:
+def fmu(request, threshold_library, compiler, tmp_path_factory):
     """examples/threshold-c, built and exported."""
     path = tmp_path_factory.mktemp("fmu") / "wsp.fmu"
     program = "from uictest.cli import main; main()"
@@ -45,7 +37,7 @@ def fmu(
 
 
 @pytest.fixture
-def scenario(tmp_path: Path) -> Path:
+def scenario(tmp_path):
     """A stop with the FMU beside it."""
     path = tmp_path / "wsp.yaml"
     path.write_text(STOP)
@@ -53,18 +45,16 @@ def scenario(tmp_path: Path) -> Path:
 
 
 @pytest.fixture(autouse=True)
-def temporary_folder(monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory) -> None:
+def temporary_folder(monkeypatch, tmp_path_factory):
     """FMUs stay unpacked until Python ends."""
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path_factory.mktemp("unpacked")))
 
 
-def test_it_is_a_valid_fmu(fmu: Path) -> None:
+def test_it_is_a_valid_fmu(fmu):
     assert validate_fmu(str(fmu)) == []
 
 
-def test_every_shipped_stop_has_the_bits_of_the_built_in_controller(
-    shipped: list[Case], built_in: list[bytes], fmu: Path, with_controller: WithController
-) -> None:
+def test_every_shipped_stop_has_the_bits_of_the_built_in_controller(shipped, built_in, fmu, with_controller):
     different = [
         case.id
         for case, expected in zip(shipped, built_in, strict=True)
@@ -73,9 +63,7 @@ def test_every_shipped_stop_has_the_bits_of_the_built_in_controller(
     assert different == []
 
 
-def test_it_runs_in_a_child_process_and_leaves_no_file(
-    fmu: Path, scenario: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_it_runs_in_a_child_process_and_leaves_no_file(fmu, scenario, tmp_path, monkeypatch):
     """The child is ended by a signal: what it unpacked lies in a folder of its parent."""
     shutil.copy(fmu, tmp_path)
     case = load([scenario])[0]
@@ -89,7 +77,7 @@ def test_it_runs_in_a_child_process_and_leaves_no_file(
     assert bits(there) == bits(rig.simulate(case, run=run_in_process))
 
 
-def test_check_reads_no_fmu(tmp_path: Path) -> None:
+def test_check_reads_no_fmu(tmp_path):
     """It takes the SHA-256 alone: a file that is no FMU at all passes."""
     (tmp_path / "wsp.yaml").write_text(STOP)
     (tmp_path / "wsp.fmu").write_text("no FMU")
@@ -98,7 +86,7 @@ def test_check_reads_no_fmu(tmp_path: Path) -> None:
     assert (checked.returncode, checked.stderr) == (0, "uictest: 1 scenario with 1 case, no error\n")
 
 
-def test_a_run_in_this_process_leaves_no_file(fmu: Path, scenario: Path, tmp_path: Path) -> None:
+def test_a_run_in_this_process_leaves_no_file(fmu, scenario, tmp_path):
     shutil.copy(fmu, tmp_path)
     folder = tmp_path / "temporary"
     folder.mkdir()

@@ -1,11 +1,7 @@
 """The notebooks: their code runs, and what is stored in them is what it gives."""
 
-from __future__ import annotations
-
 import sys
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import nbformat
 import pytest
@@ -15,7 +11,7 @@ NOTEBOOKS = sorted((REPOSITORY / "examples" / "notebook").glob("*.ipynb"))
 
 
 @pytest.fixture(autouse=True)
-def tools_on_path(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def tools_on_path(monkeypatch):
     """The tools of the pages are scripts beside each other."""
     before = set(sys.modules)
     monkeypatch.syspath_prepend(str(REPOSITORY / "docs" / "tools"))
@@ -24,15 +20,15 @@ def tools_on_path(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         sys.modules.pop(name, None)
 
 
-def texts(outputs: list[Any]) -> list[str]:
+def texts(outputs):
     return ["".join(each["text"] if "text" in each else each["data"]["text/plain"]) for each in outputs]
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_what_is_stored_is_what_the_code_gives(path: Path) -> None:
+def test_what_is_stored_is_what_the_code_gives(path):
     """Up to the digits: figures move with calibration, and docs/tools/notebooks.py renews them."""
-    from consoles import shape  # type: ignore[import-not-found]
-    from notebooks import executed  # type: ignore[import-not-found]
+    from consoles import shape
+    from notebooks import executed
 
     before = sorted(path.parent.iterdir())
     for cell, outputs in executed(path):
@@ -42,7 +38,7 @@ def test_what_is_stored_is_what_the_code_gives(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_it_is_a_valid_notebook_that_names_no_machine(path: Path) -> None:
+def test_it_is_a_valid_notebook_that_names_no_machine(path):
     nbformat.validate(nbformat.read(path, as_version=4))
     text = path.read_text("utf-8")
     assert str(REPOSITORY) not in text

@@ -1,12 +1,9 @@
 """The PI controller of examples/pi: what its page claims, on rails that it was not tuned on."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,14 +20,14 @@ TUNED_ON, JUDGED_ON = "tuning.sweep.yaml", "judging.yaml"
 FRICTION, SEED = "rail.friction", "seed"
 
 
-def stop(*overrides: str) -> Any:
+def stop(*overrides):
     """The stop of one case from 120 km/h."""
     [case] = load([PI / "slippery-120.yaml"], overrides)
     return rig.simulate(case, run=rig.run_in_process)
 
 
 @pytest.mark.parametrize("friction", [0.09, 0.11])
-def test_it_slides_less_and_stops_shorter_than_the_built_in_controller(friction: float) -> None:
+def test_it_slides_less_and_stops_shorter_than_the_built_in_controller(friction):
     ours, built_in = (
         stop(f"rail.friction={friction}", *controller) for controller in ((), ("controller=threshold",))
     )
@@ -39,14 +36,14 @@ def test_it_slides_less_and_stops_shorter_than_the_built_in_controller(friction:
     assert ours.wheelset_measures.maximum_slide.max() < built_in.wheelset_measures.maximum_slide.max()
 
 
-def test_it_leaves_the_brake_alone_on_a_good_rail() -> None:
+def test_it_leaves_the_brake_alone_on_a_good_rail():
     dry = "rail.condition=dry", "rail.friction=null"
     ours, bypassed = stop(*dry), stop(*dry, "rig.wsp=bypassed")
     assert ours.wheelset_measures.valve_actuations.tolist() == [0, 0, 0, 0]
     assert ours.measures.braking_distance == bypassed.measures.braking_distance
 
 
-def test_it_is_judged_where_it_was_not_tuned() -> None:
+def test_it_is_judged_where_it_was_not_tuned():
     plan = load_sweep(PI / TUNED_ON)
     tuned = {key: {value.text for value in plan.listed()[key]} for key in (FRICTION, SEED)}
     cases = load([PI / JUDGED_ON])
@@ -60,18 +57,18 @@ def test_it_is_judged_where_it_was_not_tuned() -> None:
 
 
 @pytest.fixture
-def copied(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def copied(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     shutil.copytree(PI, tmp_path / "pi")
     return tmp_path / "pi"
 
 
-def printed(script: Path, *arguments: str) -> list[str]:
+def printed(script, *arguments):
     command = [sys.executable, script, *arguments]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
 
 
-def test_the_table_has_both_controllers_on_every_rail(copied: Path) -> None:
+def test_the_table_has_both_controllers_on_every_rail(copied):
     few = ["-k", "seed=11 and (friction=0.13 or friction=0.15)", "-q", "--report", "csv"]
     for name in ("threshold", "pi"):
         controller = "threshold" if name == "threshold" else "pi/pi.yaml"
@@ -86,7 +83,7 @@ def test_the_table_has_both_controllers_on_every_rail(copied: Path) -> None:
     assert all(line.endswith("0 of 1 |") for line in lines[2:])
 
 
-def test_the_best_draws_meet_all_criteria(copied: Path) -> None:
+def test_the_best_draws_meet_all_criteria(copied):
     columns = "parameters.rail.friction,parameters.controller.parameters.kp,met,braking_distance_m"
     rows = [(0.06, 1, "true", 900), (0.1, 1, "true", 700), (0.06, 2, "true", 800), (0.1, 2, "false", 500)]
     rows += [(0.06, 3, "true", 850), (0.1, 3, "true", 650)]
@@ -97,5 +94,5 @@ def test_the_best_draws_meet_all_criteria(copied: Path) -> None:
     assert lines[1:] == [f"{expected:.3f}  kp: 3", f"{np.mean([900 / 850, 700 / 650]):.3f}  kp: 1"]
 
 
-def test_its_files_are_valid(copied: Path) -> None:
+def test_its_files_are_valid(copied):
     assert execute(["check", "pi"]) == 0

@@ -1,13 +1,8 @@
 """The threshold controller in C is the built-in one, bit for bit."""
 
-from __future__ import annotations
-
 import hashlib
 import json
-from collections.abc import Callable, Iterator
-from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -19,44 +14,40 @@ from uictest.controllers import (
     OUTPUTS_AT,
     Config,
     ControllerError,
-    ControllerInstance,
     ControllerProgram,
     open_controller,
 )
 from uictest.controllers.adapters.instance import STEP
 from uictest.controllers.built_in import threshold
 from uictest.core.physics import FILL, VENT
-from uictest.plans.scenario import Case, load
+from uictest.plans.scenario import load
 from uictest.rig.external.in_process import run_in_process
 
-from .conftest import EXAMPLES, Serve, WithController, bits, listening
+from .conftest import EXAMPLES, bits, listening
 
 Array = NDArray[np.float64]
-Simulate = Callable[[Case], rig.SimulatedStop]
 
 
 @pytest.fixture
-def in_process(threshold_library: Path, with_controller: WithController) -> Simulate:
+def in_process(threshold_library, with_controller):
     return lambda case: rig.simulate(with_controller(case, threshold_library), run=run_in_process)
 
 
 @pytest.fixture
-def in_a_child_process(threshold_library: Path, with_controller: WithController) -> Iterator[Simulate]:
+def in_a_child_process(threshold_library, with_controller):
     with rig.Workers() as workers:
         yield lambda case: rig.simulate(with_controller(case, threshold_library), run=workers.run)
 
 
 @pytest.fixture
-def over_tcp(serve: Serve, with_controller: WithController) -> Iterator[Simulate]:
+def over_tcp(serve, with_controller):
     with listening(serve(EXAMPLES / "threshold-c" / "threshold.c")) as address:
         yield lambda case: rig.simulate(with_controller(case, address))
 
 
 @pytest.mark.parametrize("way", ["in_process", "in_a_child_process", "over_tcp"])
-def test_every_shipped_stop_has_the_bits_of_the_built_in_controller(
-    way: str, request: pytest.FixtureRequest, shipped: list[Case], built_in: list[bytes]
-) -> None:
-    simulate: Simulate = request.getfixturevalue(way)
+def test_every_shipped_stop_has_the_bits_of_the_built_in_controller(way, request, shipped, built_in):
+    simulate = request.getfixturevalue(way)
     stops = [simulate(case) for case in shipped]
     assert len(stops) > 20
     assert {stop.controller_version for stop in stops} == {"1.0"}
@@ -65,8 +56,8 @@ def test_every_shipped_stop_has_the_bits_of_the_built_in_controller(
 
 
 def test_the_example_scenario_runs_with_the_parameters_of_the_built_in_controller(
-    threshold_library: Path, parameters_of: Callable[[Case], dict[str, float]], shipped: list[Case]
-) -> None:
+    threshold_library, parameters_of, shipped
+):
     case = load([threshold_library.parent / "threshold.yaml"])[0]
     written = case.scenario.controller.program
     assert written is not None
@@ -76,8 +67,8 @@ def test_the_example_scenario_runs_with_the_parameters_of_the_built_in_controlle
 
 @pytest.mark.parametrize("seed", range(8))
 def test_it_answers_as_the_built_in_controller_does_to_any_speeds(
-    threshold_library: Path, parameters_of: Callable[[Case], dict[str, float]], shipped: list[Case], seed: int
-) -> None:
+    threshold_library, parameters_of, shipped, seed
+):
     """Speeds that no rig gives reach the modes that shipped stops do not: probing, watchdogs."""
     parameters = {**parameters_of(shipped[0]), "sounding_interval": 0.1}
     built_in = BuiltIn({**parameters, "cycle_time": 0.01}, 30.0)
@@ -93,7 +84,7 @@ def test_it_answers_as_the_built_in_controller_does_to_any_speeds(
         instance.close()
 
 
-def wandering_speeds(seed: int) -> Array:
+def wandering_speeds(seed):
     """Four speeds over 60 s that slide, lock and catch up by chance, m/s."""
     random = np.random.default_rng(seed)
     train = np.maximum(30.0 - 0.5 * 0.01 * np.arange(6000), 0.0)
@@ -101,7 +92,7 @@ def wandering_speeds(seed: int) -> Array:
     return np.asarray(train[:, None] * share + np.abs(random.normal(0.0, 0.005, (6000, 4))))
 
 
-def failing(seed: int) -> NDArray[np.int64]:
+def failing(seed):
     """For each cycle whether the four sensors are valid; each fails a few times for about a second."""
     random = np.random.default_rng(seed + 100)
     valid = np.ones((6000, 4), np.int64)
@@ -113,18 +104,18 @@ def failing(seed: int) -> NDArray[np.int64]:
 class BuiltIn:
     """The built-in controller in plain Python."""
 
-    def __init__(self, parameters: dict[str, float], speed: float) -> None:
+    def __init__(self, parameters, speed):
         self.parameters = SimpleNamespace(**parameters)
         self.train = SimpleNamespace()
         self.wheelsets = [SimpleNamespace() for _ in range(4)]
-        self.modes: set[int] = set()
-        self.distrusted: set[int] = set()
-        threshold.begin(self.train, self.wheelsets, speed)  # type: ignore[arg-type]
+        self.modes = set()
+        self.distrusted = set()
+        threshold.begin(self.train, self.wheelsets, speed)
 
-    def asked(self, speeds: Array, valid: NDArray[np.int64]) -> tuple[list[int], list[int], float]:
+    def asked(self, speeds, valid):
         for wheelset, speed, sound in zip(self.wheelsets, speeds.tolist(), valid.tolist(), strict=True):
             wheelset.measured_speed, wheelset.speed_valid = speed, sound
-        threshold.decide(self.train, self.wheelsets, self.parameters)  # type: ignore[arg-type]
+        threshold.decide(self.train, self.wheelsets, self.parameters)
         self.modes |= {wheelset.mode for wheelset in self.wheelsets}
         self.distrusted |= {wheelset.distrusted for wheelset in self.wheelsets}
         commands = [wheelset.valve_command for wheelset in self.wheelsets]
@@ -132,16 +123,14 @@ class BuiltIn:
         return hold, vent, self.train.reference_speed
 
 
-def opened_library(library: Path, parameters: dict[str, float], speed: float) -> ControllerInstance:
+def opened_library(library, parameters, speed):
     digest = hashlib.sha256(library.read_bytes()).hexdigest()
     program = ControllerProgram("library", str(library), digest, json.dumps(parameters))
     return open_controller(program, Config(4, 0.01, speed, (0.46,) * 4, parameters))
 
 
-def asked(
-    instance: ControllerInstance, cycle: int, speeds: Array, valid: NDArray[np.int64]
-) -> tuple[list[int], list[int], float]:
-    exchange: Any = np.zeros(1, EXCHANGE)[0]
+def asked(instance, cycle, speeds, valid):
+    exchange = np.zeros(1, EXCHANGE)[0]
     exchange["cycle"], exchange["time"], exchange["wheel_speed"] = cycle, cycle * 0.01, speeds
     exchange["speed_valid"] = valid
     address = exchange.__array_interface__["data"][0]
@@ -157,13 +146,7 @@ def asked(
         ({"fill_pulse_on": 0.001}, "fill_pulse_on is shorter than one cycle"),
     ],
 )
-def test_parameters_that_are_none_are_named(
-    threshold_library: Path,
-    parameters_of: Callable[[Case], dict[str, float]],
-    shipped: list[Case],
-    parameters: dict[str, Any],
-    reason: str,
-) -> None:
+def test_parameters_that_are_none_are_named(threshold_library, parameters_of, shipped, parameters, reason):
     changed = {
         name: value for name, value in (parameters_of(shipped[0]) | parameters).items() if value is not None
     }

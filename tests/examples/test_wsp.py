@@ -1,10 +1,7 @@
 """The series of examples/wsp: four ways to protect a train, in the order that docs/series.md states."""
 
-from __future__ import annotations
-
 import os
 import shutil
-from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,23 +15,22 @@ from uictest.running import campaign
 
 ROOT = Path(__file__).parents[2]
 WSPS = ("controller=threshold", "controller=threshold-c", "controller=slip-band", "wsp=bypassed")
-Load = Callable[[str], dict[str, series_plans.Series]]
 
 
 @pytest.fixture
-def load(threshold_library: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Load:
+def load(threshold_library, tmp_path, monkeypatch):
     """The four series of a file in examples/wsp, by what protects the train."""
     shutil.copytree(ROOT / "examples/wsp", tmp_path / "wsp")
     shutil.copytree(threshold_library.parent, tmp_path / "threshold-c")
     monkeypatch.chdir(tmp_path)
 
-    def read(name: str) -> dict[str, series_plans.Series]:
+    def read(name):
         return dict(zip(WSPS, series_plans.load_series(Path("wsp", name)), strict=True))
 
     return read
 
 
-def judged(planned: series_plans.Series) -> series.SeriesResult:
+def judged(planned):
     done = campaign.run_cases(planned.cases, campaign.RunSettings(len(os.sched_getaffinity(0))))
     cases = [
         series.SeriesCase(stop.role, round(stop.speed * 3.6, 6), result)
@@ -43,16 +39,16 @@ def judged(planned: series_plans.Series) -> series.SeriesResult:
     return series.judge_series(planned, cases)
 
 
-def missed(result: series.SeriesResult) -> set[str]:
+def missed(result):
     return {each.verdict.id for each in result.criteria if each.verdict.status == "fail"}
 
 
-def values(results: Sequence[series.SeriesResult], measure: str) -> list[tuple[float, float, float]]:
+def values(results, measure):
     estimates = [result.measures[measure].estimate for result in results]
     return [(each.value, each.low, each.high) for each in estimates if each is not None]
 
 
-def test_each_series_has_five_frictions_two_speeds_and_ten_seeds(load: Load) -> None:
+def test_each_series_has_five_frictions_two_speeds_and_ten_seeds(load):
     for name in ("four-wsps.series.yaml", "four-wsps-uncleaned.series.yaml"):
         for what, planned in load(name).items():
             assert planned.id.endswith(f"[{what}]")
@@ -61,7 +57,7 @@ def test_each_series_has_five_frictions_two_speeds_and_ten_seeds(load: Load) -> 
             assert {(each.repeat, each.seed) for each in wet} == {(10, 1701)}
 
 
-def test_no_friction_and_no_seed_was_used_to_calibrate_or_to_judge_the_compensation(load: Load) -> None:
+def test_no_friction_and_no_seed_was_used_to_calibrate_or_to_judge_the_compensation(load):
     used = [
         yaml.safe_load((ROOT / name).read_text())
         for name in ("calibration/conditions.yaml", "studies/conditions/judgement.yaml")
@@ -74,7 +70,7 @@ def test_no_friction_and_no_seed_was_used_to_calibrate_or_to_judge_the_compensat
     assert not seeds & set(range(1701, 1711))
 
 
-def test_the_twin_states_the_parameters_of_the_controller_that_it_is_a_twin_of() -> None:
+def test_the_twin_states_the_parameters_of_the_controller_that_it_is_a_twin_of():
     own = yaml.safe_load((ROOT / "examples/wsp/threshold-c.yaml").read_text())["declared_parameters"]
     built_in = scenario.load_part("controllers/threshold")
     declared = set(CONTROLLERS[DEFAULT].declared_parameters()) - {"cycle_time"}
@@ -82,7 +78,7 @@ def test_the_twin_states_the_parameters_of_the_controller_that_it_is_a_twin_of()
     assert stated == {name: float(getattr(built_in, name)) for name in declared}
 
 
-def test_the_order_on_a_few_stops(load: Load) -> None:
+def test_the_order_on_a_few_stops(load):
     """80 km/h on friction 0.084 that nothing cleans, six seeds."""
     series_of = load("four-wsps-uncleaned.series.yaml")
     results = [judged(_small(series_of[what])) for what in WSPS]
@@ -97,7 +93,7 @@ def test_the_order_on_a_few_stops(load: Load) -> None:
     assert "adhesion-utilisation" not in missed(bypassed)  # judged on a rail that sliding cleans
 
 
-def _small(planned: series_plans.Series) -> series_plans.Series:
+def _small(planned):
     stops = [
         stop
         for stop in planned.stops
@@ -113,12 +109,12 @@ def _small(planned: series_plans.Series) -> series_plans.Series:
     )
 
 
-def _repeated(resolved: scenario.Scenario, repeat: int) -> scenario.Scenario:
+def _repeated(resolved, repeat):
     return resolved.model_copy(update={"repeat": repeat})
 
 
 @pytest.mark.slow
-def test_the_order_on_a_rail_that_sliding_cleans(load: Load) -> None:
+def test_the_order_on_a_rail_that_sliding_cleans(load):
     results = [judged(planned) for planned in load("four-wsps.series.yaml").values()]
     threshold, twin, slip_band, bypassed = map(missed, results)
     assert threshold == twin == set()
@@ -127,7 +123,7 @@ def test_the_order_on_a_rail_that_sliding_cleans(load: Load) -> None:
 
 
 @pytest.mark.slow
-def test_the_order_on_a_rail_that_stays_slippery(load: Load) -> None:
+def test_the_order_on_a_rail_that_stays_slippery(load):
     results = [judged(planned) for planned in load("four-wsps-uncleaned.series.yaml").values()]
     threshold, _, slip_band, bypassed = results
     for measure in ("median_adhesion_utilisation", "k_wet"):

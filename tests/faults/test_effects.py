@@ -1,7 +1,5 @@
 """What each fault does to the rig, as its description says it: values as users write them, SI in the rig."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import asdict
 

@@ -1,5 +1,4 @@
 import re
-from collections.abc import Callable
 from functools import cache
 
 import pytest
@@ -17,7 +16,7 @@ OURS = ("rail.condition=wet", "brake.position=R", "rig.wsp=active", "criteria=[u
 
 # What sampling can lose, per sampling interval T: a time is known to T, a distance to v T at the place it is
 # taken, an extreme to what the signal does within T, a duration to T at each of its ends.
-RESOLUTION: dict[str, Callable[[float], float]] = {
+RESOLUTION = {
     "braking_time_s": lambda interval: 0.1 * interval,
     "braking_distance_m": lambda interval: 0.1 * interval,
     "mean_deceleration_mps2": lambda interval: 0.01 * interval,

@@ -3,7 +3,6 @@
 import math
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pytest
@@ -85,7 +84,7 @@ def whole(by_every_measure, recording, prepared):
 def _criterion(name, side, share, bound):
     measure = MEASURES[name]
     unit = next(iter(KINDS[measure.kind].units.values()), None)
-    fields: dict[str, Any] = {"id": f"{name.replace('_', '-')}-{side}-{share}", "layer": "requirement"}
+    fields = {"id": f"{name.replace('_', '-')}-{side}-{share}", "layer": "requirement"}
     fields[side] = bound if unit is None else f"{bound / float(unit.factor):.12f} {unit.symbol}"
     if measure.of_wheelsets:
         fields["wheelsets"] = {"at_least": "half"}

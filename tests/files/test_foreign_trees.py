@@ -53,7 +53,7 @@ def grow(folder, content, top):
 
 def state(folder):
     """Every path below a folder, and what is there: links are not followed."""
-    found: dict[str, str] = {}
+    found = {}
     for place, folders, names in os.walk(folder):
         for path in (Path(place, name) for name in (*folders, *names)):
             link = f"-> {path.readlink()}" if path.is_symlink() else ""

@@ -1,7 +1,5 @@
 """The scenario that a fit leaves: its friction and its name."""
 
-from typing import Any
-
 import pytest
 import yaml
 
@@ -17,7 +15,7 @@ HEAD = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 80 km/h\n"
 
 def fit(*estimates, breaks=()):
     """Return a fit with these standings and values, one for each stretch."""
-    found: list[Any] = [Estimate("friction", standing, value, NAN, 1) for standing, value in estimates]
+    found = [Estimate("friction", standing, value, NAN, 1) for standing, value in estimates]
     return Fit(breaks, tuple(found), None, 0.001)
 
 
@@ -54,7 +52,7 @@ def test_a_stretch_that_no_wheelset_reached_takes_its_neighbours_friction(case):
 
 
 def test_a_stretch_that_begins_behind_the_brake_command_has_one_before_it(case):
-    points: Any = friction_of(fit(("found", 0.07), ("found", 0.1), breaks=(-20.0,)), case.scenario)
+    points = friction_of(fit(("found", 0.07), ("found", 0.1), breaks=(-20.0,)), case.scenario)
     assert [each["position"] for each in points["points"]] == ["-21 m", "-20 m"]
 
 

@@ -1,29 +1,23 @@
 """FMUs of the rig, built once for all tests, and driven through FMPy."""
 
-from __future__ import annotations
-
 import tempfile
-from collections.abc import Callable, Iterator
 from functools import cache
-from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
 from uictest.api import fmu
-from uictest.plans.scenario import Case, load
+from uictest.plans.scenario import load
 
 fmpy = pytest.importorskip("fmpy", reason="the extra fmu is not installed")
 CYCLE = 0.01
-Build = Callable[..., Path]
 
 
 class Instance:
     """One instance of an FMU of either version, with its variables by name."""
 
-    def __init__(self, path: Path, start_time: float = 0.0, **options: Any) -> None:
-        self.messages: list[str] = []
+    def __init__(self, path, start_time=0.0, **options):
+        self.messages = []
         self.description = fmpy.read_model_description(str(path))
         self.version = int(self.description.fmiVersion[0])
         self.variables = {each.name: each for each in self.description.modelVariables}
@@ -40,7 +34,7 @@ class Instance:
         self.fmu.instantiate(**self._logger)
         self.begin(start_time, **options)
 
-    def _callbacks(self) -> dict[str, Any]:
+    def _callbacks(self):
         if self.version == 3:
             return {"logMessage": lambda environment, status, category, text: self._heard(text)}
         callbacks = fmpy.fmi2.fmi2CallbackFunctions()
@@ -49,15 +43,15 @@ class Instance:
         )
         return {"callbacks": callbacks}
 
-    def _heard(self, text: bytes) -> None:
+    def _heard(self, text):
         self.messages.append(text.decode())
 
-    def set_parameters(self, parameters: dict[str, int]) -> None:
+    def set_parameters(self, parameters):
         for name, value in parameters.items():
             setter = self.fmu.setInteger if self.version == 2 else self.fmu.setInt64
             setter([self.variables[name].valueReference], [value])
 
-    def begin(self, start_time: float = 0.0, late: bool = False, **parameters: int) -> None:
+    def begin(self, start_time=0.0, late=False, **parameters):
         """Initialize it; parameters are set before, or `late`, in the initialization itself."""
         if not late:
             self.set_parameters(parameters)
@@ -71,24 +65,24 @@ class Instance:
         self.fmu.exitInitializationMode()
         self.start_time, self.steps = start_time, 0
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name):
         variable = self.variables[name]
         number = variable.type in ("Real", "Float64")
         real = self.fmu.getReal if self.version == 2 else self.fmu.getFloat64
         value = (real if number else self.fmu.getBoolean)([variable.valueReference])[0]
         return value if number else bool(value)
 
-    def four(self, name: str) -> list[Any]:
+    def four(self, name):
         return [self[f"{name}_{number}"] for number in (1, 2, 3, 4)]
 
-    def step(self, hold: Any = (0,) * 4, vent: Any = (0,) * 4, size: float = CYCLE) -> None:
+    def step(self, hold=(0,) * 4, vent=(0,) * 4, size=CYCLE):
         names = [f"{magnet}_{number}" for magnet in ("hold", "vent") for number in (1, 2, 3, 4)]
         references = [self.variables[name].valueReference for name in names]
         self.fmu.setBoolean(references, [bool(each) for each in (*hold, *vent)])
         self.fmu.doStep(self.start_time + self.steps * CYCLE, size)
         self.steps += 1
 
-    def run(self, controller: Any) -> SimpleNamespace:
+    def run(self, controller):
         """Step the stop to its end with a controller outside, and keep every output."""
         outputs = [name for name, each in self.variables.items() if each.causality == "output"]
         history = []
@@ -97,14 +91,14 @@ class Instance:
             history.append(self["train_speed"])
         return SimpleNamespace(history=history, end={name: self[name] for name in outputs})
 
-    def close(self) -> None:
+    def close(self):
         self.fmu.terminate()
         self.fmu.freeInstance()
         self._folder.cleanup()
 
 
 @pytest.fixture(name="case", scope="session")
-def _case(tmp_path_factory: pytest.TempPathFactory) -> Case:
+def _case(tmp_path_factory):
     """A stop on a rail so slippery that the controller has to work."""
     path = tmp_path_factory.mktemp("scenario") / "stop.yaml"
     head = "schema: uictest/scenario/1\nname: stop\ntitle: A <short> stop\ninitial_speed: 40 km/h\n"
@@ -113,7 +107,7 @@ def _case(tmp_path_factory: pytest.TempPathFactory) -> Case:
 
 
 @pytest.fixture(name="compiler", scope="session")
-def _compiler() -> str:
+def _compiler():
     try:
         return fmu.usable_compiler()
     except fmu.CannotBuildError as error:
@@ -121,11 +115,11 @@ def _compiler() -> str:
 
 
 @pytest.fixture(name="build", scope="session")
-def _build(tmp_path_factory: pytest.TempPathFactory, compiler: str, case: Case) -> Build:
+def _build(tmp_path_factory, compiler, case):
     """Write the FMU of the case in a version of FMI."""
 
     @cache
-    def build(version: fmu.FmiVersion) -> Path:
+    def build(version):
         path = tmp_path_factory.mktemp("fmu") / f"rig{version}.fmu"
         path.write_bytes(fmu.build_fmu(case, version, compiler))
         return path
@@ -134,11 +128,11 @@ def _build(tmp_path_factory: pytest.TempPathFactory, compiler: str, case: Case) 
 
 
 @pytest.fixture(name="instance")
-def _instance(build: Build) -> Iterator[Callable[..., Instance]]:
+def _instance(build):
     """Make instances that are freed at the end of the test."""
-    made: list[Instance] = []
+    made = []
 
-    def make(version: int, **options: Any) -> Instance:
+    def make(version, **options):
         made.append(Instance(build(version), **options))
         return made[-1]
 

@@ -1,38 +1,33 @@
 """The file of an FMU: valid, the same every time, and without anything of the machine that built it."""
 
-from __future__ import annotations
-
 import io
 import json
 import shutil
 import subprocess
 import uuid
 import zipfile
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import pytest
 
 from uictest import __version__
 from uictest.api import fmu
-from uictest.plans.scenario import Case, load
+from uictest.plans.scenario import load
 
 fmpy = pytest.importorskip("fmpy", reason="the extra fmu is not installed")
 VERSIONS = pytest.mark.parametrize("version", [2, 3])
-Build = Callable[..., Path]
 
 
 @VERSIONS
-def test_fmpy_finds_nothing_wrong(build: Build, version: int) -> None:
+def test_fmpy_finds_nothing_wrong(build, version):
     from fmpy.validation import validate_fmu
 
     assert validate_fmu(str(build(version))) == []
 
 
 @VERSIONS
-def test_the_description_says_what_other_tools_must_know(build: Build, version: int) -> None:
+def test_the_description_says_what_other_tools_must_know(build, version):
     described = fmpy.read_model_description(str(build(version)))
     simulation = described.coSimulation
     assert not simulation.canHandleVariableCommunicationStepSize
@@ -46,18 +41,18 @@ def test_the_description_says_what_other_tools_must_know(build: Build, version: 
     assert all(unknown.dependencies == [] for unknown in described.outputs)
 
 
-def described(path: Path) -> ElementTree.Element:
+def described(path):
     """Return the root of the model description as it is written."""
     with zipfile.ZipFile(path) as archive:
         return ElementTree.fromstring(archive.read("modelDescription.xml"))
 
 
 @VERSIONS
-def test_units_are_told_in_those_of_the_si_and_in_those_that_people_read(build: Build, version: int) -> None:
+def test_units_are_told_in_those_of_the_si_and_in_those_that_people_read(build, version):
     """1 N = 1 kg m/s2, 1 Pa = 1 N/m2; 1 m/s = 3.6 km/h, 1 Pa = 0.00001 bar."""
     units = list(described(build(version)).iter("Unit"))
     in_si = {
-        str(unit.get("name")): {base: int(power) for base, power in unit.find("BaseUnit").attrib.items()}  # type: ignore[union-attr]
+        str(unit.get("name")): {base: int(power) for base, power in unit.find("BaseUnit").attrib.items()}
         for unit in units
     }
     assert in_si == {
@@ -77,7 +72,7 @@ def test_units_are_told_in_those_of_the_si_and_in_those_that_people_read(build: 
 
 
 @VERSIONS
-def test_every_variable_has_the_unit_of_its_quantity(build: Build, version: int) -> None:
+def test_every_variable_has_the_unit_of_its_quantity(build, version):
     quantities = {"speed": "m/s", "pressure": "Pa", "distance": "m", "time": "s", "load": "N", "force": "N"}
     quantities["torque"] = "N.m"
     for variable in fmpy.read_model_description(str(build(version))).modelVariables:
@@ -86,9 +81,7 @@ def test_every_variable_has_the_unit_of_its_quantity(build: Build, version: int)
 
 
 @VERSIONS
-def test_the_seed_and_the_longest_duration_are_those_of_the_case(
-    build: Build, case: Case, version: int
-) -> None:
+def test_the_seed_and_the_longest_duration_are_those_of_the_case(build, case, version):
     description = fmpy.read_model_description(str(build(version)))
     longest = float(case.scenario.simulation.maximum_duration)
     assert float(description.defaultExperiment.stopTime) == pytest.approx(longest)
@@ -97,7 +90,7 @@ def test_the_seed_and_the_longest_duration_are_those_of_the_case(
     assert (seed.name, int(seed.start), int(seed.min), int(seed.max)) == ("seed", 5, 0, largest)
 
 
-def test_the_token_of_a_description_is_a_guid_of_its_own(build: Build) -> None:
+def test_the_token_of_a_description_is_a_guid_of_its_own(build):
     tokens = [
         described(build(2)).get("guid", ""),
         described(build(3)).get("instantiationToken", ""),
@@ -108,7 +101,7 @@ def test_the_token_of_a_description_is_a_guid_of_its_own(build: Build) -> None:
 
 
 @VERSIONS
-def test_only_functions_of_fmi_are_exported(build: Build, version: int, tmp_path: Path) -> None:
+def test_only_functions_of_fmi_are_exported(build, version, tmp_path):
     tool = shutil.which("nm")
     if tool is None:
         pytest.skip("there is no nm here")
@@ -122,7 +115,7 @@ def test_only_functions_of_fmi_are_exported(build: Build, version: int, tmp_path
 
 
 @VERSIONS
-def test_every_function_of_co_simulation_is_there(build: Build, version: int, tmp_path: Path) -> None:
+def test_every_function_of_co_simulation_is_there(build, version, tmp_path):
     """As FMPy's header declares them: tools look all of them up."""
     import ctypes
     import re
@@ -142,11 +135,11 @@ def test_every_function_of_co_simulation_is_there(build: Build, version: int, tm
 
 
 @VERSIONS
-def test_the_same_case_gives_the_same_bytes(build: Build, compiler: str, case: Case, version: Any) -> None:
+def test_the_same_case_gives_the_same_bytes(build, compiler, case, version):
     assert fmu.build_fmu(case, version, compiler) == build(version).read_bytes()
 
 
-def test_nothing_of_the_machine_is_in_it(build: Build, case: Case) -> None:
+def test_nothing_of_the_machine_is_in_it(build, case):
     with zipfile.ZipFile(build(2)) as archive:
         content = b"".join(archive.read(name) for name in archive.namelist())
     for own in (str(Path.home()), str(Path.cwd()), str(case.path.parent), "/tmp/uictest"):
@@ -154,7 +147,7 @@ def test_nothing_of_the_machine_is_in_it(build: Build, case: Case) -> None:
 
 
 @VERSIONS
-def test_it_says_which_case_it_is(build: Build, case: Case, version: int) -> None:
+def test_it_says_which_case_it_is(build, case, version):
     with zipfile.ZipFile(build(version)) as archive:
         page = archive.read("documentation/index.html").decode()
         facts = json.loads(archive.read("resources/case.json"))
@@ -166,13 +159,13 @@ def test_it_says_which_case_it_is(build: Build, case: Case, version: int) -> Non
         assert text in page
 
 
-def test_an_fmu_refuses_the_description_of_another(build: Build) -> None:
+def test_an_fmu_refuses_the_description_of_another(build):
     described = fmpy.read_model_description(str(build(2)))
     with pytest.raises(Exception, match="instantiate"):
         fmpy.simulate_fmu(swapped_token(build(2), described.guid), stop_time=0.1)
 
 
-def swapped_token(path: Path, token: str) -> str:
+def swapped_token(path, token):
     other = path.with_name("other.fmu")
     with zipfile.ZipFile(path) as archive, zipfile.ZipFile(other, "w") as changed:
         for name in archive.namelist():
@@ -183,23 +176,21 @@ def swapped_token(path: Path, token: str) -> str:
     return str(other)
 
 
-def test_a_seed_beyond_the_integers_of_fmi_2_is_refused(compiler: str, case: Case) -> None:
+def test_a_seed_beyond_the_integers_of_fmi_2_is_refused(compiler, case):
     [other] = load([case.path], seed=2**31)
     with pytest.raises(ValueError, match=r"seed 2147483648 is above 2147483647.*--seed"):
         fmu.build_fmu(other, 2, compiler)
     assert zipfile.is_zipfile(io.BytesIO(fmu.build_fmu(other, 3, compiler)))
 
 
-def test_without_a_compiler_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_without_a_compiler_it_says_what_to_install(monkeypatch, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("CC", raising=False)
     with pytest.raises(fmu.CannotBuildError, match=r"no C compiler \(cc or gcc or clang\): install gcc"):
         fmu.usable_compiler()
 
 
-def test_a_compiler_that_cannot_link_is_found_out_before_anything_is_compiled(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_a_compiler_that_cannot_link_is_found_out_before_anything_is_compiled(monkeypatch, tmp_path):
     broken = tmp_path / "broken-cc"
     broken.write_text("#!/bin/sh\necho 'cannot find crti.o' >&2\nexit 1\n")
     broken.chmod(0o755)
@@ -208,7 +199,7 @@ def test_a_compiler_that_cannot_link_is_found_out_before_anything_is_compiled(
         fmu.usable_compiler()
 
 
-def extracted(path: Path, suffix: str, folder: Path) -> Path:
+def extracted(path, suffix, folder):
     with zipfile.ZipFile(path) as archive:
         [name] = [name for name in archive.namelist() if name.endswith(suffix)]
         return Path(archive.extract(name, folder))

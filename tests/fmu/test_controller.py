@@ -1,14 +1,10 @@
 """A controller as an FMU gives the commands that it gives in process, and takes what it is given."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import zipfile
-from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -71,13 +67,13 @@ const char *uictest_last_error(void *controller) { (void)controller; return reas
 
 
 @pytest.fixture(autouse=True)
-def temporary_folder(monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory) -> None:
+def temporary_folder(monkeypatch, tmp_path_factory):
     """FMUs stay unpacked until Python ends."""
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path_factory.mktemp("unpacked")))
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory, compiler: str) -> Path:
+def folder(tmp_path_factory, compiler):
     """What `uictest init controller --c` writes, built as it says, and a controller without a part."""
     folder = tmp_path_factory.mktemp("wsp")
     for name, text in templates.controller_files("c").items():
@@ -92,11 +88,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory, compiler: str) -> Path:
 
 
 @pytest.fixture(scope="module")
-def exported(folder: Path, compiler: str) -> Callable[[str, int], Path]:
+def exported(folder, compiler):
     """Write the FMU of a controller into the folder, once."""
 
     @cache
-    def export(reference: str, version: Any) -> Path:
+    def export(reference, version):
         there = folder / reference
         part = load_controller(str(there) if there.exists() else reference)
         path = folder / f"{Path(reference).stem}-{version}.fmu"
@@ -107,11 +103,11 @@ def exported(folder: Path, compiler: str) -> Callable[[str, int], Path]:
 
 
 @pytest.fixture
-def own(exported: Callable[[str, int], Path]) -> Iterator[Callable[..., Instance]]:
+def own(exported):
     """Make instances of the controller that fails, and free them."""
-    made: list[Instance] = []
+    made = []
 
-    def make(version: int) -> Instance:
+    def make(version):
         made.append(Instance(exported("own.so", version)))
         return made[-1]
 
@@ -120,7 +116,7 @@ def own(exported: Callable[[str, int], Path]) -> Iterator[Callable[..., Instance
         each.close()
 
 
-def recorded(folder: Path, controller: str) -> dict[str, bytes]:
+def recorded(folder, controller):
     """Every channel of a stop, to the bit; one that has no rate of its own says what each cycle brought."""
     path = folder / "stop.yaml"
     path.write_text(f"{STOP}controller: {controller}\n")
@@ -140,9 +136,7 @@ def recorded(folder: Path, controller: str) -> dict[str, bytes]:
         ("slip-band", "{}"),
     ],
 )
-def test_a_stop_has_the_bits_of_the_controller_in_process(
-    folder: Path, exported: Callable[[str, int], Path], controller: str, settings: str, version: int
-) -> None:
+def test_a_stop_has_the_bits_of_the_controller_in_process(folder, exported, controller, settings, version):
     """The FMU is named without `variables`: all of them have the names that a scenario looks for."""
     others = settings[1:-1]
     there = recorded(folder, f"{{extends: {controller}, {others}}}" if others else controller)
@@ -156,17 +150,15 @@ def test_a_stop_has_the_bits_of_the_controller_in_process(
 
 @VERSIONS
 @pytest.mark.parametrize("controller", ["my-wsp.yaml", "own.so", "slip-band"])
-def test_fmpy_finds_nothing_wrong(
-    exported: Callable[[str, int], Path], controller: str, version: int
-) -> None:
+def test_fmpy_finds_nothing_wrong(exported, controller, version):
     from fmpy.validation import validate_fmu
 
     assert validate_fmu(str(exported(controller, version))) == []
 
 
 @VERSIONS
-def test_declared_parameters_are_those_of_the_fmu(exported: Callable[[str, int], Path], version: int) -> None:
-    def of(controller: str) -> tuple[str, dict[str, Any]]:
+def test_declared_parameters_are_those_of_the_fmu(exported, version):
+    def of(controller):
         described = fmpy.read_model_description(str(exported(controller, version)))
         parameters = [each for each in described.modelVariables if each.causality == "parameter"]
         return described.version, {each.name: each for each in parameters}
@@ -184,9 +176,7 @@ def test_declared_parameters_are_those_of_the_fmu(exported: Callable[[str, int],
 
 
 @VERSIONS
-def test_a_controller_is_given_its_parameters_and_says_why_it_fails(
-    own: Callable[[int], Instance], version: int
-) -> None:
+def test_a_controller_is_given_its_parameters_and_says_why_it_fails(own, version):
     """It is created with every declared value, and its message has a percent sign, which C formats read."""
     instance = own(version)
     diagnoses = []
@@ -208,7 +198,7 @@ def test_a_controller_is_given_its_parameters_and_says_why_it_fails(
 
 
 @VERSIONS
-def test_what_it_cannot_do_is_an_error_with_its_reason(own: Callable[[int], Instance], version: int) -> None:
+def test_what_it_cannot_do_is_an_error_with_its_reason(own, version):
     instance = own(version)
     for size, place in ((0.02, 0.0), (0.01, 0.05)):
         with pytest.raises(Exception, match="DoStep"):
@@ -231,7 +221,7 @@ def test_what_it_cannot_do_is_an_error_with_its_reason(own: Callable[[int], Inst
     assert instance.messages[4].startswith("uictest_create failed: given {")
 
 
-def test_two_fmus_in_one_process_have_their_own_controllers(exported: Callable[[str, int], Path]) -> None:
+def test_two_fmus_in_one_process_have_their_own_controllers(exported):
     first, second = Instance(exported("my-wsp.yaml", 2)), Instance(exported("slip-band", 2))
     for instance in (first, second):
         speeds = [instance.variables[f"wheel_speed_{i}"].valueReference for i in (1, 2, 3, 4)]
@@ -244,9 +234,7 @@ def test_two_fmus_in_one_process_have_their_own_controllers(exported: Callable[[
     second.close()
 
 
-def test_nothing_of_the_machine_is_in_it_and_the_same_gives_the_same_bytes(
-    folder: Path, exported: Callable[[str, int], Path], compiler: str
-) -> None:
+def test_nothing_of_the_machine_is_in_it_and_the_same_gives_the_same_bytes(folder, exported, compiler):
     source = folder / "asserting.c"
     source.write_text(
         "#include <assert.h>\n" + OWN.replace("return malloc(1);", "assert(config); return malloc(1);")
@@ -262,7 +250,7 @@ def test_nothing_of_the_machine_is_in_it_and_the_same_gives_the_same_bytes(
     assert fmu.build_controller_fmu(part, 2, compiler).content == exported("threshold", 2).read_bytes()
 
 
-def test_what_its_user_should_know_is_noted(folder: Path, compiler: str) -> None:
+def test_what_its_user_should_know_is_noted(folder, compiler):
     library = folder / "noted.so"
     library.write_bytes((folder / "own.so").read_bytes() + str(folder).encode())
     notes = fmu.build_controller_fmu(load_controller(str(library)), 2, compiler).notes
@@ -281,9 +269,7 @@ def test_what_its_user_should_know_is_noted(folder: Path, compiler: str) -> None
         (OWN.replace("return malloc(1)", "abort()"), "crashed with SIGABRT"),
     ],
 )
-def test_a_library_that_cannot_be_exported_says_why(
-    tmp_path: Path, compiler: str, source: str, reason: str
-) -> None:
+def test_a_library_that_cannot_be_exported_says_why(tmp_path, compiler, source, reason):
     (tmp_path / "wsp.c").write_text(source)
     (tmp_path / "wsp.so").write_bytes(fmu.library_of_sources(compiler, [tmp_path / "wsp.c"]))
     with pytest.raises((ControllerError, fmu.NotExportableError), match=reason):

@@ -1,17 +1,14 @@
 """The loop that docs/rig.md shows runs on an FMU."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 PAGE = Path(__file__).parents[2] / "docs" / "rig.md"
 
 
-def test_the_loop_of_the_page_stops_the_train(build: Callable[..., Path], tmp_path: Path) -> None:
+def test_the_loop_of_the_page_stops_the_train(build, tmp_path):
     program = re.search(r"# close_loop.py\n.*?(?=^```$)", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
     assert program is not None
     (tmp_path / "rig.fmu").write_bytes(build(2).read_bytes())

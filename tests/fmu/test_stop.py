@@ -1,24 +1,15 @@
 """A stop that is stepped through FMPy is the stop of `run`, to the bit."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from typing import Any
-
 import pytest
 
 from uictest import rig
-from uictest.plans.scenario import Case
 
 VERSIONS = pytest.mark.parametrize("version", [2, 3])
-MakeInstance = Callable[..., Any]
 PascalPerBar = 1e5
 
 
 @VERSIONS
-def test_a_stop_has_the_bits_of_run(
-    instance: MakeInstance, controller_outside: Callable[[Case], Any], case: Case, version: int
-) -> None:
+def test_a_stop_has_the_bits_of_run(instance, controller_outside, case, version):
     ran = rig.simulate(case, record_every=0.01)
     assert ran.recording is not None
     stepped = instance(version).run(controller_outside(case))
@@ -41,7 +32,7 @@ def test_a_stop_has_the_bits_of_run(
 
 
 @VERSIONS
-def test_the_sensors_show_the_brake_command(instance: MakeInstance, version: int) -> None:
+def test_the_sensors_show_the_brake_command(instance, version):
     rig_instance = instance(version)
     assert rig_instance["train_speed"] == pytest.approx(40 / 3.6)
     assert rig_instance.four("wheel_speed") == pytest.approx([40 / 3.6] * 4, rel=0.02)
@@ -54,7 +45,7 @@ def test_the_sensors_show_the_brake_command(instance: MakeInstance, version: int
 
 
 @VERSIONS
-def test_two_instances_do_not_disturb_each_other(instance: MakeInstance, version: int) -> None:
+def test_two_instances_do_not_disturb_each_other(instance, version):
     alone, first, second = (instance(version) for _ in range(3))
     for _ in range(200):
         alone.step()
@@ -66,7 +57,7 @@ def test_two_instances_do_not_disturb_each_other(instance: MakeInstance, version
 
 
 @VERSIONS
-def test_reset_gives_the_same_stop_and_forgets_the_seed(instance: MakeInstance, version: int) -> None:
+def test_reset_gives_the_same_stop_and_forgets_the_seed(instance, version):
     each = instance(version)
     marks = []
     for seed in ({}, {"seed": 6}, {"seed": 5}, {}):
@@ -80,13 +71,13 @@ def test_reset_gives_the_same_stop_and_forgets_the_seed(instance: MakeInstance, 
 
 
 @VERSIONS
-def test_the_seed_may_be_set_before_or_in_the_initialization(instance: MakeInstance, version: int) -> None:
+def test_the_seed_may_be_set_before_or_in_the_initialization(instance, version):
     early, late, neither = instance(version, seed=6), instance(version, late=True, seed=6), instance(version)
     assert early.four("wheel_speed") == late.four("wheel_speed") != neither.four("wheel_speed")
 
 
 @VERSIONS
-def test_going_back_to_an_earlier_state(instance: MakeInstance, version: int) -> None:
+def test_going_back_to_an_earlier_state(instance, version):
     each = instance(version)
     for _ in range(100):
         each.step()
@@ -107,7 +98,7 @@ def test_going_back_to_an_earlier_state(instance: MakeInstance, version: int) ->
 
 
 @VERSIONS
-def test_after_the_end_time_goes_on_and_the_outputs_stay(instance: MakeInstance, version: int) -> None:
+def test_after_the_end_time_goes_on_and_the_outputs_stay(instance, version):
     each = instance(version)
     while not each["ended"]:
         each.step()
@@ -118,7 +109,7 @@ def test_after_the_end_time_goes_on_and_the_outputs_stay(instance: MakeInstance,
 
 
 @VERSIONS
-def test_a_simulation_may_begin_at_any_time(instance: MakeInstance, version: int) -> None:
+def test_a_simulation_may_begin_at_any_time(instance, version):
     late, early = instance(version, start_time=100.0), instance(version)
     for _ in range(50):
         late.step()
@@ -136,9 +127,7 @@ def test_a_simulation_may_begin_at_any_time(instance: MakeInstance, version: int
         ({"vent": [0, 0, 1, 0]}, "vent_3 without hold_3 is forbidden: both are true in order to vent"),
     ],
 )
-def test_a_step_that_the_rig_cannot_take_is_an_error(
-    instance: MakeInstance, version: int, wrong: dict[str, Any], message: str
-) -> None:
+def test_a_step_that_the_rig_cannot_take_is_an_error(instance, version, wrong, message):
     each = instance(version)
     with pytest.raises(Exception, match="DoStep"):
         each.step(**wrong)
@@ -148,7 +137,7 @@ def test_a_step_that_the_rig_cannot_take_is_an_error(
 
 
 @VERSIONS
-def test_a_step_at_another_time_is_an_error(instance: MakeInstance, version: int) -> None:
+def test_a_step_at_another_time_is_an_error(instance, version):
     each = instance(version)
     each.steps = 5
     with pytest.raises(Exception, match="DoStep"):
@@ -157,7 +146,7 @@ def test_a_step_at_another_time_is_an_error(instance: MakeInstance, version: int
 
 
 @VERSIONS
-def test_a_parameter_is_fixed_once_the_stop_has_begun(instance: MakeInstance, version: int) -> None:
+def test_a_parameter_is_fixed_once_the_stop_has_begun(instance, version):
     each = instance(version)
     setter = each.fmu.setInteger if version == 2 else each.fmu.setInt64
     with pytest.raises(Exception, match="Set"):
@@ -166,7 +155,7 @@ def test_a_parameter_is_fixed_once_the_stop_has_begun(instance: MakeInstance, ve
 
 
 @VERSIONS
-def test_an_output_cannot_be_set(instance: MakeInstance, version: int) -> None:
+def test_an_output_cannot_be_set(instance, version):
     each = instance(version)
     setter = each.fmu.setReal if version == 2 else each.fmu.setFloat64
     with pytest.raises(Exception, match="Set"):

@@ -1,7 +1,5 @@
 """Records made with known parameters."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -17,7 +15,7 @@ LINES = {
 
 
 @pytest.fixture(scope="session")
-def pressures() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def pressures():
     """Time, pressure and WSP phase: two triangles of growing height, then cycles as a WSP makes them."""
     corners = [(0, 0), (4, 2e5), (8, 0), (15, 4e5), (22, 0), (25, 4e5)]
     at = 25.0
@@ -30,7 +28,7 @@ def pressures() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 @pytest.fixture(scope="session")
-def force(pressures: tuple[np.ndarray, np.ndarray, np.ndarray]) -> np.ndarray:
+def force(pressures):
     """Force of the known lines along these pressures, N."""
     _, pressure, acting = pressures
     return computed_force(pressure, acting, LINES, 0.0, STEP, 0.0)

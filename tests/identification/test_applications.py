@@ -1,7 +1,5 @@
 """Brake applications in a record."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The transfer function that made a record is found in it again."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

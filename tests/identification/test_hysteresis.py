@@ -1,7 +1,5 @@
 """Lines that made a record are found in it again."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Robust lines."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st

@@ -1,7 +1,5 @@
 """Phases of a record."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from uictest.rig.identification.lines import (

@@ -1,15 +1,11 @@
 """The compensation of the library comes out again of the commands that its recipes name."""
 
-from __future__ import annotations
-
 import shlex
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from uictest.cli.entry import execute
-from uictest.plans.scenario.parts.compensation import Compensation
 from uictest.rig.bench.recipe import recipe_path
 from uictest.rig.identification.compensation_file import load_compensation
 from uictest.rig.identification.cylinder import TransferFunction
@@ -18,19 +14,19 @@ PHASES = ("bc_squeezing", "bc_releasing", "wsp_squeezing", "wsp_releasing")
 FREQUENCIES = np.geomspace(0.01, 20.0, 30)
 
 
-def commands() -> list[list[str]]:
+def commands():
     """The command lines that the comment of the recipe gives."""
     lines = recipe_path("six-inch-hysteresis").read_text("utf-8").splitlines()
     return [shlex.split(line[1:])[1:] for line in lines if line.startswith("#   uictest ")]
 
 
-def response(part: Compensation) -> np.ndarray:
+def response(part):
     numerator, denominator = map(tuple, (part.cylinder.numerator, part.cylinder.denominator))
     return TransferFunction(numerator, denominator, float(part.sampling_time)).response(FREQUENCIES)
 
 
 @pytest.mark.slow
-def test_it_is_regenerated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_is_regenerated(tmp_path, monkeypatch):
     """Lines to a thousandth, the response to a hundredth: the simplex ends elsewhere under another BLAS."""
     monkeypatch.chdir(tmp_path)
     steps = commands()
@@ -51,7 +47,7 @@ def test_it_is_regenerated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
         )
 
 
-def test_its_numbers_are_marked_identified_from_the_simulated_caliper() -> None:
+def test_its_numbers_are_marked_identified_from_the_simulated_caliper():
     shipped = load_compensation("six-inch")
     numbers = [shipped.linear.slope, shipped.cylinder.numerator[0], *(value for _, value in shipped.air)]
     numbers += [getattr(shipped.hysteresis, phase).slope for phase in PHASES]
@@ -60,7 +56,7 @@ def test_its_numbers_are_marked_identified_from_the_simulated_caliper() -> None:
         assert shipped.provenance[f"{topic} record origin"] == "simulated caliper"
 
 
-def test_its_step_response_stays_where_it_has_arrived() -> None:
+def test_its_step_response_stays_where_it_has_arrived():
     """Within 0.3 % of the end once it has come so near: the hysteresis keeps the largest pressure."""
     part = load_compensation("six-inch")
     numerator, denominator = map(tuple, (part.cylinder.numerator, part.cylinder.denominator))

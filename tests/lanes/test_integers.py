@@ -1,13 +1,9 @@
 """Whole numbers in lanes against numpy's, and a generator of random bits against itself one by one."""
 
-from collections.abc import Callable
-from typing import Any
-
 import numba
 import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
-from numpy.typing import NDArray
 
 from uictest.core import lanes
 from uictest.core.lanes import select, translate, vectors
@@ -16,9 +12,8 @@ from uictest.core.physics.sensors import bell, threefry
 WIDTH = 8
 PAIR = np.dtype((np.record, [("a", "i8"), ("b", "i8"), ("result", "i8"), ("number", "f8")]))
 numbers = st.lists(st.integers(-(2**63), 2**63 - 1), min_size=WIDTH, max_size=WIDTH)
-Operation = Callable[[Any, Any], Any]
 
-OPERATIONS: dict[str, Operation] = {
+OPERATIONS = {
     "add": lambda a, b: a + b,
     "multiply": lambda a, b: a * b,
     "and": lambda a, b: a & b,
@@ -29,7 +24,7 @@ OPERATIONS: dict[str, Operation] = {
     "number on the left": lambda a, b: 0x1BD11BDA ^ a,
     "number on the right": lambda a, b: b + 5,
 }
-CHOICES: dict[str, tuple[Operation, Operation]] = {
+CHOICES = {
     "less": (lambda a, b: select(a < b, a, b), lambda a, b: np.where(a < b, a, b)),
     "less than a number": (lambda a, b: select(b < 3, a, 0), lambda a, b: np.where(b < 3, a, 0)),
     "equal": (
@@ -39,16 +34,16 @@ CHOICES: dict[str, tuple[Operation, Operation]] = {
 }
 
 
-def applied(function: Operation) -> Callable[[Any, Any], NDArray[np.int64]]:
+def applied(function):
     """Compile ``function(a, b)`` of whole numbers in lanes and call it on numbers."""
     compiled = numba.njit(function)
 
     @numba.njit
-    def apply(block: Any) -> None:
+    def apply(block):
         record = vectors(block)
         record.result = compiled(record.a, record.b)
 
-    def call(a: Any, b: Any) -> NDArray[np.int64]:
+    def call(a, b):
         block = lanes.block(PAIR, WIDTH)
         block["a"], block["b"] = a, b
         apply(block)
@@ -58,36 +53,34 @@ def applied(function: Operation) -> Callable[[Any, Any], NDArray[np.int64]]:
 
 
 @pytest.fixture(scope="module", params=OPERATIONS)
-def operation(request: pytest.FixtureRequest) -> tuple[Operation, Operation]:
+def operation(request):
     function = OPERATIONS[request.param]
     return applied(function), function
 
 
 @given(a=numbers, b=numbers)
 @settings(deadline=None)
-def test_operations_are_those_of_numpy(
-    operation: tuple[Operation, Operation], a: list[int], b: list[int]
-) -> None:
+def test_operations_are_those_of_numpy(operation, a, b):
     in_lanes, in_numpy = operation
     np.testing.assert_array_equal(in_lanes(a, b), in_numpy(np.array(a), np.array(b)))
 
 
 @pytest.fixture(scope="module", params=CHOICES)
-def choice(request: pytest.FixtureRequest) -> tuple[Operation, Operation]:
+def choice(request):
     in_lanes, in_numpy = CHOICES[request.param]
     return applied(in_lanes), in_numpy
 
 
 @given(a=numbers, b=numbers)
 @settings(deadline=None)
-def test_choices_are_those_of_numpy(choice: tuple[Operation, Operation], a: list[int], b: list[int]) -> None:
+def test_choices_are_those_of_numpy(choice, a, b):
     in_lanes, in_numpy = choice
     np.testing.assert_array_equal(in_lanes(a, b), in_numpy(np.array(a), np.array(b)))
 
 
-def test_a_counter_counts_in_every_lane() -> None:
+def test_a_counter_counts_in_every_lane():
     @numba.njit
-    def count(block: Any) -> None:
+    def count(block):
         record = vectors(block)
         record.a += 1
 
@@ -97,9 +90,9 @@ def test_a_counter_counts_in_every_lane() -> None:
     np.testing.assert_array_equal(block["a"][0], np.arange(WIDTH) - 2)
 
 
-def test_a_sum_with_a_float_is_a_float() -> None:
+def test_a_sum_with_a_float_is_a_float():
     @numba.njit
-    def halve(block: Any) -> None:
+    def halve(block):
         record = vectors(block)
         record.number = (record.a + 1.0) * 0.5
 
@@ -109,11 +102,11 @@ def test_a_sum_with_a_float_is_a_float() -> None:
     np.testing.assert_array_equal(block["number"][0], (np.arange(WIDTH) - 2) * 0.5)
 
 
-def test_noise_in_lanes_has_the_bits_of_noise_one_by_one() -> None:
+def test_noise_in_lanes_has_the_bits_of_noise_one_by_one():
     in_lanes, together = translate(threefry, numba.njit, {}), translate(bell, numba.njit, {})
 
     @numba.njit
-    def draw(block: Any) -> None:
+    def draw(block):
         record = vectors(block)
         word_0, word_1 = in_lanes(record.a, record.b, record.result, 35)
         record.number = together(word_0, word_1)

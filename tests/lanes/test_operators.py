@@ -1,8 +1,6 @@
 """Each operation of vectors against numpy's, bit for bit."""
 
-from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
 import numba
 import numpy as np
@@ -20,16 +18,16 @@ numbers = st.lists(st.floats(width=64), min_size=WIDTH, max_size=WIDTH)
 Numbers = NDArray[np.float64]
 
 
-def applied(function: Callable[..., Any]) -> Callable[[Any, Any], Numbers]:
+def applied(function):
     """Compile ``function(a, b)`` of vectors and call it on numbers."""
     compiled = numba.njit(error_model="numpy")(function)
 
     @numba.njit(error_model="numpy")
-    def apply(block: Any) -> None:
+    def apply(block):
         record = vectors(block)
         record.result = compiled(record.a, record.b)
 
-    def call(a: Any, b: Any) -> Numbers:
+    def call(a, b):
         block = lanes.block(PAIR, WIDTH)
         block["a"], block["b"] = a, b
         apply(block)
@@ -38,7 +36,7 @@ def applied(function: Callable[..., Any]) -> Callable[[Any, Any], Numbers]:
     return call
 
 
-BINARY: dict[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
+BINARY = {
     "add": (lambda a, b: a + b, np.add),
     "sub": (lambda a, b: a - b, np.subtract),
     "mul": (lambda a, b: a * b, np.multiply),
@@ -68,28 +66,26 @@ BINARY: dict[str, tuple[Callable[..., Any], Callable[..., Any]]] = {
 
 
 @pytest.fixture(scope="module", params=BINARY)
-def operation(request: pytest.FixtureRequest) -> tuple[Callable[..., Any], Callable[..., Any]]:
+def operation(request):
     in_lanes, in_numpy = BINARY[request.param]
     return applied(in_lanes), in_numpy
 
 
-def same_bits(a: Numbers, b: Numbers) -> bool:
+def same_bits(a, b):
     """Equality of bits; the payload of a NaN is nobody's business."""
     return bool(np.all((a.view(np.int64) == b.view(np.int64)) | (np.isnan(a) & np.isnan(b))))
 
 
 @given(a=numbers, b=numbers)
 @settings(deadline=None)
-def test_operations_give_the_bits_of_numpy(
-    operation: tuple[Callable[..., Any], Callable[..., Any]], a: list[float], b: list[float]
-) -> None:
+def test_operations_give_the_bits_of_numpy(operation, a, b):
     in_lanes, in_numpy = operation
     with np.errstate(all="ignore"):
         expected = np.asarray(in_numpy(np.array(a), np.array(b)), np.float64)
     assert same_bits(in_lanes(a, b), expected)
 
 
-def test_a_product_is_rounded_before_it_is_added() -> None:
+def test_a_product_is_rounded_before_it_is_added():
     # 1 - (1 + e) (1 - e) is e^2 when product and sum are fused, and 0 when the product is rounded.
     difference = applied(lambda a, b: 1.0 - (1.0 + a) * (1.0 - a))
     assert np.all(difference(2.0**-30, 0.0) == 0.0)
@@ -101,9 +97,7 @@ moderate = st.floats(1e-100, 1e100) | st.floats(-1e100, -1e-100)
 
 @given(a=moderate, b=moderate, c=moderate, nearly=st.integers(-3, 3))
 @settings(deadline=None, max_examples=300)
-def test_a_fused_product_is_rounded_once(
-    fused: tuple[Callable[..., Any], Callable[..., Any]], a: float, b: float, c: float, nearly: int
-) -> None:
+def test_a_fused_product_is_rounded_once(fused, a, b, c, nearly):
     in_lanes, of_numbers = fused
     close = -(a * b) * (1.0 + nearly * 2.0**-52)
     for term in (c, close):
@@ -112,7 +106,7 @@ def test_a_fused_product_is_rounded_once(
         assert of_numbers(a, b, term) == exact
 
 
-def without_instruction(**replaced: Any) -> Any:
+def without_instruction(**replaced):
     """The fused multiply-add as it is written for processors that have none."""
     done = {getattr(arithmetic, name): function for name, function in replaced.items()}
     return translate(arithmetic.fma, numba.njit, done)
@@ -128,20 +122,20 @@ FUSED = {
 
 
 @pytest.fixture(scope="module", params=FUSED)
-def fused(request: pytest.FixtureRequest) -> tuple[Callable[..., Any], Callable[..., Any]]:
+def fused(request):
     """A fused multiply-add in lanes, its third term a number, and of numbers alone."""
     fma_in_lanes, fma = FUSED[request.param]
 
     @numba.njit
-    def of_numbers(a: float, b: float, c: float) -> Any:
+    def of_numbers(a, b, c):
         return fma(a, b, c)
 
     @numba.njit
-    def apply(block: Any, c: float) -> None:
+    def apply(block, c):
         record = vectors(block)
         record.result = fma_in_lanes(record.a, record.b, c)
 
-    def in_lanes(a: float, b: float, c: float) -> Numbers:
+    def in_lanes(a, b, c):
         block = lanes.block(PAIR, WIDTH)
         block["a"], block["b"] = a, b
         apply(block, c)
@@ -155,13 +149,13 @@ IN_LANES = {getattr(physics, name): getattr(lanes, name) for name in NAMES}
 
 
 @pytest.mark.parametrize("width", [2, 4, 8, 16])
-def test_a_law_of_the_rig_gives_the_bits_of_plain_python_at_any_width(width: int) -> None:
+def test_a_law_of_the_rig_gives_the_bits_of_plain_python_at_any_width(width):
     """Flow through an orifice: choked, subsonic, nearly none, and none, either way."""
     law = translate(mass_flow, numba.njit(error_model="numpy"), dict(IN_LANES))
     orifice = (1.0, 1.0, 1e-8, *orifice_law(0.35, 0.995))
 
     @numba.njit(error_model="numpy")
-    def apply(block: Any) -> None:
+    def apply(block):
         records = vectors(block)
         for i in range(16):
             record = records[i]
@@ -177,13 +171,13 @@ def test_a_law_of_the_rig_gives_the_bits_of_plain_python_at_any_width(width: int
     assert same_bits(block["result"].reshape(-1), np.array(plain))
 
 
-def test_a_sum_is_not_reordered() -> None:
+def test_a_sum_is_not_reordered():
     summed = applied(lambda a, b: (a + b) - a)
     assert np.all(summed(1e16, 1.0) == 0.0)
 
 
-def test_operators_in_place() -> None:
-    def in_place(a: Any, b: Any) -> Any:
+def test_operators_in_place():
+    def in_place(a, b):
         result = a
         result += b
         result *= 2.0

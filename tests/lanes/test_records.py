@@ -1,7 +1,5 @@
 """Attributes of records in lanes."""
 
-from typing import Any
-
 import numba
 import numpy as np
 import pytest
@@ -16,7 +14,7 @@ BIG = 2**62 + 1
 """An integer that no double-precision number holds."""
 
 
-def counted(width: int) -> Any:
+def counted(width):
     """Three records of lanes with all fields different."""
     block = lanes.block(LAYOUT, width, 3)
     for k, name in enumerate(("speed", "mode", "load")):
@@ -25,9 +23,9 @@ def counted(width: int) -> Any:
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_attributes_of_vectors_are_the_fields_of_all_lanes(width: int) -> None:
+def test_attributes_of_vectors_are_the_fields_of_all_lanes(width):
     @numba.njit
-    def move(block: Any) -> None:
+    def move(block):
         records = vectors(block)
         for i in range(3):
             records[i].load = records[i].speed + records[i].load
@@ -40,9 +38,9 @@ def test_attributes_of_vectors_are_the_fields_of_all_lanes(width: int) -> None:
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_one_lane_leaves_the_others_alone(width: int) -> None:
+def test_one_lane_leaves_the_others_alone(width):
     @numba.njit
-    def change(block: Any, number: int) -> None:
+    def change(block, number):
         record = lane(block, number)[1]
         record.speed = -record.speed
         record.mode = record.mode + 1
@@ -57,9 +55,9 @@ def test_one_lane_leaves_the_others_alone(width: int) -> None:
         assert block.tobytes() == expected.tobytes()
 
 
-def test_a_number_stored_into_a_vector_fills_every_lane() -> None:
+def test_a_number_stored_into_a_vector_fills_every_lane():
     @numba.njit
-    def reset(block: Any) -> None:
+    def reset(block):
         vectors(block).load = 0.5
         vectors(block)[2].load = 3
 
@@ -69,9 +67,9 @@ def test_a_number_stored_into_a_vector_fills_every_lane() -> None:
     assert np.all(block["load"][2] == 3.0)
 
 
-def test_integers_keep_all_their_bits() -> None:
+def test_integers_keep_all_their_bits():
     @numba.njit
-    def shift(block: Any) -> None:
+    def shift(block):
         record = lane(block, 3)
         record.mode = (record.mode << 1) | 1
 
@@ -81,9 +79,9 @@ def test_integers_keep_all_their_bits() -> None:
     assert block["mode"][0, 3] == BIG
 
 
-def test_put_copies_every_field_of_a_record() -> None:
+def test_put_copies_every_field_of_a_record():
     @numba.njit
-    def copy(block: Any, records: Any) -> None:
+    def copy(block, records):
         copy_to_lane(lane(block, 5)[2], records[0])
 
     block = counted(8)
@@ -92,9 +90,9 @@ def test_put_copies_every_field_of_a_record() -> None:
     assert all(block[name][2, 5].tobytes() == record[name].tobytes() for name in record.dtype.names or ())
 
 
-def test_take_copies_what_a_lane_has_and_leaves_the_rest() -> None:
+def test_take_copies_what_a_lane_has_and_leaves_the_rest():
     @numba.njit
-    def copy(records: Any, block: Any) -> None:
+    def copy(records, block):
         copy_from_lane(records[1], lane(block, 5)[2])
 
     block = counted(8)
@@ -106,36 +104,36 @@ def test_take_copies_what_a_lane_has_and_leaves_the_rest() -> None:
     assert records["speed"][0] == 7.0
 
 
-def test_a_record_without_a_field_of_the_lane_takes_nothing() -> None:
+def test_a_record_without_a_field_of_the_lane_takes_nothing():
     @numba.njit
-    def copy(records: Any, block: Any) -> None:
+    def copy(records, block):
         copy_from_lane(records[0], lane(block, 0))
 
     with pytest.raises(TypingError, match="copy_from_lane"):
         copy(np.zeros(1, np.dtype([("speed", "f8")])), counted(8))
 
 
-def test_integer_fields_are_no_vectors() -> None:
+def test_integer_fields_are_no_vectors():
     @numba.njit
-    def read(block: Any) -> None:
+    def read(block):
         vectors(block).load = vectors(block).mode
 
     with pytest.raises(TypingError, match="mode"):
         read(counted(8))
 
 
-def test_an_unknown_field_is_named() -> None:
+def test_an_unknown_field_is_named():
     @numba.njit
-    def read(block: Any) -> None:
+    def read(block):
         vectors(block).sped = 1.0
 
     with pytest.raises(TypingError, match="sped"):
         read(counted(8))
 
 
-def test_a_block_may_lie_anywhere() -> None:
+def test_a_block_may_lie_anywhere():
     @numba.njit
-    def double(block: Any) -> None:
+    def double(block):
         record = vectors(block)
         record.load = record.load * 2.0
 
@@ -147,11 +145,11 @@ def test_a_block_may_lie_anywhere() -> None:
     assert np.array_equal(shifted["load"], 2.0 * aligned["load"])
 
 
-def test_a_write_is_seen_through_every_view_of_its_field() -> None:
+def test_a_write_is_seen_through_every_view_of_its_field():
     """The compiler may keep a number in a register only as long as nothing writes its field."""
 
     @numba.njit
-    def change(block: Any, i: int, number: int) -> tuple[float, float]:
+    def change(block, i, number):
         records, one = vectors(block), lane(block, number)
         records[0].load = records[0].speed
         one[i].speed = 50.0
@@ -166,9 +164,9 @@ def test_a_write_is_seen_through_every_view_of_its_field() -> None:
     assert block["load"][1].tolist() == [0.0, 1.0, 50.0, 3.0]
 
 
-def test_writing_one_field_does_not_make_the_compiler_read_another_again() -> None:
+def test_writing_one_field_does_not_make_the_compiler_read_another_again():
     @numba.njit
-    def move(block: Any, other: Any) -> None:
+    def move(block, other):
         vectors(other).load = vectors(block).speed + 1.0
         vectors(block).load = vectors(block).speed + 2.0
 

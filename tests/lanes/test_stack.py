@@ -1,19 +1,17 @@
 """Registers that are put aside lie on whole cache lines."""
 
-from typing import Any
-
 import numba
 
 from uictest.core.lanes import align_stack
 
-njit: Any = numba.njit
+njit = numba.njit
 
 
-def test_an_aligned_variable_outlives_the_optimiser() -> None:
+def test_an_aligned_variable_outlives_the_optimiser():
     """With it the compiler aligns the whole stack of the function, without it only as calls need it."""
 
     @njit
-    def aligned(x: float) -> float:
+    def aligned(x):
         align_stack()
         return 2.0 * x
 

@@ -1,7 +1,5 @@
 """How the "minimum slide" of the quotation is read decides whether the shipped slip-brake test counts."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +12,7 @@ RATE = 100
 LIMIT = 0.35
 
 
-def test_the_largest_slide_passes_where_the_largest_mean_over_a_second_does_not() -> None:
+def test_the_largest_slide_passes_where_the_largest_mean_over_a_second_does_not():
     (case,) = load([SCENARIO])
     recording = simulate(case, record_every=1.0 / RATE).recording
     assert recording is not None

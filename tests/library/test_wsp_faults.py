@@ -1,10 +1,7 @@
 """Every kind of fault, judged by `uictest-wsp-faults`: which criteria the shipped controller misses."""
 
-from pathlib import Path
-
 import pytest
 
-from uictest.judging.evaluation import CaseResult
 from uictest.plans.faults import FAULT_KINDS
 from uictest.plans.scenario import load
 from uictest.running import campaign
@@ -48,7 +45,7 @@ MISSED = {
 NOT_OF_A_SENSOR = "brake-force-returns"
 
 
-def judged(tmp_path: Path, part: str, kind: str, controller: str = "threshold") -> CaseResult:
+def judged(tmp_path, part, kind, controller="threshold"):
     """The stop from 80 km/h on a slippery rail with a fault of wheelset 2 from 3 s on."""
     own = "" if part in ("brake-line", "controller") else ", wheelset: 2"
     value = f", value: {VALUES[part, kind]}" if (part, kind) in VALUES else ""
@@ -65,9 +62,7 @@ def judged(tmp_path: Path, part: str, kind: str, controller: str = "threshold") 
 
 
 @pytest.mark.parametrize(("part", "kind"), FAULT_KINDS, ids="-".join)
-def test_the_shipped_controller_misses_what_a_valve_can_no_longer_do(
-    tmp_path: Path, part: str, kind: str
-) -> None:
+def test_the_shipped_controller_misses_what_a_valve_can_no_longer_do(tmp_path, part, kind):
     result = judged(tmp_path, part, kind)
     statuses = {each.id: each.status for each in result.criteria}
     assert {name for name, status in statuses.items() if status == "fail"} == MISSED.get((part, kind), set())
@@ -84,9 +79,7 @@ def test_the_shipped_controller_misses_what_a_valve_can_no_longer_do(
         ("[{at: 100 s, wheelset: 2, part: speed-sensor, kind: lost}]", "inconclusive", "inconclusive"),
     ],
 )
-def test_a_stop_in_which_no_fault_begins_shows_no_reaction(
-    tmp_path: Path, faults: str, status: str, outcome: str
-) -> None:
+def test_a_stop_in_which_no_fault_begins_shows_no_reaction(tmp_path, faults, status, outcome):
     path = tmp_path / "stop.yaml"
     path.write_text(
         "schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\ncriteria: uictest-wsp-faults\n"
@@ -99,7 +92,7 @@ def test_a_stop_in_which_no_fault_begins_shows_no_reaction(
     assert result.outcome == outcome
 
 
-def test_the_simplest_controller_misses_them(tmp_path: Path) -> None:
+def test_the_simplest_controller_misses_them(tmp_path):
     lost = judged(tmp_path, "speed-sensor", "lost", "slip-band")
     stuck = judged(tmp_path, "speed-sensor", "stuck", "slip-band")
     failed = [{each.id for each in result.criteria if each.status == "fail"} for result in (lost, stuck)]

@@ -1,7 +1,6 @@
 """Equivalent build-up time against closed forms of a stop whose brake builds up evenly."""
 
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,7 +22,7 @@ from uictest.core.measures.catalogue.stopping import (
 )
 
 COMMANDED = 3.8e5
-DEFINITION: Any = SimpleNamespace(
+DEFINITION = SimpleNamespace(
     rising_share=0.05, developed_share=0.95, deceleration_filter=0.5, moving_speed=2.8, developed_time=2.0
 )
 
@@ -55,7 +54,7 @@ def observed(stop, interval, begin=0.0):
     """The measures of the train; at the end of the samples it stands."""
     times = np.arange(begin, stop.standstill, interval)
     rows = np.stack([times, stop.distance(times), stop.speed(times), stop.pressure(times)], axis=1).tolist()
-    train: Any = SimpleNamespace()
+    train = SimpleNamespace()
     begin_train(train, *rows[0][:3], 7e5)
     begin_build_up(train, COMMANDED, rows[0][3])
     for time, distance, speed, pressure in rows[1:]:
@@ -130,7 +129,7 @@ def test_build_up_does_not_depend_on_when_the_samples_fall(interval):
 
 def test_shares_of_the_pressure_are_parameters():
     other = SimpleNamespace(**vars(DEFINITION) | {"rising_share": 0.01, "developed_share": 0.5})
-    train: Any = SimpleNamespace(end_time=0.0, end_distance=0.0, end_speed=20.0)
+    train = SimpleNamespace(end_time=0.0, end_distance=0.0, end_speed=20.0)
     begin_build_up(train, COMMANDED, 0.0)
     observe_build_up(train, other, 4.0, 80.0, 20.0, COMMANDED)
     assert train.build_up_time == pytest.approx(4.0 * (0.01 + 0.5) / 2)
@@ -150,13 +149,13 @@ def test_pressure_that_comes_at_once_or_was_there_or_falls_again():
 
 
 def test_brake_that_never_builds_up_or_whose_pressure_is_not_known_has_neither_time_nor_distance():
-    train: Any = SimpleNamespace(end_time=0.0, end_distance=0.0, end_speed=20.0)
+    train = SimpleNamespace(end_time=0.0, end_distance=0.0, end_speed=20.0)
     begin_build_up(train, COMMANDED, 0.0)
     observe_build_up(train, DEFINITION, 1.0, 20.0, 20.0, 0.94 * COMMANDED)
     assert "never reached `developed_share`" in build_up_time(train).unavailable_reason
     assert "never reached `developed_share`" in deceleration_distance(train).unavailable_reason
     assert "never reached `developed_share`" in developed_deceleration(train).unavailable_reason
-    train: Any = SimpleNamespace(end_time=0.0, end_distance=0.0, end_speed=20.0)
+    train = SimpleNamespace(end_time=0.0, end_distance=0.0, end_speed=20.0)
     begin_build_up(train, COMMANDED, float("nan"))
     observe_build_up(train, DEFINITION, 1.0, 20.0, 20.0, float("nan"))
     assert np.isnan([train.rise_time, train.build_up_time]).all()

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, field
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +19,7 @@ from uictest.core.measures import (
 )
 
 Column = np.ndarray
-DEFINITION: Any = SimpleNamespace(
+DEFINITION = SimpleNamespace(
     sliding_slide=0.05,
     sliding_slip=0.3,
     locked_speed=0.1,
@@ -62,8 +61,8 @@ class Stop:
         return np.concatenate([[0.0], np.cumsum(steps)])
 
     def observed(self):
-        train: Any = SimpleNamespace(speed_after_sliding=[np.nan] * 11)
-        wheelsets: list[Any] = [SimpleNamespace(maximum_slide_above=[0.0] * 21) for _ in range(4)]
+        train = SimpleNamespace(speed_after_sliding=[np.nan] * 11)
+        wheelsets = [SimpleNamespace(maximum_slide_above=[0.0] * 21) for _ in range(4)]
         begin_train(train, 0.0, 0.0, 20.0, 7e5)
         begin_utilisation(train)
         for wheelset in wheelsets:

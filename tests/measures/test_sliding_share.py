@@ -2,7 +2,6 @@
 
 import math
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -134,8 +133,8 @@ def test_plain_objects_and_records_agree():
     speed = even_stop()
     wheels = slid(speed, 3.0, 17.25, [0, 1, 2], 0.87)
     record, records = measured(speed, wheels)
-    train: Any = SimpleNamespace(reached_time=[0.0] * len(END_SPEEDS), half_slow_time=[7.0] * SLOW_TIMES)
-    own: list[Any] = [SimpleNamespace(slow_time=[7.0] * SLOW_TIMES) for _ in range(4)]
+    train = SimpleNamespace(reached_time=[0.0] * len(END_SPEEDS), half_slow_time=[7.0] * SLOW_TIMES)
+    own = [SimpleNamespace(slow_time=[7.0] * SLOW_TIMES) for _ in range(4)]
     begin_slow_times(train, own)
     for k in range(1, len(speed)):
         train.previous_time, train.end_time, train.end_speed = (k - 1) * STEP, k * STEP, speed[k]

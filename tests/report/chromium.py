@@ -1,17 +1,12 @@
 """Chromium, headless, driven by selenium: what the tests of pages ask of it."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil
 import time
-from pathlib import Path
-from typing import Any
 
 import pytest
 
-from uictest.report import RunContent
 from uictest.report.page import page_html
 
 ARGUMENTS = (
@@ -44,7 +39,7 @@ return document.querySelector('.compared-plot canvas') &&
 """How many cases are laid over each other, once they are drawn and the table beside them is filled."""
 
 
-def started() -> Any:
+def started():
     """Return a browser; skip, or fail where UICTEST_BROWSER says that there must be one."""
     programs = {name: shutil.which(name) for name in ("chromium", "chromedriver")}
     for name, place in programs.items():
@@ -63,44 +58,44 @@ def started() -> Any:
     return webdriver.Chrome(options=options, service=service)
 
 
-def _unavailable(reason: str) -> None:
+def _unavailable(reason):
     if os.environ.get("UICTEST_BROWSER") == "required":
         pytest.fail(reason)
     pytest.skip(reason)
 
 
-def written(folder: Path, content: RunContent) -> Path:
+def written(folder, content):
     """Write the page of a run; return where it stands."""
     path = folder / "index.html"
     path.write_text(page_html(content), encoding="utf-8")
     return path
 
 
-def requests(browser: Any) -> list[str]:
+def requests(browser):
     """Return what was asked for beyond the page itself and what it holds."""
     events = (json.loads(entry["message"])["message"] for entry in browser.get_log("performance"))
     urls = (e["params"]["request"]["url"] for e in events if e["method"] == "Network.requestWillBeSent")
     return [url for url in urls if not url.startswith(("file:", "data:", "blob:", "about:"))]
 
 
-def emulate(browser: Any, scheme: str = "light", media: str = "") -> None:
+def emulate(browser, scheme="light", media=""):
     """Prefer a colour scheme; show the page on a medium."""
     features = [{"name": "prefers-color-scheme", "value": scheme}]
     browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": media, "features": features})
 
 
-def resize(browser: Any, width: int) -> None:
+def resize(browser, width):
     """Give the window a width in pixels; a narrow one is that of a phone."""
     metrics = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500}
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
 
 
-def run(browser: Any, script: str, *arguments: Any) -> Any:
+def run(browser, script, *arguments):
     """Return what a script returns."""
     return browser.execute_script(script, *arguments)
 
 
-def wait(browser: Any, script: str, *arguments: Any) -> Any:
+def wait(browser, script, *arguments):
     """Return what a script returns as soon as that is anything, at the latest after some minutes."""
     for _ in range(4000):
         found = run(browser, script, *arguments)

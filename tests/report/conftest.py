@@ -1,33 +1,22 @@
 """Sweeps and pages to report on, and the browser that shows them."""
 
-from __future__ import annotations
-
-from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import pytest
 
-from uictest.judging.evaluation import CaseResult
 from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.result import read_sweep_document
-from uictest.report.traces.trace import PlotTrace, trace_of
+from uictest.report.traces.trace import trace_of
 
-from .builders import MakeSweep, make_content, make_recording, make_result, make_verdict
+from .builders import make_content, make_recording, make_result, make_verdict
 from .chromium import emulate, requests, started, written
 
 
 @pytest.fixture
-def make_sweep(tmp_path: Path) -> MakeSweep:
+def make_sweep(tmp_path):
     """A finished sweep over two parameters, with whatever is to be different in its findings."""
 
-    def make(
-        worst: tuple[CaseResult, ...] = (),
-        text: str = "90 %",
-        traces: Mapping[str, PlotTrace] | None = None,
-        **findings: object,
-    ) -> SweepContent:
+    def make(worst=(), text="90 %", traces=None, **findings):
         (tmp_path / "sweep").mkdir(exist_ok=True)
         manifest = {"file": f"scenarios/{text}.sweep.yaml", "versions": {"uictest": "0.1.0"}, "set": [text]}
         result = replace(read_sweep_document(_document(text) | findings), worst=worst)
@@ -37,7 +26,7 @@ def make_sweep(tmp_path: Path) -> MakeSweep:
 
 
 @pytest.fixture(scope="session")
-def chromium() -> Iterator[Any]:
+def chromium():
     """A browser for all tests of pages in this process."""
     browser = started()
     yield browser
@@ -45,7 +34,7 @@ def chromium() -> Iterator[Any]:
 
 
 @pytest.fixture
-def browser(chromium: Any) -> Iterator[Any]:
+def browser(chromium):
     """The browser, as it starts: scripts allowed, light, its window wide, its logs read."""
     chromium.get("about:blank")  # lest the page of the test before only scrolls to another place
     chromium.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
@@ -59,7 +48,7 @@ def browser(chromium: Any) -> Iterator[Any]:
 
 
 @pytest.fixture(scope="session")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def page(tmp_path_factory):
     """A run of three cases, one of them missed, all drawn."""
     distance = make_verdict(measure="braking_distance")
     results = [
@@ -72,7 +61,7 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written(tmp_path_factory.mktemp("run"), make_content(*results, traces=traces))
 
 
-def _document(text: str) -> dict[str, Any]:
+def _document(text):
     """What sweep.json holds of four cases, one of which missed; `text` stands wherever a user's may."""
     outcomes = {"pass": 3, "fail": 1, "invalid": 0, "error": 0, "skipped": 0}
     counts = [("80 %", 2, outcomes | {"pass": 2, "fail": 0}), (text, 1, outcomes | {"pass": 1})]
@@ -122,5 +111,5 @@ def _document(text: str) -> dict[str, Any]:
     }
 
 
-def _cells(met: list[list[int]]) -> dict[str, Any]:
+def _cells(met):
     return {"met": met, "cases": [[1, 1], [1, 1]]}

@@ -1,23 +1,19 @@
 """Every kind of page against the rules of axe-core, in light and dark, wide and narrow."""
 
-from __future__ import annotations
-
 import dataclasses
 from importlib.resources import files
-from pathlib import Path
-from typing import Any
 
 import pytest
 
 from uictest.analysis import comparison
 from uictest.core.recording import Recording
-from uictest.judging.evaluation import CaseResult, RepeatedStop, Repeats
+from uictest.judging.evaluation import RepeatedStop, Repeats
 from uictest.report import RunContent, RunManifest
 from uictest.report.page import sweep_page_html
 from uictest.report.sweep.folder import SweepContent
 from uictest.report.traces.trace import trace_of
 
-from .builders import MakeSweep, make_recording, make_result
+from .builders import make_recording, make_result
 from .chromium import COMPARED, PLOTTED, emulate, resize, run, wait
 from .sweep_rows import DRAWN, drawn_rows, sweep_result, write_rows
 
@@ -37,32 +33,31 @@ return !missing;
 """
 
 
-def violations(browser: Any) -> list[str]:
+def violations(browser):
     """Return what violates a rule on the page that is shown: the rule and the element."""
     run(browser, files("axe_core_python").joinpath("axe.min.js").read_text("utf-8"))
     browser.set_script_timeout(110)
-    found: list[str] = browser.execute_async_script(_CHECK)
-    return found
+    return browser.execute_async_script(_CHECK)
 
 
 appearances = pytest.mark.parametrize(("scheme", "width"), [("light", 1400), ("dark", 390)])
 
 
-def shown(browser: Any, page: Path, scheme: str = "light", width: int = 1400) -> None:
+def shown(browser, page, scheme="light", width=1400):
     """Open a page in a colour scheme and in a window of so many pixels."""
     resize(browser, width)
     emulate(browser, scheme)
     browser.get(page.as_uri())
 
 
-def assert_fit_for_all(browser: Any) -> None:
+def assert_fit_for_all(browser):
     """Hold the page that is shown to the rules, contrasts among them, and to the width of its window."""
     assert violations(browser) == []
     assert run(browser, "return document.documentElement.scrollWidth <= innerWidth")
 
 
 @appearances
-def test_the_page_of_a_run(browser: Any, page: Path, scheme: str, width: int) -> None:
+def test_the_page_of_a_run(browser, page, scheme, width):
     """With two cases compared, and with every fold open."""
     shown(browser, page, scheme, width)
     run(browser, "document.querySelectorAll('input.compare').forEach((box, k) => k < 2 && box.click())")
@@ -73,9 +68,7 @@ def test_the_page_of_a_run(browser: Any, page: Path, scheme: str, width: int) ->
 
 
 @appearances
-def test_the_page_of_a_sweep(
-    browser: Any, tmp_path: Path, make_sweep: MakeSweep, scheme: str, width: int
-) -> None:
+def test_the_page_of_a_sweep(browser, tmp_path, make_sweep, scheme, width):
     worst = make_result(id="study[a]", outcome="fail")
     page = tmp_path / "index.html"
     sweep = make_sweep((worst,), "x", traces={worst.id: trace_of(make_recording())})
@@ -86,9 +79,7 @@ def test_the_page_of_a_sweep(
 
 
 @appearances
-def test_the_maps_points_and_sensitivities_of_a_sweep(
-    browser: Any, tmp_path: Path, scheme: str, width: int
-) -> None:
+def test_the_maps_points_and_sensitivities_of_a_sweep(browser, tmp_path, scheme, width):
     """With every measure unfolded."""
     write_rows(tmp_path, drawn_rows(60, failing=(7, 8, 9)))
     index = {"value": 0.5, "low": 0.4, "high": 0.6}
@@ -104,7 +95,7 @@ def test_the_maps_points_and_sensitivities_of_a_sweep(
 
 
 @appearances
-def test_the_page_of_a_comparison(browser: Any, tmp_path: Path, scheme: str, width: int) -> None:
+def test_the_page_of_a_comparison(browser, tmp_path, scheme, width):
     """With a band, a channel that only one side has, other rates, and over distance."""
     first, second = make_recording(), make_recording(1701)
     second["speed"][:] *= 1.1
@@ -128,7 +119,7 @@ def test_the_page_of_a_comparison(browser: Any, tmp_path: Path, scheme: str, wid
 
 
 @appearances
-def test_the_pages_of_paired_stops(browser: Any, tmp_path: Path, scheme: str, width: int) -> None:
+def test_the_pages_of_paired_stops(browser, tmp_path, scheme, width):
     """Two runs that differ in everything a page lists, and two variants of one run."""
     sides = [
         RunContent(name, [_repeated(distance, name)], RunManifest(seed=seed))
@@ -145,7 +136,7 @@ def test_the_pages_of_paired_stops(browser: Any, tmp_path: Path, scheme: str, wi
         assert_fit_for_all(browser)
 
 
-def _repeated(distance: float, controller: str) -> CaseResult:
+def _repeated(distance, controller):
     result = make_result(id="slip", parameters={"controller": controller})
     assert result.measures is not None
     stops = tuple(

@@ -1,10 +1,8 @@
 """What the program knows of why a stop came out as it did, said in every report."""
 
-from __future__ import annotations
-
 import pytest
 
-from uictest.judging.evaluation import EffectivePart, Parameter, Verdict
+from uictest.judging.evaluation import EffectivePart, Parameter
 from uictest.plans.faults import FAULT_KINDS
 from uictest.report import case_line, run_suites
 from uictest.report.causes import cause_sentences, fault_words, label_words
@@ -16,12 +14,12 @@ from uictest.report.verdict_sentences import missed_by_text
 from .builders import make_content, make_result, make_verdict
 
 
-def _part(kind: str, **values: str) -> EffectivePart:
+def _part(kind, **values):
     own = tuple(Parameter(key, text, "", text, "user", differs=True) for key, text in values.items())
     return EffectivePart(kind, kind.removeprefix("scenario").removeprefix("."), "", None, own)
 
 
-def _faults(**values: str) -> EffectivePart:
+def _faults(**values):
     return _part("scenario", **{f"faults.0.{name}": text for name, text in values.items()})
 
 
@@ -33,7 +31,7 @@ LOCKED = make_verdict(
 )  # fmt: skip
 
 
-def test_an_injected_fault_is_said_in_words_in_every_report() -> None:
+def test_an_injected_fault_is_said_in_words_in_every_report():
     failed = make_result(outcome="fail", criteria=(LOCKED,), parts={"scenario": STUCK})
     content = make_content(failed)
     (suite,) = run_suites([failed])
@@ -44,7 +42,7 @@ def test_an_injected_fault_is_said_in_words_in_every_report() -> None:
     assert changed_parameters({"scenario": STUCK}) == [IN_WORDS]
 
 
-def test_a_fault_has_its_value_and_its_end_and_leaves_out_what_a_sweep_varies() -> None:
+def test_a_fault_has_its_value_and_its_end_and_leaves_out_what_a_sweep_varies():
     lost = _faults(at="90 km/h", until="20 s", wheelset="1", part="speed-sensor", kind="factor", value="90 %")
     assert cause_sentences(make_result(parts={"scenario": lost})) == [
         "injected fault: speed sensor of wheelset 1: factor 90 % from 90 km/h until 20 s"
@@ -54,18 +52,18 @@ def test_a_fault_has_its_value_and_its_end_and_leaves_out_what_a_sweep_varies() 
 
 
 @pytest.mark.parametrize(("part", "kind"), FAULT_KINDS)
-def test_the_label_of_a_recording_and_the_scenario_say_a_fault_alike(part: str, kind: str) -> None:
+def test_the_label_of_a_recording_and_the_scenario_say_a_fault_alike(part, kind):
     assert label_words(f"{part}-{kind}-2") == fault_words(part, kind, "2")
     assert label_words(f"{part}-{kind}") == fault_words(part, kind)
 
 
-def test_a_bypassed_wsp_is_a_cause() -> None:
+def test_a_bypassed_wsp_is_a_cause():
     parts = {"scenario.rig": _part("scenario.rig", **{"rig.wsp": "bypassed"})}
     assert cause_sentences(make_result(parts=parts)) == ["WSP bypassed: the controller did not act"]
     assert cause_sentences(make_result()) == []
 
 
-def _adhesion(**changes: object) -> Verdict:
+def _adhesion(**changes):
     own = {"value": 0.124, "upper": 0.08, "lower": None, "unit": "g", "margin": -0.044, "status": "fail"}
     return make_verdict(**{"id": "grip", "measure": "initial_adhesion", **own, **changes})
 
@@ -82,7 +80,7 @@ def _adhesion(**changes: object) -> Verdict:
         (_adhesion(layer="rig"), "no test: a check of the rig fails (grip)"),
     ],
 )  # fmt: skip
-def test_an_invalid_stop_says_why_it_is_no_test(verdict: Verdict, sentence: str) -> None:
+def test_an_invalid_stop_says_why_it_is_no_test(verdict, sentence):
     assert cause_sentences(make_result(outcome="invalid", criteria=(verdict,))) == [sentence]
 
 
@@ -96,6 +94,6 @@ def test_an_invalid_stop_says_why_it_is_no_test(verdict: Verdict, sentence: str)
         ((1, 2, 3, 4), "all 4 wheelsets"),
     ],
 )
-def test_a_finding_says_how_many_wheelsets_miss(missed_by: tuple[int, ...], text: str) -> None:
+def test_a_finding_says_how_many_wheelsets_miss(missed_by, text):
     verdict = make_verdict(missed_by=missed_by)
     assert missed_by_text(verdict, 4) == text

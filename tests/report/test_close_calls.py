@@ -1,7 +1,5 @@
 """What passes and is close to its limit, or not certain."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from uictest.core.series_measures import SeriesValue
@@ -15,7 +13,7 @@ from .builders import make_content, make_result, make_verdict
 from .series.made_up import make_series
 
 
-def _turning(now: float, *intervals: VerdictInterval, **changes: object):
+def _turning(now, *intervals, **changes):
     range_of = Sensitivity("sliding_below", "%", 85.0, 95.0, intervals)
     stated = AppliedDefinition("sliding_below", now / 100.0, "1", "stated", 0.85, 0.95)
     return make_verdict(id="minimum-slide", sensitivity=(range_of,), definitions=(stated,), **changes)
@@ -24,7 +22,7 @@ def _turning(now: float, *intervals: VerdictInterval, **changes: object):
 STEPS = VerdictInterval(85.0, 85.0, "fail"), VerdictInterval(90.0, 95.0, "pass")
 
 
-def test_a_verdict_turns_between_the_values_that_were_tried() -> None:
+def test_a_verdict_turns_between_the_values_that_were_tried():
     assert turns_text(_turning(90.0, *STEPS)) == "turns with sliding_below between 85 and 90 % (now 90 %)"
     closely = VerdictInterval(85.0, 87.1234561, "fail"), VerdictInterval(87.1234562, 95.0, "pass")
     assert turns_text(_turning(90.0, *closely)) == "turns with sliding_below at 87.123 % (now 90 %)"
@@ -34,7 +32,7 @@ def test_a_verdict_turns_between_the_values_that_were_tried() -> None:
     assert turns_text(make_verdict()) == ""
 
 
-def test_what_turns_comes_before_narrow_margins_and_what_failed_is_not_close() -> None:
+def test_what_turns_comes_before_narrow_margins_and_what_failed_is_not_close():
     narrow, narrower = make_verdict(value=445.0, margin=5.0), make_verdict(value=441.0, margin=1.0)
     failed = make_verdict(id="missed", value=430.0, margin=-10.0, status="fail")
     results = [
@@ -49,14 +47,14 @@ def test_what_turns_comes_before_narrow_margins_and_what_failed_is_not_close() -
     ]  # fmt: skip
 
 
-def test_many_are_counted() -> None:
+def test_many_are_counted():
     narrow = make_verdict(value=441.0, margin=1.0)
     lines = close_lines([make_result(id=f"case-{n}", criteria=(narrow,)) for n in range(MOST_CLOSE + 3)])
     assert len(lines.sentences) == MOST_CLOSE + 1
     assert lines.sentences[-1].startswith("3 more")
 
 
-def test_a_series_that_passes_by_chance_or_worse_than_without_wsp_says_so_everywhere() -> None:
+def test_a_series_that_passes_by_chance_or_worse_than_without_wsp_says_so_everywhere():
     series = make_series()
     (k_wet,) = series.criteria
     assert k_wet.estimate is not None

@@ -1,20 +1,15 @@
 """Cases chosen in the table and laid over each other, in a browser."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
 from .chromium import COMPARED, run, wait
 
 
-def _choose(browser: Any, *places: int) -> None:
+def _choose(browser, *places):
     script = "const boxes = document.querySelectorAll('input.compare'); boxes[arguments[0]].click()"
     for place in places:
         run(browser, script, place)
 
 
-def test_two_cases_stand_in_one_plot_with_one_time_axis(browser: Any, page: Path) -> None:
+def test_two_cases_stand_in_one_plot_with_one_time_axis(browser, page):
     browser.get(page.as_uri())
     assert not browser.find_element("id", "compared").is_displayed()
     _choose(browser, 0)
@@ -36,7 +31,7 @@ def test_two_cases_stand_in_one_plot_with_one_time_axis(browser: Any, page: Path
     assert first[2] == second[2]
 
 
-def test_the_cursor_reads_every_case_next_to_its_measures(browser: Any, page: Path) -> None:
+def test_the_cursor_reads_every_case_next_to_its_measures(browser, page):
     browser.get(page.as_uri())
     _choose(browser, 0, 1)
     assert wait(browser, COMPARED) == 2
@@ -52,7 +47,7 @@ def test_the_cursor_reads_every_case_next_to_its_measures(browser: Any, page: Pa
     assert rows["braking distance"] == ["465.2 m", "465.2 m"]
 
 
-def test_clearing_hides_the_comparison_and_gives_the_focus_back(browser: Any, page: Path) -> None:
+def test_clearing_hides_the_comparison_and_gives_the_focus_back(browser, page):
     browser.get(page.as_uri())
     _choose(browser, 0, 1)
     assert wait(browser, COMPARED) == 2
@@ -62,7 +57,7 @@ def test_clearing_hides_the_comparison_and_gives_the_focus_back(browser: Any, pa
     assert run(browser, "return document.activeElement.matches('input.compare')")
 
 
-def test_no_more_cases_can_be_chosen_than_can_be_told_apart(browser: Any, page: Path) -> None:
+def test_no_more_cases_can_be_chosen_than_can_be_told_apart(browser, page):
     browser.get(page.as_uri())
     run(browser, "document.querySelectorAll('tbody .compare').forEach((box) => box.click())")
     assert wait(browser, COMPARED) == 3

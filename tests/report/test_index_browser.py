@@ -1,10 +1,5 @@
 """The index of a folder of runs, and the pages of studies, in the browser."""
 
-from __future__ import annotations
-
-from pathlib import Path
-from typing import Any
-
 import pytest
 
 from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
@@ -18,7 +13,7 @@ from .test_accessibility import appearances, assert_fit_for_all, shown
 
 
 @pytest.fixture
-def index(tmp_path: Path) -> Path:
+def index(tmp_path):
     """Three runs of which the second fails, a sweep that is not finished, and a folder of somebody."""
     for outcome in ("pass", "fail", "pass"):
         results = [make_result(id="slip-120", outcome=outcome), make_result(id="dry-120")]
@@ -30,7 +25,7 @@ def index(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def study_page(tmp_path: Path) -> Path:
+def study_page(tmp_path):
     """A study with a value that holds, one that misses, one that is only shown, and a figure."""
     quantities = (
         StudyQuantity(
@@ -53,7 +48,7 @@ def study_page(tmp_path: Path) -> Path:
     )
     values = {"time": StudyValue(18.1, 17.9, 18.3), "share": StudyValue(2.5), "count": StudyValue(11.0)}
 
-    def draw(figure: Any) -> None:
+    def draw(figure):
         figure.subplots().plot([0.0, 1.0], [1.0, 0.0])
 
     findings = StudyFindings(values, {"data": {"time_s": [0.0]}}, {"figure": draw}, ("Made up.",))
@@ -67,23 +62,19 @@ def study_page(tmp_path: Path) -> Path:
 
 
 @appearances
-def test_the_index_breaks_no_rule_of_accessibility(
-    browser: Any, index: Path, scheme: str, width: int
-) -> None:
+def test_the_index_breaks_no_rule_of_accessibility(browser, index, scheme, width):
     shown(browser, index, scheme, width)
     assert_fit_for_all(browser)
 
 
 @appearances
-def test_the_pages_of_studies_break_no_rule_of_accessibility(
-    browser: Any, study_page: Path, scheme: str, width: int
-) -> None:
+def test_the_pages_of_studies_break_no_rule_of_accessibility(browser, study_page, scheme, width):
     for page in (study_page, study_page.parents[1] / "index.html"):
         shown(browser, page, scheme, width)
         assert_fit_for_all(browser)
 
 
-def test_the_cases_are_filtered(browser: Any, index: Path) -> None:
+def test_the_cases_are_filtered(browser, index):
     shown(browser, index)
     visible = "return [...document.querySelectorAll('.history tbody tr')].filter((row) => !row.hidden).length"
     assert run(browser, visible) == 2
@@ -93,7 +84,7 @@ def test_the_cases_are_filtered(browser: Any, index: Path) -> None:
     assert run(browser, "return document.querySelector('.count').textContent") == "1 of 2 shown"
 
 
-def test_a_mark_opens_the_case_in_its_run(browser: Any, index: Path) -> None:
+def test_a_mark_opens_the_case_in_its_run(browser, index):
     shown(browser, index)
     run(
         browser,

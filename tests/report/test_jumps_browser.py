@@ -1,10 +1,6 @@
 """Links of a page in a browser end, at the first click, with what they name on the screen."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -29,7 +25,7 @@ return arguments[0] && !place ? null : found;
 
 
 @pytest.fixture(scope="module")
-def four_stops(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def four_stops(tmp_path_factory):
     """Four stops that miss two criteria each: the largest slide, and a lock of wheelset 2 from 20 s on."""
     recording = make_recording()
     time = recording["time"]
@@ -53,9 +49,7 @@ def four_stops(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("number", range(0, 12, 2))
-def test_a_link_ends_with_the_name_of_the_stop_and_the_lit_plot_on_the_screen(
-    browser: Any, four_stops: Path, number: int
-) -> None:
+def test_a_link_ends_with_the_name_of_the_stop_and_the_lit_plot_on_the_screen(browser, four_stops, number):
     resize(browser, 1240)
     browser.get(four_stops.as_uri())
     links = browser.find_elements("css selector", ".findings li a")
@@ -66,7 +60,7 @@ def test_a_link_ends_with_the_name_of_the_stop_and_the_lit_plot_on_the_screen(
     assert found == [f"case-stop-{number // 3}", True, True if to_instant else None]
 
 
-def test_the_cursor_shows_the_first_sample_of_a_lock(browser: Any, four_stops: Path) -> None:
+def test_the_cursor_shows_the_first_sample_of_a_lock(browser, four_stops):
     browser.get(four_stops.as_uri())
     browser.find_element("css selector", '.findings a[data-criterion="lock"]').click()
     wait(browser, "return document.querySelector('button.moment[aria-pressed=true]') !== null")
@@ -76,7 +70,7 @@ def test_the_cursor_shows_the_first_sample_of_a_lock(browser: Any, four_stops: P
     assert run(browser, chosen) == "2"
 
 
-def test_on_a_phone_verdict_name_and_figures_of_a_stop_keep_apart(browser: Any, four_stops: Path) -> None:
+def test_on_a_phone_verdict_name_and_figures_of_a_stop_keep_apart(browser, four_stops):
     resize(browser, 400)
     browser.get(four_stops.as_uri())
     script = """

@@ -1,10 +1,6 @@
 """Two recordings over each other and their difference beneath, in a browser."""
 
-from __future__ import annotations
-
 import csv
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +16,7 @@ READY = "return document.querySelector('.laid-over[data-ready]') !== null"
 
 
 @pytest.fixture(scope="module")
-def laid_over_page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def laid_over_page(tmp_path_factory):
     """The stop of the fixture, and one 9 km/h faster that is recorded at half the rate, to 30 s."""
     first, whole = make_recording(), make_recording(1701)
     second = Recording({name: each[:1501] for name, each in whole.channels.items()}, whole.units)
@@ -34,23 +30,22 @@ def laid_over_page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return page
 
 
-def _open(browser: Any, page: Path, width: int = 1400) -> None:
+def _open(browser, page, width=1400):
     resize(browser, width)
     browser.get(page.as_uri() + "#case-Recordings")
     wait(browser, READY)
 
 
-def _at_cursor(browser: Any) -> dict[str, list[str]]:
+def _at_cursor(browser):
     """Return the cells at the cursor by channel: unit, A, B, B - A, per cent of A."""
-    rows: dict[str, list[str]] = run(
+    return run(
         browser,
         "return Object.fromEntries([...document.querySelectorAll('.at-cursor tbody tr')].map((row) =>"
         " [row.cells[0].textContent, [...row.cells].slice(1).map((cell) => cell.textContent)]))",
     )
-    return rows
 
 
-def test_the_difference_stands_beneath_each_channel_on_its_axis(browser: Any, laid_over_page: Path) -> None:
+def test_the_difference_stands_beneath_each_channel_on_its_axis(browser, laid_over_page):
     _open(browser, laid_over_page)
     traces = run(
         browser,
@@ -67,9 +62,7 @@ def test_the_difference_stands_beneath_each_channel_on_its_axis(browser: Any, la
     assert marks == [["tolerance", 10], ["point", pytest.approx(9.0, abs=1e-3)]]
 
 
-def test_one_cursor_reads_both_sides_their_difference_and_its_share(
-    browser: Any, laid_over_page: Path
-) -> None:
+def test_one_cursor_reads_both_sides_their_difference_and_its_share(browser, laid_over_page):
     _open(browser, laid_over_page)
     slider = browser.find_element("css selector", ".laid-over input[type=range]")
     slider.send_keys("\ue011" + "\ue014" * 500)  # home, then arrow right to the middle: 17 s
@@ -82,13 +75,13 @@ def test_one_cursor_reads_both_sides_their_difference_and_its_share(
     }
 
 
-def test_behind_its_end_a_side_has_no_value(browser: Any, laid_over_page: Path) -> None:
+def test_behind_its_end_a_side_has_no_value(browser, laid_over_page):
     _open(browser, laid_over_page)
     browser.find_element("css selector", ".laid-over input[type=range]").send_keys("\ue010")  # end: 34 s
     assert _at_cursor(browser)["Speed"] == ["km/h", "0.00", NOTHING, NOTHING, NOTHING]
 
 
-def test_over_distance_both_sides_stand_at_the_same_place(browser: Any, laid_over_page: Path) -> None:
+def test_over_distance_both_sides_stand_at_the_same_place(browser, laid_over_page):
     _open(browser, laid_over_page)
     run(
         browser,
@@ -106,7 +99,7 @@ def test_over_distance_both_sides_stand_at_the_same_place(browser: Any, laid_ove
     assert b > a
 
 
-def test_a_largest_difference_leads_to_its_instant(browser: Any, laid_over_page: Path) -> None:
+def test_a_largest_difference_leads_to_its_instant(browser, laid_over_page):
     _open(browser, laid_over_page)
     run(browser, "[...document.querySelectorAll('.laid-over .moment')].at(-1).click()")
     found = wait(browser, "return document.querySelector('.slider output').textContent")
@@ -114,7 +107,7 @@ def test_a_largest_difference_leads_to_its_instant(browser: Any, laid_over_page:
     assert button.removeprefix("at ") in (found, found.replace(".00", ""))
 
 
-def test_the_points_of_a_channel_and_its_difference_come_as_csv(browser: Any, laid_over_page: Path) -> None:
+def test_the_points_of_a_channel_and_its_difference_come_as_csv(browser, laid_over_page):
     _open(browser, laid_over_page)
     run(
         browser,
@@ -124,7 +117,7 @@ def test_the_points_of_a_channel_and_its_difference_come_as_csv(browser: Any, la
     text = wait(browser, "return window.saved")
     assert "Sampled every 10 ms in A and every 20 ms in B." in text.splitlines()[1]
     rows = list(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
-    by_line: dict[str, dict[float, float]] = {}
+    by_line = {}
     for row in (each for each in rows if each["channel"] == "speed"):
         assert row["unit"] == "km/h"
         by_line.setdefault(row["line"], {})[float(row["time_s"])] = float(row["value"])
@@ -134,7 +127,7 @@ def test_the_points_of_a_channel_and_its_difference_come_as_csv(browser: Any, la
         assert by_line["B"][time] == pytest.approx(max(120 - 3.6 * time, 0.0) + 9.0, abs=0.01)
 
 
-def test_on_paper_each_channel_is_a_drawing_that_fits(browser: Any, laid_over_page: Path) -> None:
+def test_on_paper_each_channel_is_a_drawing_that_fits(browser, laid_over_page):
     browser.get(laid_over_page.as_uri())
     names = run(
         browser,

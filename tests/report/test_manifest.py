@@ -30,7 +30,7 @@ def test_it_is_read_back_and_what_is_none_is_rejected():
         read_manifest({"manifest": {"seed": "three"}})
 
 
-def test_one_that_0_2_wrote_is_read_and_one_of_another_schema_or_kind_is_not() -> None:
+def test_one_that_0_2_wrote_is_read_and_one_of_another_schema_or_kind_is_not():
     assert read_manifest({"manifest": {"schema": "uictest/manifest/1", "seed": 3}}).seed == 3
     for head, found in [
         ({"schema": MANIFEST, "kind": "sweep"}, "found schema 'uictest/manifest/2', kind 'sweep'"),

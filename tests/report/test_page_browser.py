@@ -1,10 +1,6 @@
 """The page in a browser: Chromium, headless, driven by selenium; skipped where there is none."""
 
-from __future__ import annotations
-
 import time
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -13,11 +9,11 @@ from uictest.report import CaseDescription
 from uictest.report.page import sweep_page_html
 from uictest.report.traces.trace import trace_of
 
-from .builders import HOSTILE, MakeSweep, make_content, make_recording, make_result, make_verdict
+from .builders import HOSTILE, make_content, make_recording, make_result, make_verdict
 from .chromium import PLOTTED, emulate, resize, run, wait, written
 
 
-def test_the_missed_case_is_open_and_its_plots_are_drawn_with_the_criteria(browser: Any, page: Path) -> None:
+def test_the_missed_case_is_open_and_its_plots_are_drawn_with_the_criteria(browser, page):
     browser.get(page.as_uri())
     assert wait(browser, PLOTTED) > 15
     assert run(browser, "return [...document.querySelectorAll('details.stop[open]')].length") == 1
@@ -29,7 +25,7 @@ def test_the_missed_case_is_open_and_its_plots_are_drawn_with_the_criteria(brows
     assert "band" in run(browser, kinds)
 
 
-def _bars(browser: Any, key: str) -> int:
+def _bars(browser, key):
     """Return how many bars a strip has; of the valves, of the vent magnets."""
     script = """
       const {bars} = document.querySelector('details.stop[open] .panels-plot').plots
@@ -40,7 +36,7 @@ def _bars(browser: Any, key: str) -> int:
     return int(run(browser, script, key))
 
 
-def _inked(browser: Any, key: str, height: float) -> int:
+def _inked(browser, key, height):
     """Return how many separate stretches are green in a panel, at a share of its height."""
     script = """
       const {plot} = document.querySelector('details.stop[open] .panels-plot').plots
@@ -53,7 +49,7 @@ def _inked(browser: Any, key: str, height: float) -> int:
     return int(run(browser, script, key, height))
 
 
-def test_every_vent_is_painted_however_short_and_wherever_one_zooms(browser: Any, tmp_path: Path) -> None:
+def test_every_vent_is_painted_however_short_and_wherever_one_zooms(browser, tmp_path):
     recording = make_recording(34001)
     for n in (1, 2, 3, 4):
         recording[f"valve_command_{n}"][:] = 0.0
@@ -71,7 +67,7 @@ def test_every_vent_is_painted_however_short_and_wherever_one_zooms(browser: Any
     assert _inked(browser, "valves", below_middle) == 4
 
 
-def test_the_criterion_that_failed_is_named_and_drawn_first(browser: Any, tmp_path: Path) -> None:
+def test_the_criterion_that_failed_is_named_and_drawn_first(browser, tmp_path):
     locked = {"wheel_speed_4": 0.0, "slide_4": 1.0}
     recording = make_recording()
     for name, value in locked.items():
@@ -93,7 +89,7 @@ def test_the_criterion_that_failed_is_named_and_drawn_first(browser: Any, tmp_pa
     assert _bars(browser, "locked") == 1
 
 
-def test_a_link_from_the_table_opens_its_case(browser: Any, page: Path) -> None:
+def test_a_link_from_the_table_opens_its_case(browser, page):
     browser.get(page.as_uri())
     wait(browser, PLOTTED)
     run(browser, "document.querySelector('.verdicts a[href$=dry-120]').click()")
@@ -101,7 +97,7 @@ def test_a_link_from_the_table_opens_its_case(browser: Any, page: Path) -> None:
     assert wait(browser, "return document.querySelectorAll('[id=case-dry-120] .panels-plot canvas').length")
 
 
-def test_the_cursor_is_moved_with_the_keyboard_and_read_as_a_table(browser: Any, page: Path) -> None:
+def test_the_cursor_is_moved_with_the_keyboard_and_read_as_a_table(browser, page):
     browser.get(page.as_uri())
     wait(browser, PLOTTED)
     slider = browser.find_element("css selector", "details[open] .readout input")
@@ -115,14 +111,14 @@ def test_the_cursor_is_moved_with_the_keyboard_and_read_as_a_table(browser: Any,
     assert "vent" in cells
 
 
-def test_lines_can_be_switched_off(browser: Any, page: Path) -> None:
+def test_lines_can_be_switched_off(browser, page):
     browser.get(page.as_uri())
     before = wait(browser, PLOTTED)
     run(browser, "document.querySelector('details[open] .key input[data-role=wheelset-2]').click()")
     assert wait(browser, f"const count = () => {{{PLOTTED}}}; return count() < {before}")
 
 
-def test_it_can_be_read_without_javascript(browser: Any, page: Path) -> None:
+def test_it_can_be_read_without_javascript(browser, page):
     browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
     browser.get(page.as_uri())
     text = browser.find_element("tag name", "body").text
@@ -140,7 +136,7 @@ def test_it_can_be_read_without_javascript(browser: Any, page: Path) -> None:
     assert not any(element.is_displayed() for element in hidden)
 
 
-def test_on_paper_stands_the_drawing_and_no_control(browser: Any, page: Path) -> None:
+def test_on_paper_stands_the_drawing_and_no_control(browser, page):
     browser.get(page.as_uri())
     wait(browser, PLOTTED)
     emulate(browser, media="print")
@@ -149,7 +145,7 @@ def test_on_paper_stands_the_drawing_and_no_control(browser: Any, page: Path) ->
     assert not browser.find_element("css selector", "form.filters").is_displayed()
 
 
-def test_hostile_texts_are_not_executed(browser: Any, tmp_path: Path) -> None:
+def test_hostile_texts_are_not_executed(browser, tmp_path):
     take = "document.title = 'taken'"
     bad = f'{HOSTILE}</script><script>{take}</script><img src=x onerror="{take}">'
     result = make_result(id=bad, scenario=bad, outcome="error", reason=bad)
@@ -166,7 +162,7 @@ def test_hostile_texts_are_not_executed(browser: Any, tmp_path: Path) -> None:
     assert "<img src=x" in browser.find_element("css selector", ".verdicts th[scope=row]").text
 
 
-def test_a_thousand_cases_open(browser: Any, tmp_path: Path) -> None:
+def test_a_thousand_cases_open(browser, tmp_path):
     results = [make_result(id=f"case-{n}", outcome="fail" if n % 7 else "pass") for n in range(1000)]
     trace = trace_of(make_recording(sliding_time="5.0"))
     traces = {result.id: trace for result in results[:40]}
@@ -178,7 +174,7 @@ def test_a_thousand_cases_open(browser: Any, tmp_path: Path) -> None:
 
 
 @pytest.fixture
-def sweep_page(tmp_path: Path, make_sweep: MakeSweep) -> Path:
+def sweep_page(tmp_path, make_sweep):
     """The page of a sweep with a drawn case that was not met."""
     worst = make_result(
         id="study[a]", outcome="fail", parameters={"brake.x": "80 %", "rail.friction": "0.10"}
@@ -189,7 +185,7 @@ def sweep_page(tmp_path: Path, make_sweep: MakeSweep) -> Path:
     return path
 
 
-def test_a_sweeps_worst_case_is_drawn_and_reached_from_the_map(browser: Any, sweep_page: Path) -> None:
+def test_a_sweeps_worst_case_is_drawn_and_reached_from_the_map(browser, sweep_page):
     browser.get(sweep_page.as_uri())
     assert wait(browser, PLOTTED) > 15
     # The page scrolls smoothly: a click with the pointer would come before its end.
@@ -197,7 +193,7 @@ def test_a_sweeps_worst_case_is_drawn_and_reached_from_the_map(browser: Any, swe
     assert browser.current_url.endswith("#case-study%5Ba%5D")
 
 
-def test_a_sweep_can_be_read_without_javascript(browser: Any, sweep_page: Path) -> None:
+def test_a_sweep_can_be_read_without_javascript(browser, sweep_page):
     browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
     browser.get(sweep_page.as_uri())
     text = browser.find_element("tag name", "body").text
@@ -220,9 +216,7 @@ return [...document.querySelectorAll(arguments[0])].map(each => each.getBounding
 
 
 @pytest.mark.parametrize("width", [1400, 390])
-def test_figures_and_frontier_of_a_sweep_are_in_sight_without_scrolling(
-    browser: Any, tmp_path: Path, make_sweep: MakeSweep, width: int
-) -> None:
+def test_figures_and_frontier_of_a_sweep_are_in_sight_without_scrolling(browser, tmp_path, make_sweep, width):
     flips = [{"low": "0.10", "high": "0.12", "met_at_low": False}]
     stretches = [
         {"circumstances": {"speed": f"{speed} km/h"}, "flips": flips, "note": ""} for speed in (60, 90)

@@ -1,18 +1,14 @@
 """The numbers of a page in a browser against the results and the recording that it was made from."""
 
-from __future__ import annotations
-
 import json
 import re
-from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
 from uictest.cli.entry import execute
-from uictest.core.recording import Recording, read_parquet
+from uictest.core.recording import read_parquet
 
 from .chromium import run, wait
 
@@ -35,7 +31,7 @@ TRAIN = {
 
 
 @pytest.fixture(scope="module")
-def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def finished(tmp_path_factory):
     """The folder of a run of one stop that misses a criterion, with its recording."""
     output = tmp_path_factory.mktemp("run")
     words = ["run", "low-adhesion-80", "--set", "expect=pass", "--record", "all", "-o", str(output), "-q"]
@@ -44,39 +40,39 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def recording(finished: Path) -> Recording:
+def recording(finished):
     """The recording of the stop."""
     return read_parquet(finished / "recordings" / "low-adhesion-80.parquet")
 
 
 @pytest.fixture(scope="module")
-def result(finished: Path) -> Any:
+def result(finished):
     """The result of the stop."""
     (case,) = json.loads((finished / "results.json").read_text("utf-8"))["cases"]
     return case
 
 
-def test_junit_says_when_the_value_was_taken_as_the_page_does(finished: Path) -> None:
+def test_junit_says_when_the_value_was_taken_as_the_page_does(finished):
     (case,) = ElementTree.parse(finished / "junit.xml").iter("testcase")
     (instant,) = re.findall(r"total-locked-time .*\(taken at (.*)\)", "".join(case.itertext()))
     assert re.fullmatch(r"[\d.]+ to [\d.]+ s, wheelset [1-4]", instant)
     assert instant in (finished / "index.html").read_text("utf-8")
 
 
-def test_a_report_that_draws_no_stop_names_no_instant(finished: Path, tmp_path: Path) -> None:
+def test_a_report_that_draws_no_stop_names_no_instant(finished, tmp_path):
     assert execute(["report", str(finished), "--format", "junit", "-o", str(tmp_path)]) == 0
     written = (tmp_path / "junit.xml").read_text("utf-8")
     assert "total-locked-time" in written
     assert "taken at" not in written
 
 
-def _open(browser: Any, finished: Path) -> None:
+def _open(browser, finished):
     browser.get((finished / "index.html").as_uri())
     run(browser, "document.querySelector('details.stop').open = true")
     wait(browser, READY)
 
 
-def _shown_at(browser: Any, share: float) -> tuple[float, dict[str, list[str]]]:
+def _shown_at(browser, share):
     """Move the cursor to a share of the stop; return its time and the cells by the heads of their rows."""
     run(
         browser,
@@ -84,7 +80,7 @@ def _shown_at(browser: Any, share: float) -> tuple[float, dict[str, list[str]]]:
         "slider.dispatchEvent(new Event('input'))",
         share,
     )
-    cells: dict[str, list[str]] = run(
+    cells = run(
         browser,
         "return Object.fromEntries([...document.querySelectorAll('.readout tbody tr, .train-readout div')]"
         ".map((row) => [...row.children].map((each) => each.textContent))"
@@ -95,9 +91,7 @@ def _shown_at(browser: Any, share: float) -> tuple[float, dict[str, list[str]]]:
 
 
 @pytest.mark.parametrize("share", [0.013, 0.17, 0.331, 0.502, 0.678, 0.85])
-def test_the_cursor_reads_what_was_recorded(
-    browser: Any, finished: Path, recording: Recording, share: float
-) -> None:
+def test_the_cursor_reads_what_was_recorded(browser, finished, recording, share):
     _open(browser, finished)
     moved, cells = _shown_at(browser, share)
     time = recording["time"]
@@ -114,9 +108,7 @@ def test_the_cursor_reads_what_was_recorded(
     assert compared == 28
 
 
-def test_every_vent_of_the_counters_is_in_the_table_and_in_the_plots(
-    browser: Any, finished: Path, result: Any
-) -> None:
+def test_every_vent_of_the_counters_is_in_the_table_and_in_the_plots(browser, finished, result):
     _open(browser, finished)
     counted = [wheelset["valve_actuations"] for wheelset in result["wheelsets"]]
     column = "return [...document.querySelectorAll('.vents tbody td:nth-child(2)')].map((e) => e.textContent)"
@@ -131,7 +123,7 @@ def test_every_vent_of_the_counters_is_in_the_table_and_in_the_plots(
     assert spans == counted
 
 
-def test_values_and_margins_are_those_of_the_result(browser: Any, finished: Path, result: Any) -> None:
+def test_values_and_margins_are_those_of_the_result(browser, finished, result):
     _open(browser, finished)
     shown = run(
         browser,

@@ -1,8 +1,5 @@
-from __future__ import annotations
-
 import json
 from datetime import UTC, datetime, timedelta, timezone
-from pathlib import Path
 
 import numpy as np
 
@@ -14,7 +11,7 @@ from uictest.report.run_folder import run_name, write_recording, write_reports
 from .builders import make_result
 
 
-def test_a_run_is_named_after_its_start_in_utc_and_its_manifest() -> None:
+def test_a_run_is_named_after_its_start_in_utc_and_its_manifest():
     started = datetime(2026, 3, 1, 1, 30, 5, tzinfo=timezone(timedelta(hours=9)))
     name = run_name(started, RunManifest(seed=1))
     assert name.startswith("20260228T163005Z-")
@@ -22,7 +19,7 @@ def test_a_run_is_named_after_its_start_in_utc_and_its_manifest() -> None:
     assert name != run_name(started, RunManifest(seed=2))
 
 
-def test_every_format_is_written_and_results_read_back(tmp_path: Path) -> None:
+def test_every_format_is_written_and_results_read_back(tmp_path):
     results = [make_result(), make_result(id="other", outcome="fail")]
     text = write_reports(tmp_path, RunContent("a-run", results))
     assert sorted(path.name for path in tmp_path.iterdir()) == [
@@ -40,7 +37,7 @@ def test_every_format_is_written_and_results_read_back(tmp_path: Path) -> None:
     assert [result.id for result in results_of(document)] == ["dry-120[command=90]", "other"]
 
 
-def test_no_clock_and_no_number_that_is_none_enters_results(tmp_path: Path) -> None:
+def test_no_clock_and_no_number_that_is_none_enters_results(tmp_path):
     texts = [
         write_reports(tmp_path, RunContent("a-run", [make_result(duration=duration)]))
         for duration in (0.1, 9.9)
@@ -49,12 +46,12 @@ def test_no_clock_and_no_number_that_is_none_enters_results(tmp_path: Path) -> N
     assert json.loads(texts[0])["cases"][0]["measures"]["initial_adhesion_g"] is None
 
 
-def test_a_file_name_that_is_no_utf_8_is_written_as_an_escape(tmp_path: Path) -> None:
+def test_a_file_name_that_is_no_utf_8_is_written_as_an_escape(tmp_path):
     text = write_reports(tmp_path, RunContent("a-run", [make_result(scenario="a\udcff.yaml")]))
     assert json.loads(text)["cases"][0]["scenario"] == "a\udcff.yaml"
 
 
-def test_a_recording_is_found_under_the_id_of_its_case(tmp_path: Path) -> None:
+def test_a_recording_is_found_under_the_id_of_its_case(tmp_path):
     recording = Recording({"time": np.array([0.0, 0.1])}, {"time": "s"}, {"case": "dry"})
     path = write_recording(tmp_path, "dry[command=90]", recording)
     assert path == tmp_path / "recordings" / "dry[command=90].parquet"

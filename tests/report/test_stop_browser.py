@@ -1,11 +1,7 @@
 """One stop on a page in a browser: where values were taken, links, commands, points of the plots."""
 
-from __future__ import annotations
-
 import csv
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,7 +19,7 @@ READY = "return document.querySelector('.plots[data-ready]') !== null"
 
 
 @pytest.fixture(scope="module")
-def stop_page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def stop_page(tmp_path_factory):
     """A stop whose wheelset 3 has the largest slide above the cut-off, 60 % at 8 s; 35 % are allowed."""
     recording = make_recording(sliding_time="5.0")
     largest = np.where(np.isclose(recording["time"], 8.0), 0.6, recording["slide_3"])
@@ -45,7 +41,7 @@ def stop_page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written(tmp_path_factory.mktemp("page"), make_content(result, manifest=manifest, traces=traces))
 
 
-def test_a_criterion_leads_to_the_instant_at_which_its_value_was_taken(browser: Any, stop_page: Path) -> None:
+def test_a_criterion_leads_to_the_instant_at_which_its_value_was_taken(browser, stop_page):
     browser.get(stop_page.as_uri())
     wait(browser, READY)
     button = browser.find_element("css selector", "button.moment")
@@ -71,7 +67,7 @@ def test_a_criterion_leads_to_the_instant_at_which_its_value_was_taken(browser: 
     assert not browser.find_element("css selector", ".ring").is_displayed()
 
 
-def test_what_failed_leads_from_the_top_of_the_page_to_its_instant(browser: Any, stop_page: Path) -> None:
+def test_what_failed_leads_from_the_top_of_the_page_to_its_instant(browser, stop_page):
     browser.get(stop_page.as_uri())
     link = browser.find_element("css selector", "section.findings a[data-criterion]")
     assert link.text == "at 8 s, wheelset 3"
@@ -82,7 +78,7 @@ def test_what_failed_leads_from_the_top_of_the_page_to_its_instant(browser: Any,
     assert browser.find_element("css selector", ".ring").is_displayed()
 
 
-def test_a_vent_leads_to_its_instant(browser: Any, stop_page: Path) -> None:
+def test_a_vent_leads_to_its_instant(browser, stop_page):
     browser.get(stop_page.as_uri())
     wait(browser, READY)
     run(browser, "document.querySelector('table.vents').closest('details').open = true")
@@ -92,7 +88,7 @@ def test_a_vent_leads_to_its_instant(browser: Any, stop_page: Path) -> None:
     assert browser.find_element("css selector", ".spotlight").is_displayed()
 
 
-def test_the_ring_follows_its_wheelset_where_they_stand_side_by_side(browser: Any, stop_page: Path) -> None:
+def test_the_ring_follows_its_wheelset_where_they_stand_side_by_side(browser, stop_page):
     browser.get(stop_page.as_uri())
     wait(browser, READY)
     browser.find_element("css selector", "button.moment").click()
@@ -110,9 +106,7 @@ def test_the_ring_follows_its_wheelset_where_they_stand_side_by_side(browser: An
 
 
 @pytest.mark.parametrize("width", [400, 1000, 1600])
-def test_the_values_of_the_cursor_lie_beside_the_plots_and_never_over_the_loops(
-    browser: Any, stop_page: Path, width: int
-) -> None:
+def test_the_values_of_the_cursor_lie_beside_the_plots_and_never_over_the_loops(browser, stop_page, width):
     resize(browser, width)
     browser.get(stop_page.as_uri())
     wait(browser, PLOTTED)
@@ -128,7 +122,7 @@ def test_the_values_of_the_cursor_lie_beside_the_plots_and_never_over_the_loops(
     assert overlap <= 0
 
 
-def test_labels_lie_above_the_panels_and_not_over_each_other(browser: Any, stop_page: Path) -> None:
+def test_labels_lie_above_the_panels_and_not_over_each_other(browser, stop_page):
     browser.get(stop_page.as_uri())
     wait(browser, READY)
     boxes = run(
@@ -144,12 +138,12 @@ def test_labels_lie_above_the_panels_and_not_over_each_other(browser: Any, stop_
             assert not _overlap(first, second)
 
 
-def _overlap(first: list[float], second: list[float]) -> bool:
+def _overlap(first, second):
     across = first[0] < second[1] - 1 and second[0] < first[1] - 1
     return across and first[2] < second[3] - 2 and second[2] < first[3] - 2
 
 
-def _choose(browser: Any, within: str, name: str, value: str) -> None:
+def _choose(browser, within, name, value):
     run(
         browser,
         "const choice = document.querySelector(`${arguments[0]} select[data-choice=${arguments[1]}]`);"
@@ -161,15 +155,13 @@ def _choose(browser: Any, within: str, name: str, value: str) -> None:
 
 
 @pytest.mark.parametrize("link", ["#case-slip%20120%5Bfriction%3D0.09%5D", "#case-slip 120[friction=0.09]"])
-def test_a_link_to_a_case_opens_it_whichever_way_it_is_encoded(
-    browser: Any, stop_page: Path, link: str
-) -> None:
+def test_a_link_to_a_case_opens_it_whichever_way_it_is_encoded(browser, stop_page, link):
     browser.get(stop_page.as_uri())
     run(browser, "document.querySelector('details.stop').open = false; location.hash = arguments[0]", link)
     assert wait(browser, "return document.querySelector('details.stop').open")
 
 
-def test_the_link_and_the_command_can_be_copied(browser: Any, stop_page: Path) -> None:
+def test_the_link_and_the_command_can_be_copied(browser, stop_page):
     browser.get(stop_page.as_uri())
     copied = run(
         browser,
@@ -187,7 +179,7 @@ def test_the_link_and_the_command_can_be_copied(browser: Any, stop_page: Path) -
     assert wait(browser, "return document.querySelector('.stop .copied').textContent") == "Copied command."
 
 
-def test_the_samples_behind_the_plots_come_as_csv(browser: Any, stop_page: Path) -> None:
+def test_the_samples_behind_the_plots_come_as_csv(browser, stop_page):
     browser.get(stop_page.as_uri())
     wait(browser, READY)
     run(
@@ -214,9 +206,7 @@ def test_the_samples_behind_the_plots_come_as_csv(browser: Any, stop_page: Path)
     assert {"fill", "vent"} <= {row["valve_command_1"] for row in rows}
 
 
-def test_the_upright_axes_follow_what_is_in_view_and_the_loops_show_that_part(
-    browser: Any, stop_page: Path
-) -> None:
+def test_the_upright_axes_follow_what_is_in_view_and_the_loops_show_that_part(browser, stop_page):
     browser.get(stop_page.as_uri())
     wait(browser, READY)
     highest = (
@@ -233,9 +223,7 @@ def test_the_upright_axes_follow_what_is_in_view_and_the_loops_show_that_part(
 
 
 @pytest.mark.parametrize(("across", "unit"), [("distance", "m"), ("speed", "km/h")])
-def test_the_plots_stand_over_distance_and_over_the_speed_of_the_train(
-    browser: Any, stop_page: Path, across: str, unit: str
-) -> None:
+def test_the_plots_stand_over_distance_and_over_the_speed_of_the_train(browser, stop_page, across, unit):
     browser.get(stop_page.as_uri())
     wait(browser, READY)
     _choose(browser, ".plots", "across", across)
@@ -254,9 +242,7 @@ def test_the_plots_stand_over_distance_and_over_the_speed_of_the_train(
     assert place == pytest.approx(expected, rel=0.01)
 
 
-def test_two_cursors_read_the_difference_the_mean_and_the_vents_between(
-    browser: Any, stop_page: Path
-) -> None:
+def test_two_cursors_read_the_difference_the_mean_and_the_vents_between(browser, stop_page):
     browser.get(stop_page.as_uri())
     wait(browser, READY)
     slider = browser.find_element("css selector", ".readout input")
@@ -274,7 +260,7 @@ def test_two_cursors_read_the_difference_the_mean_and_the_vents_between(
     assert not browser.find_element("css selector", ".between").is_displayed()
 
 
-def test_the_loops_are_those_of_the_wheelset_that_is_chosen(browser: Any, stop_page: Path) -> None:
+def test_the_loops_are_those_of_the_wheelset_that_is_chosen(browser, stop_page):
     browser.get(stop_page.as_uri())
     wait(browser, READY)
     titles = (
@@ -286,7 +272,7 @@ def test_the_loops_are_those_of_the_wheelset_that_is_chosen(browser: Any, stop_p
     assert run(browser, titles) == [f"{loop}, wheelset 1" for loop in loops]
 
 
-def test_on_a_phone_case_verdict_and_measures_are_in_sight(browser: Any, stop_page: Path) -> None:
+def test_on_a_phone_case_verdict_and_measures_are_in_sight(browser, stop_page):
     resize(browser, 400)
     browser.get(stop_page.as_uri())
     script = """
@@ -298,7 +284,7 @@ def test_on_a_phone_case_verdict_and_measures_are_in_sight(browser: Any, stop_pa
     assert all(left >= 0 and right <= 400 for left, right in ends)
 
 
-def test_paper_has_the_name_of_the_run_and_the_numbers_of_its_pages(browser: Any, stop_page: Path) -> None:
+def test_paper_has_the_name_of_the_run_and_the_numbers_of_its_pages(browser, stop_page):
     browser.get(stop_page.as_uri())
     emulate(browser, media="print")
     rules = run(
@@ -312,7 +298,7 @@ def test_paper_has_the_name_of_the_run_and_the_numbers_of_its_pages(browser: Any
     assert run(browser, head) == "table-header-group"
 
 
-def test_lines_of_a_panel_are_told_apart_without_colours(browser: Any, stop_page: Path) -> None:
+def test_lines_of_a_panel_are_told_apart_without_colours(browser, stop_page):
     """By dash or width, and so are the samples of the key; a dotted line belongs to the one above it."""
     browser.get(stop_page.as_uri())
     wait(browser, READY)
@@ -332,7 +318,7 @@ def test_lines_of_a_panel_are_told_apart_without_colours(browser: Any, stop_page
     assert all(len(set(styles)) == len(styles) for styles in [*panels, key])
 
 
-def test_the_band_of_the_repeats_lies_behind_the_lines_over_time_alone(browser: Any, tmp_path: Path) -> None:
+def test_the_band_of_the_repeats_lies_behind_the_lines_over_time_alone(browser, tmp_path):
     recording = make_recording()
     extremes = [
         stop_extremes(
@@ -370,7 +356,7 @@ def test_the_band_of_the_repeats_lies_behind_the_lines_over_time_alone(browser: 
         assert run(browser, f"return {box}.disabled") == (count == 0)
 
 
-def test_cursors_and_labels_stand_at_their_instants_after_a_zoom(browser: Any, stop_page: Path) -> None:
+def test_cursors_and_labels_stand_at_their_instants_after_a_zoom(browser, stop_page):
     browser.get(stop_page.as_uri())
     wait(browser, READY)
     slider = browser.find_element("css selector", ".readout input")

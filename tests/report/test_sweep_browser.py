@@ -1,10 +1,6 @@
 """Maps and points of a sweep in a browser: what is drawn, read at the cursor and led to."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -49,7 +45,7 @@ return [...document.querySelectorAll('.point-ring')].map((each) => middle(each.g
 
 
 @pytest.fixture(scope="module")
-def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def page(tmp_path_factory):
     """A sample of 60 cases, three of which fail; the first of these is drawn."""
     folder = tmp_path_factory.mktemp("page")
     rows = drawn_rows(60, failing=(7, 8, 9))
@@ -63,12 +59,11 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def text_of(browser: Any, selector: str) -> str:
-    found: str = run(browser, "return document.querySelector(arguments[0]).textContent", selector)
-    return found
+def text_of(browser, selector):
+    return run(browser, "return document.querySelector(arguments[0]).textContent", selector)
 
 
-def test_every_point_of_every_panel_is_drawn(browser: Any, page: Path) -> None:
+def test_every_point_of_every_panel_is_drawn(browser, page):
     """Without a script, too; a measure with one value, the slide, has no panels."""
     browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
     browser.get(page.as_uri())
@@ -80,7 +75,7 @@ def test_every_point_of_every_panel_is_drawn(browser: Any, page: Path) -> None:
     assert "fail: 3" in key
 
 
-def test_the_slider_reads_a_case_and_leads_to_its_stop(browser: Any, page: Path) -> None:
+def test_the_slider_reads_a_case_and_leads_to_its_stop(browser, page):
     browser.get(page.as_uri())
     run(browser, _SLIDE, 7)
     row = drawn_rows(60)[7]
@@ -93,7 +88,7 @@ def test_the_slider_reads_a_case_and_leads_to_its_stop(browser: Any, page: Path)
     assert run(browser, "return location.hash") == "#case-study%5Bsample%3D7%5D"
 
 
-def test_the_pointer_reads_the_point_below_it_in_every_panel(browser: Any, page: Path) -> None:
+def test_the_pointer_reads_the_point_below_it_in_every_panel(browser, page):
     browser.get(page.as_uri())
     run(browser, _POINT)
     assert text_of(browser, ".point-readout output").startswith("study[sample=7]: fail; ")
@@ -101,7 +96,7 @@ def test_the_pointer_reads_the_point_below_it_in_every_panel(browser: Any, page:
 
 
 @pytest.fixture(scope="module")
-def with_a_gap(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def with_a_gap(tmp_path_factory):
     """The page of a sweep of three parameters without the cases of a = 1, b = 1; one case fails."""
     folder = tmp_path_factory.mktemp("page")
     values = {key: ["0", "1"] for key in ("a", "c", "b")}
@@ -119,7 +114,7 @@ def with_a_gap(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_a_link_unfolds_its_map_and_a_cell_without_a_case_is_hatched(browser: Any, with_a_gap: Path) -> None:
+def test_a_link_unfolds_its_map_and_a_cell_without_a_case_is_hatched(browser, with_a_gap):
     browser.get(f"{with_a_gap.as_uri()}#map-met-a-b")
     shown, table, ground = run(browser, _MAP, "map-met-a-b")
     assert shown

@@ -3,11 +3,9 @@
 Nothing here depends on the values of the defaults beyond that they are those of a sensible car.
 """
 
-from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +14,7 @@ from numpy.typing import NDArray
 from uictest.controllers import CONTROLLERS, DEFAULT
 from uictest.core.lanes import translate
 from uictest.core.record import layout_of
-from uictest.plans.scenario import Case, load
+from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.model.controller import begin
@@ -25,7 +23,7 @@ from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import start
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS, WheelsetParameters
-from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
+from uictest.rig.single_stop import run_to_end
 
 Array = NDArray[np.float64]
 
@@ -37,25 +35,23 @@ class EveryParameter(Parameters, WheelsetParameters):
 class Rig:
     """Cases of one scenario, changed by ``key=value`` overrides and by fields of the parameter record."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path):
         self.path = path
         self.stop = cache(self._stop)
 
-    def case(self, *overrides: str) -> Case:
+    def case(self, *overrides):
         return load([self.path], list(overrides))[0]
 
-    def parameters(self, *overrides: str, **fields: float) -> tuple[Any, Array]:
+    def parameters(self, *overrides, **fields):
         """Parameters and, beside them in one record, those of the first wheelset; and the rail."""
         inputs = self.inputs(*overrides, **fields)
-        record: Any = np.zeros(
-            1, layout_of(EveryParameter, *(each.parameters for each in CONTROLLERS.values()))
-        )
+        record = np.zeros(1, layout_of(EveryParameter, *(each.parameters for each in CONTROLLERS.values())))
         for source in (inputs.parameters, inputs.wheelset_parameters[0]):
             for name in source.dtype.names:
                 record[name] = source[name]
         return record[0], inputs.rail
 
-    def inputs(self, *overrides: str, **fields: float) -> StopInputs:
+    def inputs(self, *overrides, **fields):
         """What the rig is given; fields of a wheelset are set in all four."""
         inputs = assemble(self.case(*overrides))
         for name, value in fields.items():
@@ -63,12 +59,12 @@ class Rig:
             (inputs.wheelset_parameters if own else inputs.parameters)[name] = value
         return inputs
 
-    def _stop(self, *overrides: str, every: int = 0, **fields: float) -> FinishedStop:
+    def _stop(self, *overrides, every=0, **fields):
         """Run a stop on the compiled rig; ``every`` is the number of steps between two samples."""
         inputs = self.inputs(*overrides, **fields)
         return run_to_end(compiled_stop(), inputs, every)
 
-    def columns(self, *overrides: str, every: int = 20, **fields: float) -> dict[str, Array]:
+    def columns(self, *overrides, every=20, **fields):
         """Trace of a stop by channel; a wheelset's channel has a column for each of the four."""
         trace = self.stop(*overrides, every=every, **fields).trace
         columns = {name: trace.train[name] for name, _ in CAR_CHANNELS}
@@ -78,7 +74,7 @@ class Rig:
 class Bench:
     """A rig at the instant of the brake command, in plain numbers: quick to step in plain Python."""
 
-    def __init__(self, parameters: Any) -> None:
+    def __init__(self, parameters):
         self.p = SimpleNamespace(**{name: parameters[name].tolist() for name in parameters.dtype.names})
         self.car = self._blank(CAR)
         self.bogies = [self._blank(BOGIE) for _ in range(2)]
@@ -87,25 +83,25 @@ class Bench:
         begin_stop(self.car, self.bogies, self.wheelsets, self.p, [self.p] * 4)
 
     @staticmethod
-    def _blank(layout: np.dtype[Any]) -> SimpleNamespace:
+    def _blank(layout):
         kinds = {name: field[0].kind for name, field in (layout.fields or {}).items()}
         return SimpleNamespace(**{name: 0 if kind == "i" else 0.0 for name, kind in kinds.items()})
 
 
 @pytest.fixture(name="rig", scope="session")
-def _rig(tmp_path_factory: pytest.TempPathFactory) -> Rig:
+def _rig(tmp_path_factory):
     path = tmp_path_factory.mktemp("rig") / "rig.yaml"
     path.write_text("schema: uictest/scenario/1\nname: rig\ninitial_speed: 80 km/h\n")
     return Rig(path)
 
 
 @pytest.fixture(name="bench", scope="session")
-def _bench() -> Callable[[Any], Bench]:
+def _bench():
     """Set up a rig in plain numbers from a parameter record."""
     return Bench
 
 
 @pytest.fixture(name="scenarios", scope="session")
-def _scenarios() -> list[Case]:
+def _scenarios():
     """Every shipped case."""
     return load([Path(__file__).parents[2] / "scenarios"])

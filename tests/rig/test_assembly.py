@@ -1,7 +1,5 @@
 """From a scenario to the numbers of the rig."""
 
-from typing import Any
-
 import control
 import numpy as np
 import pytest
@@ -16,7 +14,7 @@ from uictest.rig.model.rail import MARGIN, POINTS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
 
-def test_every_parameter_of_every_shipped_case_is_a_number(scenarios: Any, rig: Any) -> None:
+def test_every_parameter_of_every_shipped_case_is_a_number(scenarios, rig):
     for case in scenarios:
         parameters, wheelset_parameters, rail, *_ = assemble(case)
         endless = {name for name in PARAMETERS.names or () if name.startswith("fault_")}
@@ -27,13 +25,13 @@ def test_every_parameter_of_every_shipped_case_is_a_number(scenarios: Any, rig: 
         assert np.isfinite(rail).all()
 
 
-def test_wheels_carry_the_weight(rig: Any) -> None:
+def test_wheels_carry_the_weight(rig):
     p = rig.parameters()[0]
     mass = p.body_mass + 2.0 * p.bogie_mass + 4.0 * p.wheelset_mass
     assert 8.0 * p.static_wheel_load == pytest.approx(mass * STANDARD_GRAVITY)
 
 
-def test_orifice_law_is_that_of_the_valves(rig: Any) -> None:
+def test_orifice_law_is_that_of_the_valves(rig):
     p = rig.parameters(
         "brake.system.critical_pressure_ratio=0.4", "brake.system.laminar_pressure_ratio=0.98"
     )[0]
@@ -41,7 +39,7 @@ def test_orifice_law_is_that_of_the_valves(rig: Any) -> None:
     assert p.laminar_slope == pytest.approx(np.sqrt(1.0 - (0.58 / 0.6) ** 2) / 0.02)
 
 
-def test_air_has_the_heat_capacities_of_an_ideal_gas(rig: Any) -> None:
+def test_air_has_the_heat_capacities_of_an_ideal_gas(rig):
     """Mayer: cp - cv = R; 718 and 1005 J/(kg K) for air."""
     p = rig.parameters("brake.system.air.temperature=10 degC")[0]
     assert p.heat_capacity_pressure - p.heat_capacity_volume == pytest.approx(p.gas_constant)
@@ -50,7 +48,7 @@ def test_air_has_the_heat_capacities_of_an_ideal_gas(rig: Any) -> None:
 
 
 @pytest.mark.parametrize("step", [0.25, 0.5])
-def test_walls_give_off_heat_by_film_coefficient_and_surface(rig: Any, step: float) -> None:
+def test_walls_give_off_heat_by_film_coefficient_and_surface(rig, step):
     """In a step; the module with a caliper has the balls besides the wall of a tank."""
     system = "brake.system"
     p = rig.parameters(
@@ -67,7 +65,7 @@ def test_walls_give_off_heat_by_film_coefficient_and_surface(rig: Any, step: flo
 
 
 @pytest.mark.parametrize("step", [0.25, 0.5])
-def test_modelled_air_is_that_of_a_tank_in_units_of_pressure(rig: Any, step: float) -> None:
+def test_modelled_air_is_that_of_a_tank_in_units_of_pressure(rig, step):
     """A kilogram at the temperature of the wall is worth R T / V; heat is worth (k - 1) / V of it."""
     model = "rig.compensation_model.air"
     p = rig.parameters(
@@ -91,7 +89,7 @@ def test_modelled_air_is_that_of_a_tank_in_units_of_pressure(rig: Any, step: flo
 
 
 @pytest.mark.parametrize("step", [0.25, 0.5])
-def test_caliper_is_stiffened_by_its_damping_within_a_step(rig: Any, step: float) -> None:
+def test_caliper_is_stiffened_by_its_damping_within_a_step(rig, step):
     """Spring, dampings and contact side by side; friction adds to what squeezing feels of the contact."""
     overrides = (f"simulation.time_step={step} ms", "rig.caliper.load_friction=10 %")
     p = rig.parameters(*overrides)[0]
@@ -109,7 +107,7 @@ def test_caliper_is_stiffened_by_its_damping_within_a_step(rig: Any, step: float
 
 
 @pytest.mark.parametrize("step", [0.25, 0.5])
-def test_a_force_changes_speed_rotation_and_slip_within_a_step(rig: Any, step: float) -> None:
+def test_a_force_changes_speed_rotation_and_slip_within_a_step(rig, step):
     p = rig.parameters(f"simulation.time_step={step} ms")[0]
     assert p.mass_response == pytest.approx(1e-3 * step / p.wheelset_mass)
     assert p.inertia_response == pytest.approx(1e-3 * step / p.wheelset_inertia)
@@ -122,26 +120,26 @@ def test_a_force_changes_speed_rotation_and_slip_within_a_step(rig: Any, step: f
     assert inverses == pytest.approx((1.0, 1.0, 1.0))
 
 
-def test_suspension_is_summed_over_axle_boxes_and_sides(rig: Any) -> None:
+def test_suspension_is_summed_over_axle_boxes_and_sides(rig):
     """Vehicle files give one axle box and one side; the planar model has both in one."""
     p = rig.parameters("vehicle=manchester-benchmark")[0]
     assert p.primary_longitudinal_stiffness == pytest.approx(2 * 31.391e6)
     assert p.secondary_vertical_stiffness == pytest.approx(2 * 430e3)
 
 
-def test_pressures_are_absolute_but_for_the_demand(rig: Any) -> None:
+def test_pressures_are_absolute_but_for_the_demand(rig):
     p = rig.parameters("brake.command=80 %")[0]
     assert p.reservoir_pressure == pytest.approx(8e5 + p.atmospheric_pressure)
     assert p.commanded_pressure == pytest.approx(0.8 * rig.parameters()[0].commanded_pressure)
 
 
 @pytest.mark.parametrize(("delay", "cycles", "steps"), [("0.5 ms", 0, 1), ("10 ms", 1, 0), ("64 ms", 6, 8)])
-def test_switching_delay_is_cut_into_cycles_and_steps(rig: Any, delay: str, cycles: int, steps: int) -> None:
+def test_switching_delay_is_cut_into_cycles_and_steps(rig, delay, cycles, steps):
     p = rig.parameters(f"brake.system.wsp_valve.switching_delay={delay}")[0]
     assert (p.valve_delay_cycles, p.valve_delay_steps) == (cycles, steps)
 
 
-def test_quantities_per_step_follow_the_step(rig: Any) -> None:
+def test_quantities_per_step_follow_the_step(rig):
     coarse = rig.parameters("simulation.time_step=0.5 ms")[0]
     fine = rig.parameters("simulation.time_step=0.25 ms")[0]
     assert fine.steps_per_cycle == 2 * coarse.steps_per_cycle
@@ -153,7 +151,7 @@ def test_quantities_per_step_follow_the_step(rig: Any) -> None:
 
 
 @pytest.mark.parametrize("step", ["0.25 ms", "0.5 ms", "1 ms"])
-def test_cylinder_is_stable_with_unity_gain_at_every_step(rig: Any, step: str) -> None:
+def test_cylinder_is_stable_with_unity_gain_at_every_step(rig, step):
     """As far as double precision tells: steps at which it cannot tell 1e-4 are refused."""
     p = rig.parameters(f"simulation.time_step={step}")[0]
     system = control.tf([p.b0, p.b1, p.b2, p.b3], [1.0, p.a1, p.a2, p.a3], float(p.step))
@@ -168,24 +166,24 @@ def test_cylinder_is_stable_with_unity_gain_at_every_step(rig: Any, step: str) -
         (["simulation.time_step=0.01 ms", "rig.compensation=full"], "too short for the cylinder dynamics"),
     ],
 )
-def test_numbers_that_the_rig_cannot_hold_are_refused(rig: Any, overrides: list[str], message: str) -> None:
+def test_numbers_that_the_rig_cannot_hold_are_refused(rig, overrides, message):
     with pytest.raises(ScenarioErrors, match=message):
         rig.parameters(*overrides)
 
 
-def test_steps_of_friction_are_pairs_of_points(rig: Any) -> None:
+def test_steps_of_friction_are_pairs_of_points(rig):
     points = "[{position: 0 m, friction: 0.3}, {position: 150 m, friction: 0.1}]"
     case = rig.case("rail.condition=wet", f"rail.friction={{interpolation: steps, points: {points}}}")
     np.testing.assert_array_equal(friction_laws(case.scenario)[0], [0.0, 150.0, 150.0])
     np.testing.assert_array_equal(friction_laws(case.scenario)[1], [0.3, 0.3, 0.1])
 
 
-def test_friction_is_that_of_the_rail_condition_unless_given(rig: Any) -> None:
+def test_friction_is_that_of_the_rail_condition_unless_given(rig):
     assert friction_laws(rig.case("rail.condition=wet").scenario)[1, 0] == pytest.approx(0.30)
     assert friction_laws(rig.case("rail.friction=0.09").scenario)[1, 0] == pytest.approx(0.09)
 
 
-def test_cleaning_is_that_of_the_rail_condition_unless_given(rig: Any) -> None:
+def test_cleaning_is_that_of_the_rail_condition_unless_given(rig):
     given = "rail.cleaning={energy: 10 kJ/m, recovered_friction: 0.3, reach: 2 m, carry_over: 0.25}"
     fields = ("cleans_rail", "cleaning_response", "recovered_friction", "cleaning_decay", "carry_over")
     wet, shipped, own = (
@@ -202,7 +200,7 @@ def test_cleaning_is_that_of_the_rail_condition_unless_given(rig: Any) -> None:
 
 
 @pytest.mark.parametrize("vehicle", ["intercity-180", "manchester-benchmark", "crh380a"])
-def test_the_memory_of_the_rail_reaches_from_each_wheelset_to_the_next(rig: Any, vehicle: str) -> None:
+def test_the_memory_of_the_rail_reaches_from_each_wheelset_to_the_next(rig, vehicle):
     """Its ring holds the longest gap, and its points lie closer than the shortest."""
     p = rig.parameters(f"vehicle={vehicle}")[0]
     wheelbase = 2.0 * p.half_wheelbase
@@ -214,8 +212,8 @@ def test_the_memory_of_the_rail_reaches_from_each_wheelset_to_the_next(rig: Any,
 SOCKET = "controller={connect: 'tcp://127.0.0.1:5025', free_parameters: true, parameters: {lower_slide: %s}}"
 
 
-def test_the_digest_of_a_case_names_what_decides_its_stop(rig: Any) -> None:
-    def digest(*overrides: str, lower_slide: float = 0.08) -> str:
+def test_the_digest_of_a_case_names_what_decides_its_stop(rig):
+    def digest(*overrides, lower_slide=0.08):
         config = assemble(rig.case(SOCKET % lower_slide, *overrides)).config
         assert config is not None
         return str(config.case_sha256)

@@ -1,7 +1,6 @@
 """Measures of whole stops that say what a WSP made of the rail, against balances and closed forms."""
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -14,9 +13,7 @@ KMH = 1 / 3.6
 
 
 @pytest.mark.parametrize("overrides", [(), WET, LOCKING, ("brake.position=G",)])
-def test_both_bogies_and_the_running_resistance_give_the_mean_deceleration(
-    rig: Any, overrides: tuple[str, ...]
-) -> None:
+def test_both_bogies_and_the_running_resistance_give_the_mean_deceleration(rig, overrides):
     stop = rig.stop(*overrides)
     measures, (p, _) = stop.measures, rig.parameters(*overrides)
     mean = measures.initial_speed**2 / (2.0 * measures.braking_distance)
@@ -26,14 +23,14 @@ def test_both_bogies_and_the_running_resistance_give_the_mean_deceleration(
 
 
 @pytest.mark.parametrize("overrides", [WET, LOCKING])
-def test_work_of_the_rail_is_that_of_the_recorded_creep_forces(rig: Any, overrides: tuple[str, ...]) -> None:
+def test_work_of_the_rail_is_that_of_the_recorded_creep_forces(rig, overrides):
     trace, stop = rig.columns(*overrides, every=1), rig.stop(*overrides, every=1)
     force = 2.0 * trace["wheel_load"] * trace["adhesion"]
     work = (force * np.diff(trace["distance"], prepend=0.0)[:, None]).sum(axis=0)
     np.testing.assert_allclose(stop.wheelset_measures.rail_work, work, rtol=2e-3)
 
 
-def test_locked_wheelsets_use_what_the_creep_law_leaves_them(rig: Any) -> None:
+def test_locked_wheelsets_use_what_the_creep_law_leaves_them(rig):
     """On a rail whose friction does not fall: F / (Q mu0) = (2/pi)(kA e/(1 + (kA e)^2) + arctan(kS e))."""
     overrides = (*LOCKING, *EVEN)
     stop = rig.stop(*overrides)
@@ -45,31 +42,31 @@ def test_locked_wheelsets_use_what_the_creep_law_leaves_them(rig: Any) -> None:
     assert stop.measures.adhesion_utilisation == pytest.approx(expected, abs=5e-3)
 
 
-def test_locking_on_a_rail_whose_friction_falls_wastes_most_of_it(rig: Any) -> None:
+def test_locking_on_a_rail_whose_friction_falls_wastes_most_of_it(rig):
     """At these slip speeds the friction is near A = 0.4 of what it is at the beginning."""
     assert 0.4 < rig.stop(*LOCKING).measures.adhesion_utilisation < 0.65
 
 
-def test_dry_stop_has_no_utilisation(rig: Any) -> None:
+def test_dry_stop_has_no_utilisation(rig):
     measures = rig.stop().measures
     assert np.isnan(measures.adhesion_utilisation)
     assert measures.available_work == 0.0
 
 
-def test_line_builds_up_alike_whether_wheelsets_slide_or_not(rig: Any) -> None:
+def test_line_builds_up_alike_whether_wheelsets_slide_or_not(rig):
     dry, wet = (rig.stop(*overrides).measures for overrides in ((), WET))
     assert wet.build_up_time == pytest.approx(dry.build_up_time, abs=0.005)
     assert rig.stop("brake.position=G").measures.build_up_time > 5.0 * dry.build_up_time
 
 
-def test_build_up_time_is_the_dead_time_and_half_of_the_fill_time(rig: Any) -> None:
+def test_build_up_time_is_the_dead_time_and_half_of_the_fill_time(rig):
     """The relay valve follows the demand within its proportional band."""
     p, _ = rig.parameters("brake.position=G")
     expected = p.dead_time + 0.5 / p.filling_rate
     assert rig.stop("brake.position=G").measures.build_up_time == pytest.approx(expected, rel=0.05)
 
 
-def test_figures_are_those_of_the_recorded_channels(rig: Any) -> None:
+def test_figures_are_those_of_the_recorded_channels(rig):
     trace, stop = rig.columns(*WET), rig.stop(*WET, every=20)
     speed, time = trace["speed"][:, None], trace["time"]
     slip = speed - trace["wheel_speed"]

@@ -1,7 +1,5 @@
 """What a recording shows of faults."""
 
-from typing import Any
-
 import numpy as np
 
 from uictest.rig import simulate
@@ -11,7 +9,7 @@ LEAK = "{at: 0.8 s, part: brake-line, kind: leak, value: 1e-8 m3/(s Pa)}"
 SHORT = ("initial_speed=12 km/h",)
 
 
-def test_bits_say_which_faults_are_active(rig: Any) -> None:
+def test_bits_say_which_faults_are_active(rig):
     recording = simulate(rig.case(*SHORT, f"faults=[{LOST}, {LEAK}]"), 0.01).recording
     time, bits = recording["time"], recording["active_faults"]
     # A sample at the end of a cycle shows what held in it.
@@ -22,7 +20,7 @@ def test_bits_say_which_faults_are_active(rig: Any) -> None:
     assert recording.metadata["faults"] == "speed-sensor-lost-2, brake-line-leak"
 
 
-def test_a_stop_without_faults_has_no_channel_of_them(rig: Any) -> None:
+def test_a_stop_without_faults_has_no_channel_of_them(rig):
     recording = simulate(rig.case(*SHORT), 0.01).recording
     assert not {"active_faults", "speed_valid_1"} & set(recording.channels)
     assert "faults" not in recording.metadata

@@ -15,17 +15,17 @@ STIFFNESS = 0.25 * 8.1e10 * math.pi * 6e-3 * 5e-3 * 4.3
 REFERENCE_LOAD = 55e3
 
 
-def library_rail(name: str) -> RailCondition:
+def library_rail(name):
     condition = load_part(f"rails/{name}")
     assert isinstance(condition, RailCondition)
     return condition
 
 
-def rail(**changes: float) -> RailCondition:
+def rail(**changes):
     return library_rail("wet").model_copy(update=changes)
 
 
-def creep(w: float, v: float, load: float, mu0: float, condition: RailCondition) -> float:
+def creep(w, v, load, mu0, condition):
     """Polach (2005), force of one wheel."""
     ratio, decay = float(condition.friction_ratio), float(condition.friction_decay)
     ka, ks = float(condition.reduction_adhesion), float(condition.reduction_slip)
@@ -34,7 +34,7 @@ def creep(w: float, v: float, load: float, mu0: float, condition: RailCondition)
     return 2 * load * mu / math.pi * (ka * eps / (1 + (ka * eps) ** 2) + math.atan(ks * eps))
 
 
-def searched(v: float, load: float, mu0: float, condition: RailCondition) -> float:
+def searched(v, load, mu0, condition):
     slips = np.geomspace(1e-4, 200.0, 400)
     best = int(np.argmax([creep(w, v, load, mu0, condition) for w in slips]))
     around = slips[max(best - 1, 0)], slips[min(best + 1, 399)]
@@ -44,7 +44,7 @@ def searched(v: float, load: float, mu0: float, condition: RailCondition) -> flo
     return float(-found.fun)
 
 
-def ours(v: float, load: float, mu0: float, condition: RailCondition) -> float:
+def ours(v, load, mu0, condition):
     samples = (np.array([x]) for x in (v, load, mu0))
     return float(highest_creep_forces(condition, *samples)[0])
 
@@ -52,7 +52,7 @@ def ours(v: float, load: float, mu0: float, condition: RailCondition) -> float:
 @pytest.mark.parametrize("v", [3.0, 10.0, 33.0, 55.0, 90.0])
 @pytest.mark.parametrize("mu0", [0.03, 0.09, 0.15, 0.30, 0.55])
 @pytest.mark.parametrize("name", ["wet", "dry"])
-def test_the_fit_is_the_maximum_of_the_curve(name: str, mu0: float, v: float) -> None:
+def test_the_fit_is_the_maximum_of_the_curve(name, mu0, v):
     condition = library_rail(name)
     for load in (40e3, 55e3, 70e3):
         expected = searched(v, load, mu0, condition)
@@ -62,9 +62,7 @@ def test_the_fit_is_the_maximum_of_the_curve(name: str, mu0: float, v: float) ->
 @given(
     st.floats(0.2, 1.0), st.floats(0.01, 1.0), st.floats(0.1, 1.0), st.floats(0.1, 1.0), st.floats(3.0, 90.0)
 )
-def test_rails_of_other_laws_are_known_to_a_few_per_cent(
-    ratio: float, decay: float, adhesion: float, slip: float, v: float
-) -> None:
+def test_rails_of_other_laws_are_known_to_a_few_per_cent(ratio, decay, adhesion, slip, v):
     condition = rail(
         friction_ratio=ratio,
         friction_decay=decay,
@@ -76,12 +74,12 @@ def test_rails_of_other_laws_are_known_to_a_few_per_cent(
     assert ours(v, 55e3, 0.1, condition) == pytest.approx(expected, rel=0.03)
 
 
-def test_friction_that_does_not_fall_with_slip_is_all_that_there_is() -> None:
+def test_friction_that_does_not_fall_with_slip_is_all_that_there_is():
     for constant in (rail(friction_ratio=1.0), rail(friction_decay=0.0)):
         assert ours(20.0, 55e3, 0.1, constant) == pytest.approx(5500.0, rel=1e-3)
 
 
-def test_at_standstill_it_is_the_whole_friction() -> None:
+def test_at_standstill_it_is_the_whole_friction():
     scale, coefficients = highest_creep_law(library_rail("wet"))
     stiffness = contact_stiffness(STIFFNESS, 1.0)
     assert highest_creep_force(0.0, 55e3, 0.1, stiffness, scale, *coefficients) == pytest.approx(
@@ -89,7 +87,7 @@ def test_at_standstill_it_is_the_whole_friction() -> None:
     )
 
 
-def test_what_is_not_known_has_no_largest_force() -> None:
+def test_what_is_not_known_has_no_largest_force():
     samples = np.array([[20.0, 55e3, 0.1], [np.nan, 55e3, 0.1], [20.0, np.nan, 0.1], [20.0, 55e3, np.nan]])
     highest = highest_creep_forces(rail(), *samples.T)
     np.testing.assert_array_equal(np.isnan(highest), [False, True, True, True])

@@ -1,8 +1,6 @@
 """What the shipped controllers make of a speed sensor that fails: over frictions, instants and wheelsets."""
 
-from collections.abc import Iterator, Sequence
 from itertools import product
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,13 +14,7 @@ SEEDS = (0, 1)
 KINDS = {"lost": "kind: lost", "zero": "kind: factor, value: 0 %", "stuck": "kind: stuck"}
 
 
-def stops(
-    rig: Any,
-    controller: str,
-    kind: str,
-    instants: Sequence[str] = INSTANTS,
-    frictions: Sequence[str] = FRICTIONS,
-) -> Iterator[tuple[Any, Any]]:
+def stops(rig, controller, kind, instants=INSTANTS, frictions=FRICTIONS):
     """Measures of the stop and of its wheelsets, for every instant, friction, wheelset and seed."""
     inputs = []
     for at, friction, wheelset in product(instants, frictions, WHEELSETS):
@@ -42,7 +34,7 @@ def stops(
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_lost_sensor_locks_no_sound_wheelset(rig: Any, kind: str) -> None:
+def test_a_lost_sensor_locks_no_sound_wheelset(rig, kind):
     """Nor does it capture the estimate of the train's speed, or keep its own brake released."""
     for measures, wheelsets in stops(rig, "threshold", kind):
         sound = wheelsets[wheelsets.faulty == 0.0]
@@ -55,7 +47,7 @@ def test_a_lost_sensor_locks_no_sound_wheelset(rig: Any, kind: str) -> None:
         assert abs(measures.energy_residual) < 1e-6
 
 
-def test_the_simplest_controller_follows_a_stuck_sensor(rig: Any) -> None:
+def test_the_simplest_controller_follows_a_stuck_sensor(rig):
     """It takes what it reads for the speed of the train, unless that wheelset slides deep when it sticks."""
     found = list(stops(rig, "slip-band", "stuck", ["at: 30 km/h"], ["0.12"]))
     assert max(measures.reference_excess for measures, _ in found) > 3.0

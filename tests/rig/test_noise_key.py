@@ -1,16 +1,12 @@
 """What decides the sensors' noise, and what must not."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 import pytest
 
 from uictest.rig import assemble, noise_keys
 
 
-def key(rig: Any, *overrides: str) -> int:
+def key(rig, *overrides):
     return int(assemble(rig.case(*overrides)).parameters.noise_key)
 
 
@@ -42,23 +38,23 @@ CONDITIONS = [
 
 
 @pytest.mark.parametrize("overrides", UNDER_TEST, ids=lambda each: each[0].split("=")[0])
-def test_what_is_under_test_meets_the_same_noise(rig: Any, overrides: tuple[str, ...]) -> None:
+def test_what_is_under_test_meets_the_same_noise(rig, overrides):
     assert key(rig, *overrides) == key(rig)
 
 
-def test_stops_that_differ_in_their_conditions_draw_different_noise(rig: Any) -> None:
+def test_stops_that_differ_in_their_conditions_draw_different_noise(rig):
     keys = [key(rig), *(key(rig, *overrides) for overrides in CONDITIONS)]
     assert len(set(keys)) == len(keys)
 
 
-def test_points_that_fill_up_a_friction_law_do_not_count(rig: Any) -> None:
+def test_points_that_fill_up_a_friction_law_do_not_count(rig):
     stop = assemble(rig.case())
     longer = np.pad(stop.rail, ((0, 0), (0, 5)), constant_values=9.0)
     records = np.array([stop.parameters]), stop.wheelset_parameters[None]
     assert noise_keys(*records, longer[None]) == noise_keys(*records, stop.rail[None])
 
 
-def test_an_axis_of_one_value_more_changes_no_digit_of_a_stop(rig: Any) -> None:
+def test_an_axis_of_one_value_more_changes_no_digit_of_a_stop(rig):
     from uictest.plans.scenario import load
     from uictest.rig import simulate
 
@@ -69,7 +65,7 @@ def test_an_axis_of_one_value_more_changes_no_digit_of_a_stop(rig: Any) -> None:
     assert simulate(first).measures.tobytes() == simulate(alone).measures.tobytes()
 
 
-def test_many_stops_have_the_keys_that_each_has_alone(rig: Any) -> None:
+def test_many_stops_have_the_keys_that_each_has_alone(rig):
     overrides = [(), *CONDITIONS, ("rail.friction={points: [{position: 0 m, friction: 0.1}]}",)]
     stops = [assemble(rig.case(*each)) for each in overrides]
     longest = max(stop.rail.shape[1] for stop in stops)

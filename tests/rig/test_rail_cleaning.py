@@ -1,12 +1,8 @@
 """Stops on a rail that sliding cleans: limits, directions and an oracle beside the rig."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-
-from uictest.rig.single_stop import FinishedStop
 
 Array = NDArray[np.float64]
 SLIPPERY = ("initial_speed=120 km/h", "rail.condition=wet", "rail.friction=0.08")
@@ -14,37 +10,35 @@ LOCKED = (*SLIPPERY, "rig.wsp=bypassed")
 """No valve acts: the wheelsets slide or stand, and nothing amplifies a difference."""
 
 
-def cleaning(energy: float = 5300.0, reach: float = 0.5, carry_over: float = 0.5) -> str:
+def cleaning(energy=5300.0, reach=0.5, carry_over=0.5):
     return (
         f"rail.cleaning={{energy: {energy} J/m, recovered_friction: 0.28, reach: {reach} m,"
         f" carry_over: {carry_over}}}"
     )
 
 
-def bits(stop: FinishedStop) -> bytes:
+def bits(stop):
     return bytes(stop.measures.tobytes() + stop.wheelset_measures.tobytes())
 
 
 @pytest.mark.parametrize("rail", [SLIPPERY, LOCKED, ("rail.condition=wet", "rail.friction=0.1627")])
-def test_a_rail_that_no_energy_cleans_gives_the_bits_of_one_that_is_not_cleaned(
-    rig: Any, rail: tuple[str, ...]
-) -> None:
+def test_a_rail_that_no_energy_cleans_gives_the_bits_of_one_that_is_not_cleaned(rig, rail):
     without = rig.stop(*rail)
     assert bits(rig.stop(*rail, cleaning(), cleaning_response=0.0)) == bits(without)
     assert bits(rig.stop(*rail, cleaning(), recovered_friction=0.01)) == bits(without)
 
 
-def test_a_dry_rail_keeps_its_bits(rig: Any) -> None:
+def test_a_dry_rail_keeps_its_bits(rig):
     """Its friction lies above that of the cleaned one."""
     assert bits(rig.stop(cleaning())) == bits(rig.stop())
 
 
-def test_the_condition_of_the_library_cleans_as_its_numbers_written_out(rig: Any) -> None:
+def test_the_condition_of_the_library_cleans_as_its_numbers_written_out(rig):
     shipped = rig.stop("initial_speed=120 km/h", "rail.condition=wet-cleaning", "rail.friction=0.08")
     assert bits(shipped) == bits(rig.stop(*SLIPPERY, cleaning()))
 
 
-def test_energy_closes_as_on_a_rail_that_is_not_cleaned(rig: Any) -> None:
+def test_energy_closes_as_on_a_rail_that_is_not_cleaned(rig):
     """Cleaning moves no energy: what the contacts lose is heat as before."""
     for stop in (LOCKED, SLIPPERY):
         for extra in ((), (cleaning(),)):
@@ -52,20 +46,20 @@ def test_energy_closes_as_on_a_rail_that_is_not_cleaned(rig: Any) -> None:
 
 
 @pytest.mark.parametrize("finer", ["simulation.time_step=0.25 ms", "controller.cycle_time=5 ms"])
-def test_halving_step_or_cycle_hardly_moves_a_stop_without_cycling(rig: Any, finer: str) -> None:
+def test_halving_step_or_cycle_hardly_moves_a_stop_without_cycling(rig, finer):
     coarse, fine = rig.stop(*LOCKED, cleaning()), rig.stop(*LOCKED, cleaning(), finer)
     for measure in ("end_distance", "end_time"):
         assert fine.measures[measure] == pytest.approx(coarse.measures[measure], rel=1e-3)
 
 
-def test_distance_falls_as_less_energy_cleans(rig: Any) -> None:
+def test_distance_falls_as_less_energy_cleans(rig):
     energies = (1e9, 4e4, 2e4, 1e4, 5300.0, 3000.0)
     distances = [rig.stop(*LOCKED, cleaning(energy)).measures.end_distance for energy in energies]
     assert np.all(np.diff(distances) < -5.0)
     assert rig.stop(*LOCKED).measures.end_distance == pytest.approx(distances[0], rel=1e-3)
 
 
-def test_trailing_wheelsets_profit_from_those_ahead(rig: Any) -> None:
+def test_trailing_wheelsets_profit_from_those_ahead(rig):
     """Published in direction (Allotta et al. 2014; Voltr and Lata 2015): each meets a better rail."""
     alone, after = (rig.columns(*LOCKED, cleaning(carry_over=share)) for share in (0.0, 0.5))
     met = after["friction"].mean(axis=0)
@@ -77,7 +71,7 @@ def test_trailing_wheelsets_profit_from_those_ahead(rig: Any) -> None:
     assert np.all(advantage[1:] - advantage[0] > without[1:] - without[0] + 0.02)
 
 
-def test_cleaning_shortens_a_stop_with_wsp_and_saves_air(rig: Any) -> None:
+def test_cleaning_shortens_a_stop_with_wsp_and_saves_air(rig):
     """Published in direction: shorter stops with cleaning. Fewer vents and less air follow, in the median."""
     seeds = [f"seed={seed}" for seed in range(5)]
     without = [rig.stop(*SLIPPERY, seed) for seed in seeds]
@@ -90,7 +84,7 @@ def test_cleaning_shortens_a_stop_with_wsp_and_saves_air(rig: Any) -> None:
     assert max(vents[0]) < min(vents[1])
 
 
-def test_the_friction_met_is_that_of_the_cleaned_share(rig: Any) -> None:
+def test_the_friction_met_is_that_of_the_cleaned_share(rig):
     columns = rig.columns(*SLIPPERY, cleaning())
     np.testing.assert_allclose(columns["friction"], 0.08 + columns["cleaned_share"] * 0.2, rtol=1e-12)
     assert columns["cleaned_share"].max() > 0.2
@@ -98,9 +92,7 @@ def test_the_friction_met_is_that_of_the_cleaned_share(rig: Any) -> None:
 
 @pytest.mark.parametrize("wsp", ["active", "bypassed"])
 @pytest.mark.parametrize(("energy", "carry_over"), [(5300.0, 0.5), (12e3, 1.0)])
-def test_an_independent_solution_gives_the_recorded_shares(
-    rig: Any, wsp: str, energy: float, carry_over: float
-) -> None:
+def test_an_independent_solution_gives_the_recorded_shares(rig, wsp, energy, carry_over):
     """The equations solved from a recording of every step: contact loss is adhesion x load x slip.
 
     The rig averages the loss over a controller cycle; the shares differ by less than 1 % of a clean rail
@@ -118,7 +110,7 @@ def test_an_independent_solution_gives_the_recorded_shares(
     assert difference.mean() < 5e-4
 
 
-def solved(columns: dict[str, Array], p: Any, energy: float, reach: float, carry_over: float) -> Array:
+def solved(columns, p, energy, reach, carry_over):
     """Cleaned share under each wheelset at every row, from the channels of a recording and the geometry."""
     wheelbase, pivots = 2.0 * p.half_wheelbase, 2.0 * p.half_pivot_distance
     behind = np.array([0.0, wheelbase, pivots, pivots + wheelbase])

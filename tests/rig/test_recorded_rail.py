@@ -10,7 +10,7 @@ _CLEANING = "{energy: 8000 J/m, recovered_friction: 0.22, reach: 0.5 m, carry_ov
 
 
 @pytest.mark.parametrize("wsp", ["active", "bypassed"])
-def test_exact_records_give_the_shares_of_the_rig(wsp: str) -> None:
+def test_exact_records_give_the_shares_of_the_rig(wsp):
     """Slips averaged over a cycle, in a law that is not linear: the shares differ by 2 % of a clean rail."""
     settings = ["rail.condition=wet", "rail.friction=0.07", f"rail.cleaning={_CLEANING}", f"rig.wsp={wsp}"]
     case = stated_case("stop", 80.0 / 3.6, settings)
@@ -18,7 +18,7 @@ def test_exact_records_give_the_shares_of_the_rig(wsp: str) -> None:
     assert recording is not None
     moving = np.asarray(recording["speed"]) > 0.5
 
-    def channel(name: str) -> np.ndarray:
+    def channel(name):
         return np.array([np.asarray(recording[f"{name}_{n}"])[moving] for n in (1, 2, 3, 4)])
 
     time, speed = (np.asarray(recording[name])[moving] for name in ("time", "speed"))
@@ -37,7 +37,7 @@ def test_exact_records_give_the_shares_of_the_rig(wsp: str) -> None:
     assert np.abs(difference).mean() < 0.003
 
 
-def steady_slide(seconds: float) -> tuple[RecordedRail, np.ndarray]:
+def steady_slide(seconds):
     """The rail under a train at 20 m/s, and ones for each wheelset and sample."""
     case = stated_case("stop", 20.0, ["rail.condition=wet-cleaning"])
     time = np.arange(0.0, seconds, 0.01)
@@ -46,14 +46,14 @@ def steady_slide(seconds: float) -> tuple[RecordedRail, np.ndarray]:
     return RecordedRail(case.scenario, time, 20.0 * full[0], place, 5.5e4 * full), full
 
 
-def test_a_rail_that_nothing_cleans_is_as_it_was_found() -> None:
+def test_a_rail_that_nothing_cleans_is_as_it_was_found():
     rail, full = steady_slide(2.0)
     friction, share = rail.met(0.1 * full, 2.0 * full, np.inf, 0.28)
     np.testing.assert_array_equal(friction, 0.1)
     np.testing.assert_array_equal(share, 0.0)
 
 
-def test_a_constant_slide_settles_at_the_share_of_its_loss() -> None:
+def test_a_constant_slide_settles_at_the_share_of_its_loss():
     """1 - exp(-W / Wc), with W = F s per metre, for the first wheelset and for those behind it."""
     rail, full = steady_slide(5.0)
     # The rail is better than a clean one, so that the friction stays as it is: the loss is the creep law's.

@@ -1,7 +1,6 @@
 """Sensors that are limited by their range: counted while they are, and named."""
 
 import re
-from typing import Any
 
 import numpy as np
 import pytest
@@ -9,7 +8,7 @@ import pytest
 from uictest.running.campaign import RecordingRequest, Stop, run_stop
 
 
-def judged(rig: Any, *overrides: str, **ranges: str) -> Any:
+def judged(rig, *overrides, **ranges):
     """A judged stop whose sensors of a kind have a range."""
     sensors = [f"rig.sensors.{kind}.range={limit}" for kind, limit in ranges.items()]
     return run_stop(
@@ -17,16 +16,14 @@ def judged(rig: Any, *overrides: str, **ranges: str) -> Any:
     ).case_run
 
 
-def check(run: Any, name: str) -> Any:
+def check(run, name):
     return next(each for each in run.result.criteria if each.id == name)
 
 
 @pytest.mark.parametrize(
     ("topology", "named"), [("one-caliper", ["1"]), ("four-caliper", ["1", "2", "3", "4"])]
 )
-def test_loadcells_that_show_less_than_there_is_make_a_stop_invalid(
-    rig: Any, topology: str, named: list[str]
-) -> None:
+def test_loadcells_that_show_less_than_there_is_make_a_stop_invalid(rig, topology, named):
     """The train brakes with what they show; the time is that of the recording."""
     run = judged(rig, f"rig.topology={topology}", loadcell="12 kN")
     verdict = check(run, "loadcells-in-range")
@@ -41,7 +38,7 @@ def test_loadcells_that_show_less_than_there_is_make_a_stop_invalid(
     assert check(run, "pressure-sensors-in-range").status == "pass"
 
 
-def test_pressure_sensors_at_their_range_are_named_that_of_the_brake_line_too(rig: Any) -> None:
+def test_pressure_sensors_at_their_range_are_named_that_of_the_brake_line_too(rig):
     run = judged(rig, pressure="3 bar")
     reason = check(run, "pressure-sensors-in-range").reason
     assert run.result.outcome == "invalid"
@@ -49,13 +46,13 @@ def test_pressure_sensors_at_their_range_are_named_that_of_the_brake_line_too(ri
         assert f"pressure sensor of {place} limited to 3 bar for" in reason
 
 
-def test_the_first_sensor_is_said_to_be_of_any_kind_where_both_are_limited(rig: Any) -> None:
+def test_the_first_sensor_is_said_to_be_of_any_kind_where_both_are_limited(rig):
     """One time is kept for all sensors; here it is not that of the loadcells, which follow."""
     run = judged(rig, loadcell="14 kN", pressure="1 bar")
     for name in ("loadcells-in-range", "pressure-sensors-in-range"):
         assert "; the first of any kind by " in check(run, name).reason
 
 
-def test_a_stop_within_the_ranges_has_its_checks_hold(rig: Any) -> None:
+def test_a_stop_within_the_ranges_has_its_checks_hold(rig):
     run = judged(rig)
     assert {each.status for each in run.result.criteria if each.layer == "rig"} == {"pass"}

@@ -1,62 +1,57 @@
 """Every shipped case, simulated."""
 
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 import pytest
 
 from uictest.plans.scenario import load
-from uictest.rig import SimulatedStop, simulate, stop_is_compiled
+from uictest.rig import simulate, stop_is_compiled
 
 
 @pytest.fixture(name="stops", scope="module")
-def _stops(scenarios: Any) -> dict[str, SimulatedStop]:
+def _stops(scenarios):
     return {case.id: simulate(case) for case in scenarios}
 
 
 @pytest.mark.parametrize(
     ("residual", "limit"), [("energy_residual", 1e-3), ("air_residual", 1e-9), ("air_energy_residual", 1e-9)]
 )
-def test_energy_and_air_are_conserved_in_every_case(
-    stops: dict[str, SimulatedStop], residual: str, limit: float
-) -> None:
+def test_energy_and_air_are_conserved_in_every_case(stops, residual, limit):
     residuals = {name: float(stop.measures[residual]) for name, stop in stops.items()}
     assert {name: each for name, each in residuals.items() if abs(each) >= limit} == {}
 
 
-def test_every_case_comes_to_a_standstill(stops: dict[str, SimulatedStop]) -> None:
+def test_every_case_comes_to_a_standstill(stops):
     assert {name for name, s in stops.items() if s.measures.stopped != 1.0} == set()
 
 
-def test_trailing_wheelsets_slide_first(stops: dict[str, SimulatedStop]) -> None:
+def test_trailing_wheelsets_slide_first(stops):
     """In the slide tests, where the rail is the same under all of them."""
     slide_tests = [name for name in stops if name.startswith("slide-80")]
     assert len(slide_tests) >= 5
     assert all(stops[name].measures.sliding_wheelset in (2.0, 4.0) for name in slide_tests)
 
 
-def test_wheels_lock_without_protection(stops: dict[str, SimulatedStop]) -> None:
+def test_wheels_lock_without_protection(stops):
     bypassed = stops["wsp-bypassed-80"].wheelset_measures
     assert np.all(bypassed.locked_time > 10.0)
     assert not bypassed.valve_actuations.any()
 
 
-def test_dry_rail_lets_nothing_slide(stops: dict[str, SimulatedStop]) -> None:
+def test_dry_rail_lets_nothing_slide(stops):
     dry = stops["dry-120"]
     assert np.isnan(dry.measures.sliding_time)
     assert dry.measures.minimum_deceleration > 0.9
     assert dry.measures.maximum_deceleration < 1.5
 
 
-def test_compensation_settles_the_valves(stops: dict[str, SimulatedStop]) -> None:
+def test_compensation_settles_the_valves(stops):
     """Without it the modules of the one-caliper rig actuate more often than those of four calipers."""
     none = stops["slide-80[compensation=none]"].wheelset_measures.valve_actuations[1:].sum()
     four = stops["slide-80-four-caliper"].wheelset_measures.valve_actuations[1:].sum()
     assert none > 1.2 * four
 
 
-def test_recording_has_every_channel_of_train_and_wheelsets(scenarios: Any) -> None:
+def test_recording_has_every_channel_of_train_and_wheelsets(scenarios):
     recording = simulate(scenarios[0], record_every=0.05).recording
     assert recording is not None
     time = recording.channels["time"]
@@ -65,15 +60,15 @@ def test_recording_has_every_channel_of_train_and_wheelsets(scenarios: Any) -> N
     assert all(column.shape == time.shape for column in recording.channels.values())
 
 
-def test_no_recording_unless_asked(stops: dict[str, SimulatedStop]) -> None:
+def test_no_recording_unless_asked(stops):
     assert all(stop.recording is None for stop in stops.values())
 
 
-def test_rig_is_compiled_once_it_ran(stops: dict[str, SimulatedStop]) -> None:
+def test_rig_is_compiled_once_it_ran(stops):
     assert stop_is_compiled()
 
 
-def test_diagnosis_is_recorded_only_of_a_controller_from_outside(rig: Any, tmp_path: Path) -> None:
+def test_diagnosis_is_recorded_only_of_a_controller_from_outside(rig, tmp_path):
     """All 32 bits of it; a reference speed that the controller does not give is NaN."""
     (tmp_path / "wsp.py").write_text(
         "from uictest.controllers import Outputs\n"
@@ -97,7 +92,7 @@ def test_diagnosis_is_recorded_only_of_a_controller_from_outside(rig: Any, tmp_p
     assert np.isnan(outside["reference_speed"]).all()
 
 
-def test_temperatures_are_recorded_only_where_they_are_modelled(rig: Any) -> None:
+def test_temperatures_are_recorded_only_where_they_are_modelled(rig):
     """A recording has no channel that means nothing; its units are SI."""
     cold, warm = (
         simulate(rig.case(f"brake.disc_temperature={setting}"), record_every=0.1).recording

@@ -1,7 +1,5 @@
 """Wheelsets that differ: each value moves what it should, and nothing else."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -21,11 +19,11 @@ FOUR_CALIPERS = "rig.topology=four-caliper"
 SILENT = {"speed_noise": 0.0, "timer_resolution": 1e-12}
 
 
-def own(number: int, name: str, value: str) -> str:
+def own(number, name, value):
     return f"vehicle.wheelsets.{number}.{name}={value}"
 
 
-def differing(rig: Any, *overrides: str) -> dict[int, set[str]]:
+def differing(rig, *overrides):
     """The fields in which each wheelset's parameters differ from those of the regular one."""
     regular, changed = (
         assemble(rig.case(FOUR_CALIPERS, *each)).wheelset_parameters for each in ((), overrides)
@@ -58,14 +56,14 @@ FIELDS_SET = {
 
 
 @pytest.mark.parametrize("setting", FIELDS_SET)
-def test_a_value_sets_its_fields_of_its_wheelset(rig: Any, setting: str) -> None:
+def test_a_value_sets_its_fields_of_its_wheelset(rig, setting):
     for number in WHEELSET_NUMBERS:
         changed = differing(rig, f"vehicle.wheelsets.{number}.{setting}")
         assert changed.pop(number) == FIELDS_SET[setting]
         assert not any(changed.values())
 
 
-def test_parameters_of_the_car_do_not_depend_on_single_wheelsets(rig: Any) -> None:
+def test_parameters_of_the_car_do_not_depend_on_single_wheelsets(rig):
     """Neither does the sensor of the brake line err as that of a tank does. The noise is that of a train."""
     settings = [f"vehicle.wheelsets.{number}.{setting}" for number in (1, 3) for setting in FIELDS_SET]
     regular, own = (assemble(rig.case(FOUR_CALIPERS, *each)).parameters for each in ((), settings))
@@ -73,14 +71,14 @@ def test_parameters_of_the_car_do_not_depend_on_single_wheelsets(rig: Any) -> No
     assert [own[name].tolist() for name in names] == [regular[name].tolist() for name in names]
 
 
-def test_the_state_of_a_wheelset_holds_its_parameters(rig: Any, bench: Any) -> None:
+def test_the_state_of_a_wheelset_holds_its_parameters(rig, bench):
     started = bench(rig.parameters()[0])
     for wheelset in started.wheelsets:
         for name in fields_of(WheelsetParameters):
             assert getattr(wheelset, name) == getattr(started.p, name), name
 
 
-def test_wheelsets_that_all_have_the_regular_values_change_no_bit(rig: Any) -> None:
+def test_wheelsets_that_all_have_the_regular_values_change_no_bit(rig):
     four = (FOUR_CALIPERS, *WET)
     scenario = rig.case(*four).scenario
     values = [
@@ -93,7 +91,7 @@ def test_wheelsets_that_all_have_the_regular_values_change_no_bit(rig: Any) -> N
     assert rig.stop(*four, *values).measures.tobytes() == rig.stop(*four).measures.tobytes()
 
 
-def test_a_smaller_wheel_that_rolls_reads_fast(rig: Any) -> None:
+def test_a_smaller_wheel_that_rolls_reads_fast(rig):
     """Its circumference is smaller, so it turns faster, and the WSP knows only the regular radius."""
     radius = float(rig.case().scenario.vehicle.wheelset.radius)
     smaller = own(2, "wheel_radius", f"{0.98 * radius} m")
@@ -110,7 +108,7 @@ def test_a_smaller_wheel_that_rolls_reads_fast(rig: Any) -> None:
     np.testing.assert_allclose((told["measured_speed"] / told["speed"][:, None])[rolling], 1.0, rtol=1e-4)
 
 
-def test_a_radius_that_the_wsp_was_told_wrongly_moves_nothing_but_readings(rig: Any) -> None:
+def test_a_radius_that_the_wsp_was_told_wrongly_moves_nothing_but_readings(rig):
     """With bypassed valves the vehicle does not know what the sensors read."""
     overrides = (*WET, "rig.wsp=bypassed")
     regular = rig.stop(*overrides)
@@ -125,7 +123,7 @@ def test_a_radius_that_the_wsp_was_told_wrongly_moves_nothing_but_readings(rig: 
     assert not {"speed", "rotation", "torque", "brake_heat", "wheel_load"} & set(changed)
 
 
-def test_energy_closes_with_four_radii(rig: Any) -> None:
+def test_energy_closes_with_four_radii(rig):
     radii = [own(number, "wheel_radius", f"{0.40 + 0.01 * number} m") for number in WHEELSET_NUMBERS]
     for overrides in (DRY, WET):
         measures = rig.stop(*overrides, *radii, "rig.compensation=full").measures
@@ -134,7 +132,7 @@ def test_energy_closes_with_four_radii(rig: Any) -> None:
 
 
 @pytest.mark.parametrize("name", ["brake_force", "pad_friction"])
-def test_a_weak_brake_has_less_torque_in_a_dry_stop(rig: Any, name: str) -> None:
+def test_a_weak_brake_has_less_torque_in_a_dry_stop(rig, name):
     regular_friction = float(rig.case().scenario.brake.system.disc.pad_friction)
     value = "90 %" if name == "brake_force" else f"{0.9 * regular_friction}"
     overrides = (*DRY, "rig.wsp=bypassed")
@@ -144,7 +142,7 @@ def test_a_weak_brake_has_less_torque_in_a_dry_stop(rig: Any, name: str) -> None
     np.testing.assert_allclose(per_force / per_force[0], [1.0, 1.0, 0.9, 1.0], rtol=1e-9)
 
 
-def test_a_slow_valve_vents_later_than_the_others(rig: Any, bench: Any) -> None:
+def test_a_slow_valve_vents_later_than_the_others(rig, bench):
     """By its own delay, in whole steps."""
     one = bench(rig.parameters("brake.system.wsp_valve.switching_delay=3 ms")[0])
     one.wheelsets[2].valve_delay_cycles, one.wheelsets[2].valve_delay_steps = 1, 4.0

@@ -1,10 +1,6 @@
 """The acceptance of a WSP over a series: what it may not pass."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -27,10 +23,10 @@ NEVER_SOUNDS = {"extends": "threshold", "sounding_interval": "20 s"}
 
 
 @pytest.fixture
-def accept(tmp_path: Path) -> Callable[..., Any]:
+def accept(tmp_path):
     """Judge a controller by a series of these wet stops."""
 
-    def judged(wet: str, controller: object) -> Any:
+    def judged(wet, controller):
         for name in ("dry-120", "cleaned-rail-120", "slip-120"):
             (tmp_path / f"{name}.yaml").write_text((SCENARIOS / f"{name}.yaml").read_text("utf-8"), "utf-8")
         path = tmp_path / "acceptance.series.yaml"
@@ -41,7 +37,7 @@ def accept(tmp_path: Path) -> Callable[..., Any]:
     return judged
 
 
-def test_a_controller_that_loses_every_uncleaned_stop_is_not_accepted(accept: Callable[..., Any]) -> None:
+def test_a_controller_that_loses_every_uncleaned_stop_is_not_accepted(accept):
     """It keeps every limit where sliding grinds the rail clean, and locks wheels wherever it does not."""
     assert accept(CLEANED, NEVER_SOUNDS).met
     both = accept(CLEANED + UNCLEANED, NEVER_SOUNDS)
@@ -52,7 +48,7 @@ def test_a_controller_that_loses_every_uncleaned_stop_is_not_accepted(accept: Ca
     assert uncleaned.measures["passing_share"].estimate.value <= 10.0
 
 
-def test_a_series_says_where_locked_wheels_have_the_better_k_wet(accept: Callable[..., Any]) -> None:
+def test_a_series_says_where_locked_wheels_have_the_better_k_wet(accept):
     result = accept(CLEANED + UNCLEANED, "threshold")
     tested = next(each for each in result.criteria if each.verdict.id == "k-wet").estimate
     assert result.met
@@ -88,7 +84,7 @@ expect: invalid
 """
 
 
-def test_a_stop_that_no_criterion_judges_is_not_met(tmp_path: Path) -> None:
+def test_a_stop_that_no_criterion_judges_is_not_met(tmp_path):
     """All wheels locked over four kilometres, and the one profile says nothing about such a stop."""
     path = tmp_path / "too-fast.yaml"
     path.write_text(UNJUDGED, "utf-8")
@@ -98,7 +94,7 @@ def test_a_stop_that_no_criterion_judges_is_not_met(tmp_path: Path) -> None:
     assert uictest.run(path).met
 
 
-def test_a_verdict_that_turns_meets_nothing_where_strictness_is_asked_for(tmp_path: Path) -> None:
+def test_a_verdict_that_turns_meets_nothing_where_strictness_is_asked_for(tmp_path):
     path = tmp_path / "turning.yaml"
     path.write_text(TURNING, "utf-8")
     assert uictest.run(path).met

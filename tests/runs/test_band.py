@@ -1,9 +1,6 @@
 """The band of the repeats on the page of a run, against the same stops run one by one."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -25,14 +22,14 @@ CHANNELS = {"speed": KILOMETRE_PER_HOUR, "wheel_speed_2": KILOMETRE_PER_HOUR, "c
 
 
 @pytest.fixture
-def content(tmp_path: Path) -> report.RunContent:
+def content(tmp_path):
     """What reports show of a stop that is repeated under four seeds."""
     (tmp_path / "stop.yaml").write_text(f"{STOP}repeat: {len(SEEDS)}\nseed: {SEEDS[0]}\n", "utf-8")
     batch = runs.batch_of(load([tmp_path / "stop.yaml"]), [], ["run"], None)
     return runs.run_batch(batch, runs.Observer(), draws_stops=True).content
 
 
-def test_the_band_spans_the_stops_as_they_are_alone(content: report.RunContent, tmp_path: Path) -> None:
+def test_the_band_spans_the_stops_as_they_are_alone(content, tmp_path):
     (trace,) = content.traces.values()
     (tmp_path / "alone.yaml").write_text(STOP, "utf-8")
     alone = [
@@ -52,7 +49,7 @@ def test_the_band_spans_the_stops_as_they_are_alone(content: report.RunContent, 
         )
 
 
-def test_a_page_that_is_made_again_has_the_same_band(content: report.RunContent, tmp_path: Path) -> None:
+def test_a_page_that_is_made_again_has_the_same_band(content, tmp_path):
     again = with_traces(replace(content, traces={}), load([tmp_path / "stop.yaml"]), {}, 0.01)
     (own,), (other,) = content.traces.values(), again.traces.values()
     assert own.band.keys() == other.band.keys() > set(CHANNELS)
@@ -62,7 +59,7 @@ def test_a_page_that_is_made_again_has_the_same_band(content: report.RunContent,
             assert np.array_equal(edge.y, same.y, equal_nan=True)
 
 
-def test_only_so_many_stops_make_the_band(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_only_so_many_stops_make_the_band(monkeypatch, tmp_path):
     monkeypatch.setattr(report, "BAND_STOPS", 2)
     (tmp_path / "stop.yaml").write_text(f"{STOP}repeat: 3\n", "utf-8")
     batch = runs.batch_of(load([tmp_path / "stop.yaml"]), [], ["run"], None)

@@ -1,15 +1,10 @@
 """Cases that are run as nobody asked otherwise."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path
 
-import pytest
-
 from uictest import runs
-from uictest.judging.evaluation import CaseResult
 from uictest.plans.scenario import load
 from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
 
@@ -25,7 +20,7 @@ class Own:
 """
 
 
-def result_of(text: str) -> CaseResult:
+def result_of(text):
     """Run the one case of a scenario in the working folder."""
     path = Path("stop.yaml")
     path.write_text(text, "utf-8")
@@ -34,9 +29,7 @@ def result_of(text: str) -> CaseResult:
     return result
 
 
-def test_a_controller_from_outside_runs_in_a_process_of_its_own(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_controller_from_outside_runs_in_a_process_of_its_own(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("own.py").write_text(TELLS_WHERE_IT_RUNS, "utf-8")
     result = result_of(HEAD + "controller: {python: own.py, class: Own}\n")
@@ -45,16 +38,12 @@ def test_a_controller_from_outside_runs_in_a_process_of_its_own(
     assert int(told[1]) != os.getpid()
 
 
-def test_a_verdict_that_is_not_settled_meets_what_is_expected(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_verdict_that_is_not_settled_meets_what_is_expected(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert result_of(TURNING).met
 
 
-def test_what_strict_does_not_count_as_met_counts_for_maxfail(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_strict_does_not_count_as_met_counts_for_maxfail(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("stop.yaml").write_text(TURNING, "utf-8")
     cases = load([Path("stop.yaml")], ["seed=0,1"])

@@ -123,7 +123,7 @@ def test_defaults_are_handed_over_and_shown(loaded, head):
 @pytest.mark.usefixtures("programs")
 def test_an_fmu_keeps_its_own_start_values(loaded, head):
     (case,) = loaded(f"{head}controller: {{fmu: two.fmu, parameters: {{cycles: 4}}}}\n")
-    assert case.scenario.controller.parameters == {"cycles": 4}  # type: ignore[attr-defined]
+    assert case.scenario.controller.parameters == {"cycles": 4}
 
 
 @pytest.mark.usefixtures("programs")
@@ -137,9 +137,9 @@ def test_where_nothing_is_declared_the_lines_to_write_are_shown(refused, loaded,
     lines = lines.replace("NUMBER", "0.5").replace("UNIT", "s").replace("TEXT", "fast")
     assert "free_parameters: true" in error.hint
     (case,) = loaded(f"{head}controller: {{{program}, {lines}}}\n")
-    assert case.scenario.controller.parameters == {"kp": 0.5, "mode": "fast"}  # type: ignore[attr-defined]
+    assert case.scenario.controller.parameters == {"kp": 0.5, "mode": "fast"}
     (case,) = loaded(f"{head}controller: {{{program}, {given}, free_parameters: true}}\n")
-    assert case.scenario.controller.parameters == {"kp": 0.5, "mode": "fast"}  # type: ignore[attr-defined]
+    assert case.scenario.controller.parameters == {"kp": 0.5, "mode": "fast"}
 
 
 @pytest.mark.usefixtures("programs")
@@ -185,7 +185,7 @@ def test_a_file_without_declarations_is_no_error_of_its_own(loaded, write, head,
 
 
 def test_of_a_large_file_only_the_declarations_are_parsed(write, head, refused, monkeypatch):
-    parsed: list[int] = []
+    parsed = []
     parse = ast.parse
     monkeypatch.setattr(ast, "parse", lambda text: (parsed.append(len(text)), parse(text))[1])
     rest = b"x = [1, 2, 3]\n" * 100_000
@@ -217,6 +217,6 @@ def test_parameters_of_a_command_line_are_checked_alike(write):
     part = load_controller(
         str(write("ours.yaml", "schema: uictest/controller/1\npython: wsp.py\nclass: Wsp\n"))
     )
-    assert with_parameters(part, {"cycles": 5}).parameters["cycles"] == 5  # type: ignore[arg-type]
+    assert with_parameters(part, {"cycles": 5}).parameters["cycles"] == 5
     with pytest.raises(ScenarioErrors, match="did you mean cycles"):
-        with_parameters(part, {"cycle": 5})  # type: ignore[arg-type]
+        with_parameters(part, {"cycle": 5})

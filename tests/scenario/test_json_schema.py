@@ -2,7 +2,6 @@
 
 import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 import yaml
@@ -18,7 +17,7 @@ SHIPPED = [
     for path in sorted((ROOT / "scenarios").glob("*.yaml"))
     if not {".sweep", ".series"} & set(path.suffixes)
 ]
-HEAD: dict[str, Any] = {"schema": "uictest/scenario/1", "name": "stop", "initial_speed": "120 km/h"}
+HEAD = {"schema": "uictest/scenario/1", "name": "stop", "initial_speed": "120 km/h"}
 
 
 @pytest.fixture(scope="module")

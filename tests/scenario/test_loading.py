@@ -44,7 +44,7 @@ def test_friction_is_a_number_or_points(loaded, head):
 def test_a_scenario_cannot_be_changed(loaded, head):
     (case,) = loaded(head)
     with pytest.raises(Exception, match="frozen"):
-        case.scenario.seed = 1  # type: ignore[misc]
+        case.scenario.seed = 1
 
 
 def test_the_digest_is_that_of_the_bytes(loaded, head):

@@ -14,10 +14,9 @@ PAD = "brake: {pad: "
 MARK = "»".encode()
 
 # What a file says, with `»` before the place of the error; the key, part of the message, part of the hint.
-Row = tuple[str, str, str, str]
 
 # Whole files; the rows below follow HEAD if they do not begin with a schema.
-WHOLE: list[tuple[str | bytes, str, str, str]] = [
+WHOLE = [
     ("»", "", "the file is empty", "schema"),
     ("»# nothing\n", "", "the file is empty", "schema"),
     ("»- a\n- b\n", "", "must contain a mapping", "schema"),
@@ -36,7 +35,7 @@ WHOLE: list[tuple[str | bytes, str, str, str]] = [
     (SPEED.replace("initial_", "»") + "9 m/s\n", "speed", "unknown key", "'initial_speed'"),
 ]
 
-TEXT: list[Row] = [
+TEXT = [
     ("title: »\x1b[31m", "", "'\\x1b' is not allowed", "text file"),
     ("title: a»\x00", "", "'\\x00' is not allowed", "text file"),
     ("»---\n" + HEAD, "", "a second YAML document", "one file"),
@@ -48,7 +47,7 @@ TEXT: list[Row] = [
     ("title: »&a x", "", "anchor '&a'", "extends"),
 ]
 
-HEADER: list[Row] = [
+HEADER = [
     (NAME + "»a b", "name", "'a b' is not allowed", "a-z"),
     (NAME + "»'[red]<b>x'", "name", "'[red]<b>x' is not allowed", "a-z"),
     (NAME + '»"a\\e[2J"', "name", "'a\\x1b[2J' is not allowed", "a-z"),
@@ -62,7 +61,7 @@ HEADER: list[Row] = [
     ("title: »[a]", "title", "expected a text, found a list", ""),
 ]
 
-KEYS: list[Row] = [
+KEYS = [
     ("»rial: {}", "rial", "unknown key 'rial'", "did you mean 'rail'?"),
     ("rail: {»frction: 1}", "rail.frction", "unknown", "'friction'"),
     ("»rail.friction: 0.1", "rail.friction", "unknown key", "matrix"),
@@ -106,7 +105,7 @@ KEYS: list[Row] = [
     ("seed: »-1", "seed", "at least 0", ""),
 ]
 
-QUANTITIES: list[Row] = [
+QUANTITIES = [
     (SPEED + "»120", "initial_speed", "'120' has no unit", "`120 km/h` or `120 m/s`"),
     (SPEED + "»120 kmh", "initial_speed", "unknown unit 'kmh'", "'km/h'"),
     (SPEED + "»4 bar", "initial_speed", "unit 'bar' for a speed", "m/s"),
@@ -131,7 +130,7 @@ QUANTITIES: list[Row] = [
     ("rail: {gradient: »9 %}", "rail.gradient", "60 permille", ""),
 ]
 
-PARTS: list[Row] = [
+PARTS = [
     ("vehicle: »intercity", "vehicle", "no vehicle", "'intercity-180'"),
     ("rail: {condition: »wte}", "rail.condition", "no rail", "'wet'"),
     ("criteria: [»uictest-stp]", "criteria.0", "no", "'uictest-stop'"),
@@ -175,7 +174,7 @@ PARTS: list[Row] = [
     ),
 ]
 
-IMPOSSIBLE: list[Row] = [
+IMPOSSIBLE = [
     (
         "vehicle: {extends: intercity-180, body: {mass: »45 kg}}",
         *("vehicle.body.mass", "at least 1 t", "at least 1 t and at most 200 t"),
@@ -297,7 +296,7 @@ IMPOSSIBLE: list[Row] = [
     ),
 ]
 
-MATRIX: list[Row] = [
+MATRIX = [
     ("matrix: »{}", "matrix", "an empty mapping", "matrix: {"),
     ("matrix: »[a]", "matrix", "found a list", "matrix: {"),
     ("matrix: {seed: »[]}", "matrix.seed", "an empty list", ""),

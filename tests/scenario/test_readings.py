@@ -1,7 +1,5 @@
 """What a criteria file may say of readings."""
 
-from __future__ import annotations
-
 import pytest
 from pydantic import ValidationError
 

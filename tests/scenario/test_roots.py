@@ -1,6 +1,5 @@
 """References stay at or below the files that were named, the working folder and trusted folders."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -127,7 +126,7 @@ def test_a_trusted_folder_is_open_to_a_sweep_and_the_scenario_it_names(place):
 BENCH = "schema: uictest/bench/1\nname: b\ninputs: [{kind: rest, duration: 1 s}]\n"
 TRACE = "schema: uictest/bench/1\nname: b\ninputs:\n- {kind: trace, file: %s}\n"
 MAP = "schema: uictest/channel-map/1\nname: m\nchannels: {}\n"
-READERS: dict[str, tuple[str, Callable[[Path], object]]] = {
+READERS = {
     "bench stop": (BENCH + "stop: {vehicle: ../../there/secret.yaml}\n", load_bench),
     "bench trace": (TRACE % "../../there/secret.yaml", load_bench),
     "bench trace by its absolute path": (TRACE % "/there/secret.yaml", load_bench),

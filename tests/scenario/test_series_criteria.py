@@ -1,7 +1,5 @@
 """Criteria of series, and bounds that refer to the dry stop: what may be said, and what is refused how."""
 
-from __future__ import annotations
-
 import pytest
 
 PROFILE = """criteria:
@@ -43,9 +41,7 @@ def test_a_bound_is_a_share_of_the_dry_stop(criterion, text, share):
     assert read.unit == "%"
 
 
-def test_a_criterion_of_a_series_has_the_unit_of_its_measure(
-    criterion,
-):
+def test_a_criterion_of_a_series_has_the_unit_of_its_measure(criterion):
     read = criterion("scope: series\nmeasure: worst_contact_energy\nupper: 1.5 MJ")
     assert (read.unit, read.upper, read.needs_series) == ("kJ", 1.5e6, True)
 

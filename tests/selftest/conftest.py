@@ -1,13 +1,11 @@
 """An installation under examination."""
 
-from __future__ import annotations
-
 import pytest
 
 from uictest import selftest
 
 
 @pytest.fixture(scope="session")
-def stops() -> selftest.KnownStops:
+def stops():
     """The known stops, each simulated once."""
     return selftest.KnownStops()

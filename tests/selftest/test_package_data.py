@@ -1,7 +1,5 @@
 """Shipped data that were changed are found, in a working tree as in an installed package."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 
@@ -17,7 +15,7 @@ CRITERIA = "plans/library/criteria/uic-541-05-appendix-b.yaml"
 
 
 @pytest.fixture
-def package(tmp_path: Path) -> Path:
+def package(tmp_path):
     """A copy of the shipped data, what a wheel adds, and what Python and editors leave beside them."""
     for name in stored_data_digests():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -31,31 +29,25 @@ def package(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def finding(monkeypatch: pytest.MonkeyPatch, package: Path, stops: selftest.KnownStops) -> selftest.Finding:
+def finding(monkeypatch, package, stops):
     monkeypatch.setattr(stored_answers, "data_digests", lambda: data_digests(package))
     check = next(each for each in selftest.all_checks(stops) if each.id == "shipped-data")
     return selftest.examine(stops, [check]).findings[0]
 
 
-def test_the_data_of_this_version_pass(
-    monkeypatch: pytest.MonkeyPatch, package: Path, stops: selftest.KnownStops
-) -> None:
+def test_the_data_of_this_version_pass(monkeypatch, package, stops):
     assert CRITERIA in stored_data_digests()
     assert finding(monkeypatch, package, stops).status == "pass"
 
 
-def test_a_changed_limit_in_the_library_of_criteria_is_found_and_named(
-    monkeypatch: pytest.MonkeyPatch, package: Path, stops: selftest.KnownStops
-) -> None:
+def test_a_changed_limit_in_the_library_of_criteria_is_found_and_named(monkeypatch, package, stops):
     file = package / CRITERIA
     file.write_bytes(file.read_bytes().replace(b"0", b"1", 1))
     found = finding(monkeypatch, package, stops)
     assert (found.status, found.found, found.reason) == ("fail", 1.0, f"{CRITERIA} was changed")
 
 
-def test_files_that_are_missing_or_new_are_named(
-    monkeypatch: pytest.MonkeyPatch, package: Path, stops: selftest.KnownStops
-) -> None:
+def test_files_that_are_missing_or_new_are_named(monkeypatch, package, stops):
     (package / CRITERIA).unlink()
     (package / "plans/library/criteria/own.yaml").write_text("")
     found = finding(monkeypatch, package, stops)

@@ -1,7 +1,5 @@
 """The known answers hold here, and what is not as it should be is found."""
 
-from __future__ import annotations
-
 import base64
 import builtins
 import functools
@@ -9,10 +7,7 @@ import hashlib
 import json
 import math
 import operator
-from collections.abc import Callable, Iterable
 from importlib.metadata import Distribution
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -33,19 +28,19 @@ NUMBERS = {
 FINITE = sorted(name for name, text in NUMBERS.items() if " " not in text and math.isfinite(float(text)))
 
 
-def status_of(stops: selftest.KnownStops, check_id: str) -> str:
+def status_of(stops, check_id):
     """Ask one question and return what came of it."""
     check = next(each for each in selftest.all_checks(stops) if each.id == check_id)
     return selftest.examine(stops, [check]).findings[0].status
 
 
-def test_every_known_answer_holds_in_this_installation(stops: selftest.KnownStops) -> None:
+def test_every_known_answer_holds_in_this_installation(stops):
     examination = selftest.examine(stops)
     assert {each.id: each.reason for each in examination.findings if each.status in ("fail", "error")} == {}
     assert len({each.id for each in examination.findings}) == len(examination.findings)
 
 
-def _compensated_sum(values: Iterable[Any], /, start: Any = 0) -> Any:
+def _compensated_sum(values, /, start=0):
     """Return the sum as Python 3.12 and later give it: without the rounding of each addition."""
     listed = [start, *values]
     floats = any(isinstance(each, float) for each in listed)
@@ -53,9 +48,7 @@ def _compensated_sum(values: Iterable[Any], /, start: Any = 0) -> Any:
 
 
 @pytest.mark.parametrize("python_sum", [sum, _compensated_sum])
-def test_the_stored_numbers_are_those_of_this_tree_however_python_adds(
-    monkeypatch: pytest.MonkeyPatch, python_sum: Callable[..., Any]
-) -> None:
+def test_the_stored_numbers_are_those_of_this_tree_however_python_adds(monkeypatch, python_sum):
     """Where a change is meant to change results: python scripts/selftest_reference.py."""
     monkeypatch.setattr(builtins, "sum", python_sum)
     computed = json.loads(selftest.computed_reference())
@@ -63,23 +56,21 @@ def test_the_stored_numbers_are_those_of_this_tree_however_python_adds(
 
 
 @given(st.sampled_from(FINITE), st.sampled_from([-math.inf, math.inf]))
-def test_a_changed_bit_of_any_number_is_found_and_named(name: str, towards: float) -> None:
+def test_a_changed_bit_of_any_number_is_found_and_named(name, towards):
     changed = {**NUMBERS, name: repr(float(np.nextafter(float(NUMBERS[name]), towards)))}
     answer = answer_of(NUMBERS, changed)
     assert answer.expected != answer.found
     assert answer.words.startswith(f"1 of {len(NUMBERS)} numbers differ: {name}: expected {NUMBERS[name]}")
 
 
-def test_a_number_that_is_missing_or_new_is_found() -> None:
+def test_a_number_that_is_missing_or_new_is_found():
     fewer = dict(list(NUMBERS.items())[1:])
     for answer in (answer_of(NUMBERS, fewer), answer_of(fewer, NUMBERS)):
         assert answer.expected != answer.found
         assert "no such number" in answer.words
 
 
-def test_a_changed_bit_of_the_rig_fails_its_stop_and_the_lanes(
-    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_changed_bit_of_the_rig_fails_its_stop_and_the_lanes(stops, monkeypatch):
     stored = dict(known_stops.stored_numbers("dry-120"))
     distance = float(stored["braking_distance"])
     stored["braking_distance"] = repr(float(np.nextafter(distance, 0.0)))
@@ -93,19 +84,17 @@ def test_a_changed_bit_of_the_rig_fails_its_stop_and_the_lanes(
     assert all("1 of " in each.reason and "braking_distance" in each.reason for each in failed)
 
 
-def test_a_changed_part_of_the_library_is_found_in_the_inputs(
-    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_changed_part_of_the_library_is_found_in_the_inputs(stops, monkeypatch):
     changed = stops.cases["dry-120"]
     heavier = changed.scenario.model_copy(update={"seed": 1})
     monkeypatch.setitem(stops.cases, "dry-120", type(changed)(changed.id, heavier, changed.path, {}, {}))
     assert status_of(stops, "inputs-of-dry-120") == "fail"
 
 
-def scaled(function: Callable[..., Any]) -> Callable[..., Any]:
+def scaled(function):
     """Let a function return one per cent more."""
 
-    def more(*arguments: Any, **named: Any) -> Any:
+    def more(*arguments, **named):
         result = function(*arguments, **named)
         return tuple(1.01 * each for each in result) if isinstance(result, tuple) else 1.01 * result
 
@@ -126,17 +115,13 @@ BROKEN = {
 
 
 @pytest.mark.parametrize("check_id", BROKEN)
-def test_physics_that_is_wrong_by_one_per_cent_is_found(
-    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch, check_id: str
-) -> None:
+def test_physics_that_is_wrong_by_one_per_cent_is_found(stops, monkeypatch, check_id):
     function = BROKEN[check_id]
     monkeypatch.setattr(physics, function, scaled(getattr(physics, function)))
     assert status_of(stops, check_id) == "fail"
 
 
-def test_a_stop_that_is_wrong_by_one_per_cent_misses_the_textbook(
-    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_stop_that_is_wrong_by_one_per_cent_misses_the_textbook(stops, monkeypatch):
     stop = stops.stop("rolling-120")
     measures = stop.measures.copy()
     measures["braking_distance"] *= 1.01
@@ -144,20 +129,20 @@ def test_a_stop_that_is_wrong_by_one_per_cent_misses_the_textbook(
     assert status_of(stops, "textbook-stop") == "fail"
 
 
-def asked(stops: selftest.KnownStops, answer: Callable[[selftest.KnownStops], Answer], **options: Any) -> Any:
+def asked(stops, answer, **options):
     """Ask one question that is made up."""
     return selftest.examine(stops, [Check("made-up", "physics", "made up", answer, **options)]).findings[0]
 
 
-def test_what_a_machine_lacks_is_skipped_and_says_why(stops: selftest.KnownStops) -> None:
-    def lacking(stops: selftest.KnownStops) -> Answer:
+def test_what_a_machine_lacks_is_skipped_and_says_why(stops):
+    def lacking(stops):
         raise NotCheckedError("no C compiler")
 
     finding = asked(stops, lacking)
     assert (finding.status, finding.reason) == ("skipped", "no C compiler")
 
 
-def test_a_check_that_raises_is_an_error(stops: selftest.KnownStops) -> None:
+def test_a_check_that_raises_is_an_error(stops):
     finding = asked(stops, lambda stops: Answer(1.0, 1.0 / 0.0))
     assert (finding.status, finding.reason) == ("error", "ZeroDivisionError: float division by zero")
 
@@ -175,40 +160,32 @@ def test_a_check_that_raises_is_an_error(stops: selftest.KnownStops) -> None:
         ("1", 1.0, 0.0, "fail"),
     ],
 )
-def test_answers_agree_within_the_tolerance(
-    stops: selftest.KnownStops, expected: Any, found: Any, tolerance: float, status: str
-) -> None:
+def test_answers_agree_within_the_tolerance(stops, expected, found, tolerance, status):
     assert asked(stops, lambda stops: Answer(expected, found), tolerance=tolerance).status == status
 
 
-def test_an_advisory_check_only_warns(stops: selftest.KnownStops) -> None:
+def test_an_advisory_check_only_warns(stops):
     assert asked(stops, lambda stops: Answer("read back", "nothing"), advisory=True).status == "warning"
 
 
-def test_without_a_compiler_the_controller_in_c_is_skipped(
-    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_a_compiler_the_controller_in_c_is_skipped(stops, monkeypatch):
     monkeypatch.setenv("CC", "no-such-compiler")
     assert status_of(stops, "c-controller") == "skipped"
 
 
-def test_a_controller_from_outside_that_answers_otherwise_is_found(
-    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_controller_from_outside_that_answers_otherwise_is_found(stops, monkeypatch):
     files = known_stops.templates.controller_files("python")
     files["my_wsp.py"] = files["my_wsp.py"].replace('"default": 0.15', '"default": 0.16')
     monkeypatch.setattr(known_stops.templates, "controller_files", lambda language: files)
     assert status_of(stops, "python-controller") == "fail"
 
 
-def test_a_cache_that_keeps_nothing_is_a_warning(
-    stops: selftest.KnownStops, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_cache_that_keeps_nothing_is_a_warning(stops, monkeypatch):
     monkeypatch.setattr(user_cache, "read", lambda kind, inputs: None)
     assert status_of(stops, "cache") == "warning"
 
 
-def installed(folder: Path, content: bytes) -> Distribution:
+def installed(folder, content):
     """Return a package of one file as an installer leaves it."""
     digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
     (folder / "uictest").mkdir()
@@ -222,12 +199,8 @@ def installed(folder: Path, content: bytes) -> Distribution:
 
 @pytest.mark.parametrize(("content", "status"), [(b"1 s", "pass"), (b"2 s", "fail"), (None, "fail")])
 def test_an_installed_file_that_was_changed_or_removed_is_found(
-    stops: selftest.KnownStops,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    content: bytes | None,
-    status: str,
-) -> None:
+    stops, tmp_path, monkeypatch, content, status
+):
     own = installed(tmp_path, b"1 s")
     file = tmp_path / "uictest" / "limits.yaml"
     file.unlink()

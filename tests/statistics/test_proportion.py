@@ -8,7 +8,7 @@ from hypothesis import given, strategies as st
 from uictest.core.statistics import proportion_interval, trials_needed
 
 
-def at_least(successes: int, trials: int, probability: float) -> float:
+def at_least(successes, trials, probability):
     """Return the probability of so many successes or more, summed term by term."""
     terms = (
         comb(trials, k) * probability**k * (1.0 - probability) ** (trials - k)
@@ -30,14 +30,12 @@ def at_least(successes: int, trials: int, probability: float) -> float:
         (10, 10, 0.90, 0.7411, 1.0),
     ],
 )
-def test_published_intervals(successes: int, trials: int, confidence: float, low: float, high: float) -> None:
+def test_published_intervals(successes, trials, confidence, low, high):
     assert proportion_interval(successes, trials, confidence) == pytest.approx((low, high), abs=5e-5)
 
 
 @given(trials=st.integers(1, 60), data=st.data())
-def test_each_end_is_where_the_binomial_tail_is_half_of_what_remains(
-    trials: int, data: st.DataObject
-) -> None:
+def test_each_end_is_where_the_binomial_tail_is_half_of_what_remains(trials, data):
     successes = data.draw(st.integers(0, trials))
     low, high = proportion_interval(successes, trials)
     assert 0.0 <= low <= successes / trials <= high <= 1.0
@@ -48,7 +46,7 @@ def test_each_end_is_where_the_binomial_tail_is_half_of_what_remains(
 
 
 @given(trials=st.integers(1, 200), data=st.data())
-def test_successes_and_failures_are_mirror_images(trials: int, data: st.DataObject) -> None:
+def test_successes_and_failures_are_mirror_images(trials, data):
     successes = data.draw(st.integers(0, trials))
     low, high = proportion_interval(successes, trials)
     assert proportion_interval(trials - successes, trials) == pytest.approx(
@@ -57,7 +55,7 @@ def test_successes_and_failures_are_mirror_images(trials: int, data: st.DataObje
 
 
 @given(probability=st.floats(0.01, 0.999))
-def test_the_trials_needed_are_the_fewest(probability: float) -> None:
+def test_the_trials_needed_are_the_fewest(probability):
     needed = trials_needed(probability)
     assert needed is not None
     assert proportion_interval(needed, needed)[0] >= probability - 1e-9
@@ -66,11 +64,11 @@ def test_the_trials_needed_are_the_fewest(probability: float) -> None:
 
 
 @pytest.mark.parametrize(("probability", "needed"), [(0.9, 36), (0.5, 6), (0.99, 368), (1.0, None), (0.0, 1)])
-def test_how_many_stops_can_show_a_share(probability: float, needed: int | None) -> None:
+def test_how_many_stops_can_show_a_share(probability, needed):
     assert trials_needed(probability) == needed
 
 
 @pytest.mark.parametrize(("successes", "trials"), [(3, 2), (-1, 2), (0, 0)])
-def test_counts_that_cannot_be_are_rejected(successes: int, trials: int) -> None:
+def test_counts_that_cannot_be_are_rejected(successes, trials):
     with pytest.raises(ValueError, match=f"{successes} successes in {trials} trials"):
         proportion_interval(successes, trials)

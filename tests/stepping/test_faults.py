@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import uictest
-from uictest.controllers import Inputs
 from uictest.core.units import BAR
 
 NOTHING, HOLD, VENT = ([0] * 4, [0] * 4), ([1] * 4, [0] * 4), ([1] * 4, [1] * 4)
@@ -19,7 +18,7 @@ class Stop:
 
     def __init__(self, path, fault=""):
         self.rig = uictest.Rig(path)
-        self.inputs: list[Inputs] = [self.rig.reset()]
+        self.inputs = [self.rig.reset()]
 
     def command(self, magnets, cycles):
         """Return the tank pressures before and after these cycles, bar."""

@@ -1,8 +1,5 @@
 """One stop_runner for all tests of the studies: a stop or a study that several of them need is run once."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from functools import cache
 
 import pytest
@@ -12,26 +9,23 @@ from studies.stop_runner import StopRunner
 from studies.study import STUDIES, Study, StudyFindings, StudyResult, run_study
 from uictest import CaseResult
 
-MakeStop = Callable[..., CaseResult]
-RunStudy = Callable[[str], StudyResult]
-
 
 @pytest.fixture(scope="session")
-def stop_runner() -> StopRunner:
+def stop_runner():
     return StopRunner(jobs=2)
 
 
 @pytest.fixture(scope="session")
-def result(stop_runner: StopRunner) -> RunStudy:
+def result(stop_runner):
     """Run a study of the catalogue, or return its earlier result."""
     return cache(lambda name: run_study(STUDIES[name], stop_runner))
 
 
 @pytest.fixture(scope="session")
-def stop() -> MakeStop:
+def stop():
     """Make a stop of which only the actuations of the four valves, and some measures, are known."""
 
-    def make(*vents: int, **measures: float) -> CaseResult:
+    def make(*vents, **measures):
         wheelsets = tuple({"valve_actuations": count, "maximum_slide": 0.0} for count in vents)
         known = {"braking_distance_m": 0.0, "braking_time_s": 0.0, "air_consumed_nl": 0.0, **measures}
         return CaseResult("stop", "", {}, "pass", "pass", measures=known, wheelsets=wheelsets)
@@ -40,7 +34,7 @@ def stop() -> MakeStop:
 
 
 @pytest.fixture
-def made_up() -> StudyResult:
+def made_up():
     """A study of three quantities: one holds, one misses, one has no band and was not found."""
     quantities = (
         StudyQuantity(

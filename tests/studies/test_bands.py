@@ -1,13 +1,9 @@
 """Every band is held by the shipped library, or declared missed and missed."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 import pytest
 
 from studies.comparison import band_text, ours_text
-from studies.study import STUDIES, StudyResult
+from studies.study import STUDIES
 
 _SLOW = frozenset({"compensation-domain", "field-against-rig", "robustness"})
 
@@ -20,7 +16,7 @@ BOUNDED = [
 
 
 @pytest.mark.parametrize(("study", "key"), BOUNDED)
-def test_the_figure_is_as_claimed(study: str, key: str, result: Callable[[str], StudyResult]) -> None:
+def test_the_figure_is_as_claimed(study, key, result):
     comparison = next(each for each in result(study).comparisons if each.quantity.key == key)
     found, band = ours_text(comparison), band_text(comparison.quantity)
     assert not comparison.fails, f"{comparison.quantity.title}: {found}, band {band}"

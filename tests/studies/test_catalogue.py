@@ -1,14 +1,10 @@
 """What the catalogue promises: every row that the studies must show, each with its band."""
 
-from __future__ import annotations
-
 import re
-from pathlib import Path
 
 import pytest
 
 from studies import experiments
-from studies.quantity import StudyQuantity
 from studies.study import STUDIES, find_studies
 
 BANDS = {
@@ -32,19 +28,19 @@ BANDS = {
 """Of the tool's specification; where the paper gives a figure, about that."""
 
 
-def _quantities(name: str) -> dict[str, StudyQuantity]:
+def _quantities(name):
     return {quantity.key: quantity for quantity in STUDIES[name].quantities}
 
 
 @pytest.mark.parametrize(("study", "key"), list(BANDS))
-def test_every_band_is_the_one_that_was_set(study: str, key: str) -> None:
+def test_every_band_is_the_one_that_was_set(study, key):
     band = _quantities(study)[key].band
     assert band is not None
     assert (band.lower, band.upper) == BANDS[study, key]
 
 
 @pytest.mark.parametrize("study", list(STUDIES))
-def test_keys_are_unique_and_every_band_says_where_it_comes_from(study: str) -> None:
+def test_keys_are_unique_and_every_band_says_where_it_comes_from(study):
     quantities = STUDIES[study].quantities
     assert len(_quantities(study)) == len(quantities)
     bands = [quantity.band for quantity in quantities if quantity.band is not None]
@@ -52,19 +48,19 @@ def test_keys_are_unique_and_every_band_says_where_it_comes_from(study: str) -> 
 
 
 @pytest.mark.parametrize("study", list(STUDIES))
-def test_names_serve_as_folders_and_titles_name_no_figure_of_the_source(study: str) -> None:
+def test_names_serve_as_folders_and_titles_name_no_figure_of_the_source(study):
     assert re.fullmatch(r"[a-z][a-z0-9-]*", study)
     assert not re.search(r"\b(fig|figure|table)\b", STUDIES[study].title, re.IGNORECASE)
 
 
-def test_studies_are_listed_in_the_order_of_the_paper_then_ours() -> None:
+def test_studies_are_listed_in_the_order_of_the_paper_then_ours():
     positions = [study.position for study in STUDIES.values()]
     assert positions == sorted(set(positions))
     assert next(iter(STUDIES)) == "bench-loops"
     assert list(STUDIES)[-1] == "field-against-rig"
 
 
-def test_a_new_study_is_one_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_new_study_is_one_module(tmp_path, monkeypatch):
     text = "from studies.study import Study\nSTUDY = Study('new', 'New', '', (), None, position=15)\n"
     (tmp_path / "new_study.py").write_text(text)
     monkeypatch.setattr(experiments, "__path__", [*experiments.__path__, str(tmp_path)])

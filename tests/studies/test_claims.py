@@ -1,16 +1,13 @@
 """What the values of studies are worth, against what was calibrated, searched for and stated by the paper."""
 
-from __future__ import annotations
-
 import re
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from studies.comparison import claims, misses
 from studies.quantity import NOT_ASKED, NOT_PUBLIC, SourceBand
-from studies.study import STUDIES, StudyResult
+from studies.study import STUDIES
 
 REPOSITORY = Path(__file__).parents[2]
 TARGETS = {
@@ -32,19 +29,19 @@ LIMITS = {
 QUANTITIES = [(name, quantity) for name, study in STUDIES.items() for quantity in study.quantities]
 
 
-def test_what_was_a_target_of_the_calibration_is_called_so() -> None:
+def test_what_was_a_target_of_the_calibration_is_called_so():
     found = {(name, quantity.key): quantity.status for name, quantity in QUANTITIES}
     for study, keys in TARGETS.items():
         assert {found[study, key] for key in keys} == {"calibrated"}
 
 
-def test_the_figures_of_the_real_train_are_the_best_of_a_search() -> None:
+def test_the_figures_of_the_real_train_are_the_best_of_a_search():
     figures = ("braking_time", "braking_distance", "minimum_deceleration", "maximum_deceleration")
     of_study = {each.key: each.status for each in STUDIES["field-against-rig"].quantities}
     assert {of_study[key] for key in figures} == {"selected"}
 
 
-def test_a_band_of_the_paper_has_the_papers_limits_and_its_words() -> None:
+def test_a_band_of_the_paper_has_the_papers_limits_and_its_words():
     source = [quantity for _, quantity in QUANTITIES if isinstance(quantity.band, SourceBand)]
     assert {quantity.key for quantity in source} >= set(LIMITS)
     for quantity in source:
@@ -53,7 +50,7 @@ def test_a_band_of_the_paper_has_the_papers_limits_and_its_words() -> None:
             assert (quantity.band.lower, quantity.band.upper) == LIMITS[quantity.key]
 
 
-def test_only_what_nothing_was_fitted_to_is_declared_missed() -> None:
+def test_only_what_nothing_was_fitted_to_is_declared_missed():
     """A target that is missed is a calibration that failed; a filter fitted to its own stop has no target."""
     declared = [quantity for _, quantity in QUANTITIES if quantity.declared_miss]
     assert [each.key for each in declared if each.status != "predicted"] == ["after_in_sample"]
@@ -61,7 +58,7 @@ def test_only_what_nothing_was_fitted_to_is_declared_missed() -> None:
 
 
 @pytest.mark.slow
-def test_the_readme_counts_what_the_program_finds(result: Callable[[str], StudyResult]) -> None:
+def test_the_readme_counts_what_the_program_finds(result):
     """To the digit: console blocks are otherwise compared without their numbers."""
     results = [result(name) for name in STUDIES]
     readme = (REPOSITORY / "README.md").read_text("utf-8")

@@ -8,15 +8,13 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pytest
 
 from studies import __main__ as command_line
 from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
-from studies.stop_runner import StopRunner
 from studies.study import STUDIES, Study, StudyFindings
 
 REPOSITORY = Path(__file__).parents[2]
@@ -28,14 +26,11 @@ class Answer(NamedTuple):
     err: str
 
 
-Call = Callable[..., Answer]
-
-
 @pytest.fixture
-def call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Call:
+def call(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
 
-    def answer(*arguments: str) -> Answer:
+    def answer(*arguments):
         try:
             code = command_line.main(arguments)
         except SystemExit as end:
@@ -49,11 +44,11 @@ OURS = OwnBand(lower=1.0, reason="ours")
 DECLARED = SourceBand(lower=1.0, declared_miss="It is shorter.")
 
 
-def study(name: str, value: float, band: OwnBand | SourceBand = OURS) -> Study:
+def study(name, value, band=OURS):
     """A study that finds one value, which must be at least 1."""
     quantity = StudyQuantity("value", "value found", "m", "1 m", status="predicted", band=band)
 
-    def draw(figure: Any) -> None:
+    def draw(figure):
         figure.subplots().plot([0.0, value])
 
     findings = StudyFindings(
@@ -65,13 +60,13 @@ def study(name: str, value: float, band: OwnBand | SourceBand = OURS) -> Study:
 
 
 @pytest.fixture(autouse=True)
-def catalogue(monkeypatch: pytest.MonkeyPatch) -> None:
+def catalogue(monkeypatch):
     """Two studies, of which the second misses its band."""
     chosen = {each.name: each for each in (study("sound", 2.0), study("amiss", 0.5))}
     monkeypatch.setattr(command_line, "STUDIES", chosen)
 
 
-def test_studies_are_listed(call: Call) -> None:
+def test_studies_are_listed(call):
     assert call("--list").out == "sound  Study sound\namiss  Study amiss\n"
     assert [each["name"] for each in json.loads(call("--list", "--format", "json").out)] == [
         "sound",
@@ -79,7 +74,7 @@ def test_studies_are_listed(call: Call) -> None:
     ]
 
 
-def test_exit_0_only_where_every_band_holds(call: Call) -> None:
+def test_exit_0_only_where_every_band_holds(call):
     answer = call("sound")
     assert (answer.code, "1 study, 1 value: 1 hold, 0 miss, 0 shown; in" in answer.err) == (0, True)
     answer = call()
@@ -88,9 +83,7 @@ def test_exit_0_only_where_every_band_holds(call: Call) -> None:
     assert counts in answer.err
 
 
-def test_a_declared_miss_of_the_papers_band_leaves_the_exit_code_alone(
-    call: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_declared_miss_of_the_papers_band_leaves_the_exit_code_alone(call, monkeypatch):
     monkeypatch.setitem(command_line.STUDIES, "amiss", study("amiss", 0.5, DECLARED))
     answer = call("amiss")
     assert answer.code == 0
@@ -99,7 +92,7 @@ def test_a_declared_miss_of_the_papers_band_leaves_the_exit_code_alone(
     assert "Declared missed: value found. It is shorter." in answer.out
 
 
-def test_a_declared_miss_that_holds_is_exit_1(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_declared_miss_that_holds_is_exit_1(call, monkeypatch):
     monkeypatch.setitem(command_line.STUDIES, "sound", study("sound", 2.0, DECLARED))
     answer = call("sound")
     assert answer.code == 1
@@ -107,7 +100,7 @@ def test_a_declared_miss_that_holds_is_exit_1(call: Call, monkeypatch: pytest.Mo
     assert "not as claimed: sound" in answer.err
 
 
-def test_quiet_shows_only_what_misses_and_the_counts(call: Call) -> None:
+def test_quiet_shows_only_what_misses_and_the_counts(call):
     answer = call("-q")
     missed = answer.out.splitlines()[1]
     assert " ".join(missed.split()) == "amiss value found >= 1 m 0.5 m predicted misses"
@@ -116,12 +109,12 @@ def test_quiet_shows_only_what_misses_and_the_counts(call: Call) -> None:
     assert answer.err == ""
 
 
-def test_json_stands_alone_on_stdout(call: Call) -> None:
+def test_json_stands_alone_on_stdout(call):
     document = json.loads(call("--format", "json").out)
     assert [each["result"] for each in document["studies"]] == ["holds", "misses"]
 
 
-def test_an_unknown_study_is_a_usage_error_with_a_hint(call: Call) -> None:
+def test_an_unknown_study_is_a_usage_error_with_a_hint(call):
     assert call("soud") == (
         4,
         "",
@@ -130,11 +123,11 @@ def test_an_unknown_study_is_a_usage_error_with_a_hint(call: Call) -> None:
 
 
 @pytest.mark.parametrize("arguments", [("--jobs", "0"), ("--format", "xml"), ("--lsit",)])
-def test_a_wrong_option_is_a_usage_error(call: Call, arguments: tuple[str, ...]) -> None:
+def test_a_wrong_option_is_a_usage_error(call, arguments):
     assert call(*arguments).code == 4
 
 
-def test_data_and_figures_lie_by_study(call: Call) -> None:
+def test_data_and_figures_lie_by_study(call):
     pytest.importorskip("matplotlib")
     call("sound", "-o", "there")
     assert {path.name for path in Path("there", "sound").iterdir()} == {
@@ -145,12 +138,10 @@ def test_data_and_figures_lie_by_study(call: Call) -> None:
     }
 
 
-def test_without_matplotlib_the_study_runs_and_says_what_to_install(
-    call: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_matplotlib_the_study_runs_and_says_what_to_install(call, monkeypatch):
     imported = builtins.__import__
 
-    def refuse(name: str, *rest: Any) -> Any:
+    def refuse(name, *rest):
         if name.startswith("matplotlib"):
             raise ModuleNotFoundError(f"No module named {name!r}", name=name)
         return imported(name, *rest)
@@ -162,10 +153,8 @@ def test_without_matplotlib_the_study_runs_and_says_what_to_install(
     assert {path.name for path in Path("there", "sound").iterdir()} == {"data.csv", "index.html"}
 
 
-def test_a_study_that_fails_is_an_error_and_no_missed_band(
-    call: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(stop_runner: StopRunner) -> StudyFindings:
+def test_a_study_that_fails_is_an_error_and_no_missed_band(call, monkeypatch):
+    def fail(stop_runner):
         raise ZeroDivisionError("no wheel load")
 
     monkeypatch.setitem(command_line.STUDIES, "sound", Study("sound", "", "", (), fail))
@@ -175,15 +164,15 @@ def test_a_study_that_fails_is_an_error_and_no_missed_band(
     assert answer.err.endswith("uictest: internal error: ZeroDivisionError: no wheel load\n")
 
 
-def test_a_folder_that_cannot_be_made_is_an_error(call: Call) -> None:
+def test_a_folder_that_cannot_be_made_is_an_error(call):
     Path("file").touch()
     answer = call("sound", "-o", "file/there")
     assert answer.code == 3
     assert "file" in answer.err
 
 
-def test_an_interrupt_is_said(call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupt(stop_runner: StopRunner) -> StudyFindings:
+def test_an_interrupt_is_said(call, monkeypatch):
+    def interrupt(stop_runner):
         raise KeyboardInterrupt
 
     monkeypatch.setitem(command_line.STUDIES, "sound", Study("sound", "", "", (), interrupt))
@@ -192,7 +181,7 @@ def test_an_interrupt_is_said(call: Call, monkeypatch: pytest.MonkeyPatch) -> No
 
 
 @pytest.mark.skipif(shutil.which("sh") is None, reason="no shell")
-def test_the_script_lists_the_studies(tmp_path: Path) -> None:
+def test_the_script_lists_the_studies(tmp_path):
     """From any folder, in an environment that has all that it needs."""
     environment = tmp_path / "environment"
     (environment / "bin").mkdir(parents=True)

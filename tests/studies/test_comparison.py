@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 
@@ -21,7 +19,7 @@ from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
 from studies.study import StudyResult
 
 
-def test_lines_have_the_papers_value_ours_and_the_band(made_up: StudyResult) -> None:
+def test_lines_have_the_papers_value_ours_and_the_band(made_up):
     assert lines(made_up) == [
         "made-up: A made-up study",
         "  The data of the paper's figures and tables are not public; its text says: 17.6 s.",
@@ -45,15 +43,15 @@ def test_lines_have_the_papers_value_ours_and_the_band(made_up: StudyResult) -> 
         (None, "-"),
     ],
 )
-def test_bands_in_words(band: OwnBand | SourceBand | None, text: str) -> None:
+def test_bands_in_words(band, text):
     assert band_text(StudyQuantity("a", "a", "%", status="predicted", band=band)) == text
 
 
-def test_a_study_of_ours_claims_nothing_of_the_paper(made_up: StudyResult) -> None:
+def test_a_study_of_ours_claims_nothing_of_the_paper(made_up):
     assert "Our own study" in paper_text(replace(made_up.study, paper=""))
 
 
-def test_the_document_holds_no_number_that_json_lacks(made_up: StudyResult) -> None:
+def test_the_document_holds_no_number_that_json_lacks(made_up):
     (study,) = json.loads(document([made_up]))["studies"]
     assert (study["result"], study["fails"]) == ("misses", True)
     assert [each["result"] for each in study["quantities"]] == ["holds", "misses", "shown"]
@@ -63,7 +61,7 @@ def test_the_document_holds_no_number_that_json_lacks(made_up: StudyResult) -> N
     assert study["quantities"][1]["band"]["upper_excluded"]
 
 
-def test_the_table_shows_texts_as_they_are(made_up: StudyResult) -> None:
+def test_the_table_shows_texts_as_they_are(made_up):
     from rich.console import Console
 
     console = Console(width=120)
@@ -74,7 +72,7 @@ def test_the_table_shows_texts_as_they_are(made_up: StudyResult) -> None:
     assert ours_text(made_up.comparisons[0]) in shown
 
 
-def test_every_comparison_is_a_row(made_up: StudyResult) -> None:
+def test_every_comparison_is_a_row(made_up):
     table = comparison_table([made_up, made_up])
     assert {len(column) for column in table.values()} == {6}
     assert table["status"][:3] == ["calibrated", "predicted", "predicted"]
@@ -82,7 +80,7 @@ def test_every_comparison_is_a_row(made_up: StudyResult) -> None:
     assert table["band"][:3] == ["ours", "source", ""]
 
 
-def declared(made_up: StudyResult, value: float) -> StudyResult:
+def declared(made_up, value):
     """The study, the paper's band of whose share is declared missed; `value` is the share."""
     first, share, last = made_up.study.quantities
     band = SourceBand(upper=2.0, below=True, declared_miss="Heat.")
@@ -91,7 +89,7 @@ def declared(made_up: StudyResult, value: float) -> StudyResult:
     return StudyResult(study, replace(made_up.findings, values=values))
 
 
-def test_a_declared_miss_is_said_everywhere_with_its_reason(made_up: StudyResult) -> None:
+def test_a_declared_miss_is_said_everywhere_with_its_reason(made_up):
     result = declared(made_up, 9.56)
     assert "  misses, declared  predicted  [bold]share: " in "\n".join(lines(result))
     assert "  Declared missed: [bold]share. Heat." in lines(result)
@@ -103,13 +101,13 @@ def test_a_declared_miss_is_said_everywhere_with_its_reason(made_up: StudyResult
     assert [line.split()[-1] for line in misses([result, made_up])] == ["result", "declared", "misses"]
 
 
-def test_a_declared_miss_that_holds_is_said(made_up: StudyResult) -> None:
+def test_a_declared_miss_that_holds_is_said(made_up):
     result = declared(made_up, 1.9)
     assert "  holds, declared missed  predicted  [bold]share: " in "\n".join(lines(result))
     assert [line.split()[-2:] for line in misses([result])][1:] == [["declared", "missed"]]
 
 
-def test_claims_are_counted_by_status_and_result(made_up: StudyResult) -> None:
+def test_claims_are_counted_by_status_and_result(made_up):
     table = [line.split() for line in claims([made_up, declared(made_up, 9.56)])]
     assert table == [
         ["status", "holds", "misses", "shown"],

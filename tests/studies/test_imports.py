@@ -1,10 +1,7 @@
 """The studies use the public interface of the package, and behind it only what it does not offer."""
 
-from __future__ import annotations
-
 import ast
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 import uictest
@@ -25,7 +22,7 @@ LONGEST = 300
 FILES = sorted(STUDIES.rglob("*.py"))
 
 
-def imported(path: Path) -> Iterator[str]:
+def imported(path):
     """Yield the modules of the package that a file imports; for a public name, the package."""
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         if isinstance(node, ast.Import):
@@ -36,12 +33,12 @@ def imported(path: Path) -> Iterator[str]:
                 yield name if Path(SOURCES, *name.split(".")).is_dir() else str(node.module)
 
 
-def test_studies_import_the_public_interface_and_few_rooms_behind_it() -> None:
+def test_studies_import_the_public_interface_and_few_rooms_behind_it():
     found = {name for path in FILES if path.name != "survey_step.py" for name in imported(path)}
     assert found - {"uictest", "uictest.units"} == BEHIND
 
 
-def test_public_names_are_those_that_the_package_offers() -> None:
+def test_public_names_are_those_that_the_package_offers():
     names = {
         each.name
         for path in FILES
@@ -52,16 +49,16 @@ def test_public_names_are_those_that_the_package_offers() -> None:
     assert names - {"rig", "report"} <= set(uictest.__all__)
 
 
-def test_the_package_imports_no_study() -> None:
+def test_the_package_imports_no_study():
     importing = re.compile(r"^\s*(from|import) studies\b", re.MULTILINE)
     package = Path(uictest.__file__).parent
     assert [path for path in package.rglob("*.py") if importing.search(path.read_text("utf-8"))] == []
 
 
-def test_no_file_is_too_long() -> None:
+def test_no_file_is_too_long():
     assert {path.name for path in FILES if len(path.read_text("utf-8").splitlines()) > LONGEST} == set()
 
 
-def test_the_readme_names_every_room_behind_the_interface() -> None:
+def test_the_readme_names_every_room_behind_the_interface():
     text = (STUDIES / "README.md").read_text("utf-8")
     assert {name for name in BEHIND if f"`{name.removesuffix('.page')}`" not in text} == set()

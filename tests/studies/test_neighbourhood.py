@@ -1,8 +1,3 @@
-from __future__ import annotations
-
-from collections.abc import Callable, Sequence
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -20,25 +15,24 @@ from studies.neighbourhood import (
     neighbourhood,
 )
 from studies.stop_runner import StopRunner, constant_friction
-from uictest import CaseResult
-from uictest.plans.scenario import COMPENSATION_SETTINGS, Case
+from uictest.plans.scenario import COMPENSATION_SETTINGS
 
 
 @pytest.fixture(autouse=True)
-def cases_as_stops(monkeypatch: pytest.MonkeyPatch) -> None:
+def cases_as_stops(monkeypatch):
     """Let every stop come out as its case."""
 
-    def judged(cases: Sequence[Case], jobs: int) -> Any:
+    def judged(cases, jobs):
         return cases
 
     monkeypatch.setattr(stop_runner, "_judged", judged)
 
 
-def test_every_setting_of_the_compensation_is_compared() -> None:
+def test_every_setting_of_the_compensation_is_compared():
     assert tuple(COMPENSATION_SETTINGS) == SETTINGS
 
 
-def test_nine_points_hold_the_repeats_on_every_rig() -> None:
+def test_nine_points_hold_the_repeats_on_every_rig():
     points = neighbourhood(StopRunner())
     assert len({point.title for point in points}) == 9
     for point in points:
@@ -46,16 +40,16 @@ def test_nine_points_hold_the_repeats_on_every_rig() -> None:
         assert all(len(stops) == len(SEEDS) for stops in point.stops.values())
 
 
-def test_every_stop_of_a_point_has_its_friction_command_and_rig() -> None:
+def test_every_stop_of_a_point_has_its_friction_command_and_rig():
     for point in neighbourhood(StopRunner()):
         for name, cases in point.stops.items():
-            scenarios: Any = [case.scenario for case in cases]  # type: ignore[attr-defined]
+            scenarios = [case.scenario for case in cases]
             assert {each.rail.friction for each in scenarios} == {constant_friction(point.case)}
             assert {each.brake.command.text for each in scenarios} == {point.command}
             assert name in {scenarios[0].rig.compensation, scenarios[0].rig.topology}
 
 
-def test_the_sweep_is_130_stops_about_the_friction_of_the_slide_test() -> None:
+def test_the_sweep_is_130_stops_about_the_friction_of_the_slide_test():
     sweep = friction_sweep(StopRunner())
     calibrated = constant_friction(StopRunner().cases("slide-80")[0])
     steps = [(constant_friction(point.case) - calibrated) * 1000.0 for point in sweep]
@@ -64,14 +58,11 @@ def test_the_sweep_is_130_stops_about_the_friction_of_the_slide_test() -> None:
     assert {point.command for point in sweep} == {"100 %"}
 
 
-MakeStop = Callable[..., CaseResult]
-
-
-def array(*values: float) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+def array(*values):
     return np.array(values, dtype=float)
 
 
-def test_the_caliper_is_counted_on_the_rig_with_both_models(stop: MakeStop) -> None:
+def test_the_caliper_is_counted_on_the_rig_with_both_models(stop):
     stops = {
         "none": [stop(9, 21, 20, 22)],
         "full": [stop(11, 12, 10, 14)],
@@ -82,7 +73,7 @@ def test_the_caliper_is_counted_on_the_rig_with_both_models(stop: MakeStop) -> N
     assert counted == {"caliper": [11], "none": [21], "full": [12], "thermal": [13], "reference": [11]}
 
 
-def test_module_1_has_a_caliper_on_every_rig_and_does_not_count_in_the_mean(stop: MakeStop) -> None:
+def test_module_1_has_a_caliper_on_every_rig_and_does_not_count_in_the_mean(stop):
     assert mean_counts([stop(99, 10, 11, 12), stop(99, 20, 20, 20)]).tolist() == [11.0, 20.0]
 
 
@@ -96,15 +87,15 @@ def test_module_1_has_a_caliper_on_every_rig_and_does_not_count_in_the_mean(stop
         (0.0, 0.0, 0.0, False),
     ],
 )
-def test_the_order_is_that_of_the_paper(caliper: float, full: float, none: float, expected: bool) -> None:
+def test_the_order_is_that_of_the_paper(caliper, full, none, expected):
     assert in_order(array(caliper), array(full), array(none)).tolist() == [expected]
 
 
-def test_all_three_counts_must_lie_in_their_bands() -> None:
+def test_all_three_counts_must_lie_in_their_bands():
     counted = {"caliper": array(11, 11, 12), "none": array(21, 21, 23), "full": array(11, 13, 10)}
     assert in_bands(counted).tolist() == [True, False, True]
 
 
-def test_the_counts_of_the_paper_lie_in_the_bands_about_them() -> None:
+def test_the_counts_of_the_paper_lie_in_the_bands_about_them():
     assert PAPER == {"caliper": 11, "none": 21, "full": 11}
     assert in_bands({key: array(PAPER[key]) for key in BANDS}).all()

@@ -1,14 +1,10 @@
-from __future__ import annotations
-
 import math
-from typing import Any
 
 import pytest
 from hypothesis import assume, given, strategies as st
 
 from studies.quantity import (
     WIDTH,
-    BandPlot,
     OwnBand,
     PaperComparison,
     SourceBand,
@@ -19,7 +15,7 @@ from studies.quantity import (
 )
 
 
-def quantity(band: OwnBand | SourceBand | None) -> StudyQuantity:
+def quantity(band):
     return StudyQuantity("error", "error", status="predicted", band=band)
 
 
@@ -27,17 +23,17 @@ def quantity(band: OwnBand | SourceBand | None) -> StudyQuantity:
     ("value", "status"),
     [(0.45, "holds"), (0.55, "holds"), (0.4499, "misses"), (0.5501, "misses"), (math.nan, "misses")],
 )
-def test_both_ends_of_a_band_belong_to_it(value: float, status: str) -> None:
+def test_both_ends_of_a_band_belong_to_it(value, status):
     assert quantity(OwnBand(lower=0.45, upper=0.55, reason="ours")).result(value) == status
 
 
-def test_what_must_stay_below_a_bound_may_not_reach_it() -> None:
+def test_what_must_stay_below_a_bound_may_not_reach_it():
     assert not SourceBand(upper=2.0, below=True).contains(2.0)
     assert SourceBand(upper=2.0).contains(2.0)
 
 
 @given(st.floats())
-def test_without_a_band_a_figure_is_only_shown(value: float) -> None:
+def test_without_a_band_a_figure_is_only_shown(value):
     assert quantity(None).result(value) == "shown"
 
 
@@ -53,28 +49,26 @@ def test_without_a_band_a_figure_is_only_shown(value: float) -> None:
         (None, 3.0, False),
     ],
 )
-def test_a_study_fails_by_what_is_not_as_claimed(
-    band: OwnBand | SourceBand | None, value: float, fails: bool
-) -> None:
+def test_a_study_fails_by_what_is_not_as_claimed(band, value, fails):
     """A miss that nobody declared, and a declaration that is not true."""
     assert PaperComparison(quantity(band), StudyValue(value)).fails is fails
 
 
-def test_a_band_of_ours_cannot_be_declared_missed() -> None:
-    fields: dict[str, Any] = {"upper": 2.0, "reason": "ours", "declared_miss": "heat"}
+def test_a_band_of_ours_cannot_be_declared_missed():
+    fields = {"upper": 2.0, "reason": "ours", "declared_miss": "heat"}
     assert SourceBand(**fields).declared_miss == "heat"
     with pytest.raises(TypeError, match="declared_miss"):
         OwnBand(**fields)
 
 
-def test_every_quantity_says_what_it_is_worth() -> None:
-    fields: dict[str, Any] = {"key": "force", "title": "force"}
+def test_every_quantity_says_what_it_is_worth():
+    fields = {"key": "force", "title": "force"}
     with pytest.raises(TypeError, match="status"):
         StudyQuantity(**fields)
 
 
 @given(st.lists(st.floats(-1e9, 1e9), min_size=1))
-def test_a_median_lies_within_its_range(values: list[float]) -> None:
+def test_a_median_lies_within_its_range(values):
     found = spread(values)
     assert found.low is not None
     assert found.high is not None
@@ -83,18 +77,18 @@ def test_a_median_lies_within_its_range(values: list[float]) -> None:
 
 
 @pytest.mark.parametrize("values", [[], [1.0, math.nan, 2.0]])
-def test_without_a_figure_of_every_repeat_there_is_no_median(values: list[float]) -> None:
+def test_without_a_figure_of_every_repeat_there_is_no_median(values):
     assert math.isnan(spread(values).value)
 
 
-def test_a_reading_may_have_no_range() -> None:
+def test_a_reading_may_have_no_range():
     assert StudyValue(1.0).low is None
 
 
 numbers = st.floats(-1e6, 1e6)
 
 
-def plot_of(lower: float | None, upper: float | None, *value: float) -> BandPlot | None:
+def plot_of(lower, upper, *value):
     band = None if lower is None and upper is None else OwnBand(lower=lower, upper=upper, reason="ours")
     return band_plot(
         PaperComparison(StudyQuantity("q", "q", status="predicted", band=band), StudyValue(*value))
@@ -102,9 +96,7 @@ def plot_of(lower: float | None, upper: float | None, *value: float) -> BandPlot
 
 
 @given(lower=numbers, width=st.floats(1e-3, 1e6), value=numbers)
-def test_a_value_is_drawn_in_the_band_where_it_holds_and_beside_it_where_not(
-    lower: float, width: float, value: float
-) -> None:
+def test_a_value_is_drawn_in_the_band_where_it_holds_and_beside_it_where_not(lower, width, value):
     upper = lower + width
     assume(upper > lower)
     plot = plot_of(lower, upper, value)
@@ -117,7 +109,7 @@ def test_a_value_is_drawn_in_the_band_where_it_holds_and_beside_it_where_not(
     assert (left <= plot.value <= right) or not plot.holds
 
 
-def test_a_band_with_one_limit_reaches_the_edge() -> None:
+def test_a_band_with_one_limit_reaches_the_edge():
     below = plot_of(None, 2.0, 1.0, 0.5, 1.5)
     above = plot_of(2.0, None, 1.0)
     assert below is not None
@@ -133,7 +125,5 @@ def test_a_band_with_one_limit_reaches_the_edge() -> None:
 @pytest.mark.parametrize(
     ("lower", "upper", "value"), [(None, None, 1.0), (1.0, None, float("nan")), (None, 1.0, float("inf"))]
 )
-def test_nothing_is_drawn_without_a_band_or_a_value(
-    lower: float | None, upper: float | None, value: float
-) -> None:
+def test_nothing_is_drawn_without_a_band_or_a_value(lower, upper, value):
     assert plot_of(lower, upper, value) is None

@@ -1,6 +1,3 @@
-from __future__ import annotations
-
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,18 +6,18 @@ import pytest
 import uictest
 from studies import stop_runner
 from studies.stop_runner import StopRunner, seeded
-from uictest import Case, CaseResult
+from uictest import CaseResult
 from uictest.plans.scenario import load
 
 SHIPPED = Path(__file__).parents[2] / "scenarios"
 
 
 @pytest.fixture
-def runs(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
+def runs(monkeypatch):
     """Let stops come out as their seed; the stops that were run, as id and seed."""
-    done: list[tuple[str, int]] = []
+    done = []
 
-    def judged(cases: Sequence[Case], jobs: int) -> list[int]:
+    def judged(cases, jobs):
         assert len({case.id for case in cases}) == len(cases)
         done.extend((case.id, case.scenario.seed) for case in cases)
         return [case.scenario.seed for case in cases]
@@ -29,7 +26,7 @@ def runs(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
     return done
 
 
-def test_a_stop_is_run_once(runs: list[tuple[str, int]]) -> None:
+def test_a_stop_is_run_once(runs):
     bench = StopRunner()
     cases = bench.cases("wet-80-command")
     first = bench.repeated(cases[:2], range(3))
@@ -39,7 +36,7 @@ def test_a_stop_is_run_once(runs: list[tuple[str, int]]) -> None:
     assert len(runs) == len(set(runs)) == 6 + 7
 
 
-def test_cases_of_the_same_id_are_different_stops(runs: list[tuple[str, int]]) -> None:
+def test_cases_of_the_same_id_are_different_stops(runs):
     bench = StopRunner()
     cases = [bench.cases("slide-80", {"rig.compensation": setting})[0] for setting in ("none", "full")]
     assert cases[0].id == cases[1].id
@@ -47,7 +44,7 @@ def test_cases_of_the_same_id_are_different_stops(runs: list[tuple[str, int]]) -
     assert len(runs) == 2
 
 
-def test_a_stop_that_fails_is_no_result(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_stop_that_fails_is_no_result(monkeypatch):
     failed = CaseResult("slide-80", "", {}, "pass", "error", "the controller failed")
     monkeypatch.setattr(uictest, "run", lambda cases, **_: [failed])
     bench = StopRunner()
@@ -55,18 +52,18 @@ def test_a_stop_that_fails_is_no_result(monkeypatch: pytest.MonkeyPatch) -> None
         bench.repeated(bench.cases("slide-80"), [0])
 
 
-def test_the_id_seeds_the_noise_so_that_another_id_is_another_stop(runs: list[tuple[str, int]]) -> None:
+def test_the_id_seeds_the_noise_so_that_another_id_is_another_stop(runs):
     bench = StopRunner()
     case = bench.cases("slide-80")[0]
     bench.repeated([case, replace(case, id="other")], [0])
     assert [name for name, _ in runs] == [case.id, "other"]
 
 
-def test_work_is_returned_in_order() -> None:
+def test_work_is_returned_in_order():
     assert StopRunner(jobs=3).map(lambda number: number**2, range(50)) == [n**2 for n in range(50)]
 
 
-def test_another_seed_changes_nothing_but_the_seed() -> None:
+def test_another_seed_changes_nothing_but_the_seed():
     case = StopRunner().cases("slide-80")[0]
     other = seeded(case, 7)
     assert other.scenario.seed == 7
@@ -76,7 +73,7 @@ def test_another_seed_changes_nothing_but_the_seed() -> None:
 @pytest.mark.parametrize(
     "name", ["slide-80", "slide-80-four-caliper", "wet-80-command", "dry-120", "slip-120"]
 )
-def test_studies_stop_on_the_rail_of_the_shipped_scenario(name: str) -> None:
+def test_studies_stop_on_the_rail_of_the_shipped_scenario(name):
     own = StopRunner().cases(name)
     shipped = load([SHIPPED / f"{name}.yaml"], ["rig.compensation=full"])
     for mine, theirs in zip(own, shipped, strict=True):

@@ -1,11 +1,8 @@
 """The table of what the survey step does, and the script that makes it."""
 
-from __future__ import annotations
-
 import csv
 import runpy
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -17,15 +14,15 @@ FEW = 8
 
 
 @pytest.fixture(scope="module")
-def study() -> dict[str, Any]:
+def study():
     return runpy.run_path(str(SCRIPT))
 
 
-def shipped() -> list[dict[str, str]]:
+def shipped():
     return list(csv.DictReader(library.table(SURVEY_TABLE).splitlines()))
 
 
-def test_a_dry_stop_comes_out_as_the_table_says(study: dict[str, Any]) -> None:
+def test_a_dry_stop_comes_out_as_the_table_says(study):
     [dry] = [each for each in study["variants"]() if each.path.stem == "dry-120"]
     found = {row["measure"]: row for row in csv.DictReader(study["table"]([dry], FEW).splitlines())}
     expected = {row["measure"]: row for row in shipped() if row["case"] == "dry-120"}
@@ -37,7 +34,7 @@ def test_a_dry_stop_comes_out_as_the_table_says(study: dict[str, Any]) -> None:
     assert float(found["braking_distance"]["mean"]) == pytest.approx(-0.0133, abs=0.001)  # m
 
 
-def test_every_case_that_is_run_stands_in_the_table_and_no_other(study: dict[str, Any]) -> None:
+def test_every_case_that_is_run_stands_in_the_table_and_no_other(study):
     cases = [
         f"{case.id}{variant.name}"
         for variant in study["variants"]()
@@ -46,7 +43,7 @@ def test_every_case_that_is_run_stands_in_the_table_and_no_other(study: dict[str
     assert list(dict.fromkeys(row["case"] for row in shipped())) == cases
 
 
-def test_a_bias_is_the_farther_end_of_the_interval_over_the_mean_size(study: dict[str, Any]) -> None:
+def test_a_bias_is_the_farther_end_of_the_interval_over_the_mean_size(study):
     import numpy as np
 
     regular, survey = np.array([10.0, 10.0, 10.0, np.nan]), np.array([10.1, 9.9, 10.3, 1.0])
@@ -58,5 +55,5 @@ def test_a_bias_is_the_farther_end_of_the_interval_over_the_mean_size(study: dic
 
 
 @pytest.mark.slow
-def test_the_table_is_the_one_that_the_study_makes(study: dict[str, Any]) -> None:
+def test_the_table_is_the_one_that_the_study_makes(study):
     assert study["table"](study["variants"](), study["STOPS"]) == library.table(SURVEY_TABLE)

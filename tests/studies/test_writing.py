@@ -1,44 +1,40 @@
-from __future__ import annotations
-
 import re
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from studies.stop_runner import StopRunner
-from studies.study import STUDIES, Study, StudyFindings, StudyResult, run_study
+from studies.study import STUDIES, Study, StudyFindings, run_study
 from studies.writing import table_text, write_comparison, write_figures, write_pages, write_tables
 
 QUICK = ("bench-loops", "four-phase-lines", "command-level", "slide-test", "valve-actuations", "appendix-b")
 
 
-def test_tables_lie_in_the_folder_of_their_study(made_up: StudyResult, tmp_path: Path) -> None:
+def test_tables_lie_in_the_folder_of_their_study(made_up, tmp_path):
     assert write_tables(tmp_path, made_up) == [tmp_path / "made-up" / "data.csv"]
     assert (tmp_path / "made-up" / "data.csv").read_text() == 'time_s,what\n0.0,"a, b"\n0.5,\n'
 
 
-def test_columns_of_different_lengths_are_rejected() -> None:
+def test_columns_of_different_lengths_are_rejected():
     with pytest.raises(ValueError, match="same length"):
         table_text({"a": [1, 2], "b": [1]})
 
 
-def test_the_comparison_lies_beside_the_studies(made_up: StudyResult, tmp_path: Path) -> None:
+def test_the_comparison_lies_beside_the_studies(made_up, tmp_path):
     write_comparison(tmp_path / "new", [made_up])
     assert {path.name for path in (tmp_path / "new").iterdir()} == {"comparison.csv", "studies.json"}
 
 
-def _line(figure: Any) -> None:
+def _line(figure):
     figure.subplots().plot([0.0, 1.0], [1.0, 0.0])
 
 
-def _drawn(result: StudyResult, drawing: Callable[[Any], None] = _line) -> StudyResult:
+def _drawn(result, drawing=_line):
     return replace(result, findings=replace(result.findings, drawings={"figure": drawing}))
 
 
-def test_a_figure_is_the_same_to_the_byte_whenever_it_is_drawn(made_up: StudyResult, tmp_path: Path) -> None:
+def test_a_figure_is_the_same_to_the_byte_whenever_it_is_drawn(made_up, tmp_path):
     pytest.importorskip("matplotlib")
     study = _drawn(made_up)
     paths = write_figures(tmp_path, study)
@@ -48,10 +44,10 @@ def test_a_figure_is_the_same_to_the_byte_whenever_it_is_drawn(made_up: StudyRes
     assert [path.read_bytes() for path in paths] == before
 
 
-def test_a_figure_that_cannot_be_drawn_leaves_nothing_behind(made_up: StudyResult, tmp_path: Path) -> None:
+def test_a_figure_that_cannot_be_drawn_leaves_nothing_behind(made_up, tmp_path):
     pytest.importorskip("matplotlib")
 
-    def fail(figure: Any) -> None:
+    def fail(figure):
         raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):
@@ -60,7 +56,7 @@ def test_a_figure_that_cannot_be_drawn_leaves_nothing_behind(made_up: StudyResul
 
 
 @pytest.mark.parametrize("name", QUICK)
-def test_axes_name_their_units(name: str, result: Callable[[str], StudyResult]) -> None:
+def test_axes_name_their_units(name, result):
     figure_module = pytest.importorskip("matplotlib.figure")
     done = result(name)
     assert done.study is STUDIES[name]
@@ -75,11 +71,11 @@ def test_axes_name_their_units(name: str, result: Callable[[str], StudyResult]) 
 ARGUMENTS = ("made-up",)
 
 
-def page_of(folder: Path, name: str = "made-up") -> str:
+def page_of(folder, name="made-up"):
     return (folder / name / "index.html").read_text("utf-8")
 
 
-def test_a_page_shows_the_papers_values_beside_ours(made_up: StudyResult, tmp_path: Path) -> None:
+def test_a_page_shows_the_papers_values_beside_ours(made_up, tmp_path):
     assert write_pages(tmp_path, [made_up], [], ARGUMENTS) == []
     page = page_of(tmp_path)
     assert "its text says: 17.6 s." in page
@@ -95,23 +91,21 @@ def test_a_page_shows_the_papers_values_beside_ours(made_up: StudyResult, tmp_pa
         assert text in page
 
 
-def test_markup_in_a_study_is_text(made_up: StudyResult, tmp_path: Path) -> None:
+def test_markup_in_a_study_is_text(made_up, tmp_path):
     hostile = replace(made_up, study=replace(made_up.study, title="<script>x</script>", paper="<b>1</b>"))
     write_pages(tmp_path, [hostile], [], ARGUMENTS)
     assert "<script>x" not in page_of(tmp_path)
     assert "<b>1" not in page_of(tmp_path)
 
 
-def test_the_page_holds_its_figure(made_up: StudyResult, tmp_path: Path) -> None:
+def test_the_page_holds_its_figure(made_up, tmp_path):
     pytest.importorskip("matplotlib")
     drawn = _drawn(made_up)
     write_pages(tmp_path, [drawn], [], ARGUMENTS, write_figures(tmp_path, drawn))
     assert re.search(r'<img src="data:image/(svg\+xml|png);base64,[A-Za-z0-9+/=]+"', page_of(tmp_path))
 
 
-def test_the_figure_of_an_earlier_run_is_not_shown_as_that_of_this_one(
-    made_up: StudyResult, tmp_path: Path
-) -> None:
+def test_the_figure_of_an_earlier_run_is_not_shown_as_that_of_this_one(made_up, tmp_path):
     pytest.importorskip("matplotlib")
     drawn = _drawn(made_up)
     write_figures(tmp_path, drawn)
@@ -119,14 +113,12 @@ def test_the_figure_of_an_earlier_run_is_not_shown_as_that_of_this_one(
     assert "data:image" not in page_of(tmp_path).split("<main", 1)[1]
 
 
-def test_without_a_figure_the_page_says_why(made_up: StudyResult, tmp_path: Path) -> None:
+def test_without_a_figure_the_page_says_why(made_up, tmp_path):
     write_pages(tmp_path, [_drawn(made_up)], [], ARGUMENTS)
     assert "matplotlib is not installed" in page_of(tmp_path)
 
 
-def test_the_list_leads_to_every_page_and_names_those_of_earlier_runs(
-    made_up: StudyResult, tmp_path: Path
-) -> None:
+def test_the_list_leads_to_every_page_and_names_those_of_earlier_runs(made_up, tmp_path):
     other = replace(made_up, study=replace(made_up.study, name="other"))
     never = replace(made_up.study, name="never")
     known = [made_up.study, other.study, never]
@@ -140,7 +132,7 @@ def test_the_list_leads_to_every_page_and_names_those_of_earlier_runs(
     assert "never" not in page.split("<main", 1)[1].replace("it is never the paper", "")
 
 
-def test_a_page_of_somebody_else_is_left_alone(made_up: StudyResult, tmp_path: Path) -> None:
+def test_a_page_of_somebody_else_is_left_alone(made_up, tmp_path):
     (tmp_path / "index.html").write_text("mine")
     [problem] = write_pages(tmp_path, [made_up], [], ARGUMENTS)
     assert "is left as it is" in problem
@@ -148,9 +140,9 @@ def test_a_page_of_somebody_else_is_left_alone(made_up: StudyResult, tmp_path: P
     assert "17.6 s" in page_of(tmp_path)
 
 
-def test_the_files_of_the_simulated_stops_are_those_of_the_study_alone() -> None:
-    def run(scenario: str) -> Callable[[StopRunner], StudyFindings]:
-        def simulate(runner: StopRunner) -> StudyFindings:
+def test_the_files_of_the_simulated_stops_are_those_of_the_study_alone():
+    def run(scenario):
+        def simulate(runner):
             runner.cases(scenario)
             return StudyFindings({})
 

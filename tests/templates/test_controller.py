@@ -1,10 +1,7 @@
 """A first controller is sound as it is written: it conforms and stops a train; in C it is the same one."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -19,7 +16,7 @@ from uictest.selftest.conformance.bench import Bench
 REPOSITORY = Path(__file__).parents[2]
 
 
-def written(language: templates.Language, folder: Path) -> Path:
+def written(language, folder):
     """Write the files, build them where they must be built, and return the part."""
     folder.mkdir()
     for name, text in templates.controller_files(language).items():
@@ -34,12 +31,12 @@ def written(language: templates.Language, folder: Path) -> Path:
 
 
 @pytest.fixture(params=["python", "c"])
-def part(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
+def part(request, tmp_path):
     """The part of a first controller, ready to run."""
     return written(request.param, tmp_path / request.param)
 
 
-def test_it_conforms_untouched(part: Path) -> None:
+def test_it_conforms_untouched(part):
     examination = conformance.examine(
         conformance.subject_of("first", load_controller(str(part), trusted=[part.parent]))
     )
@@ -47,7 +44,7 @@ def test_it_conforms_untouched(part: Path) -> None:
     assert {each.status for each in judged} == {"pass"}, judged
 
 
-def test_its_wheelsets_slide_in_a_slip_brake_test_but_do_not_lock(part: Path) -> None:
+def test_its_wheelsets_slide_in_a_slip_brake_test_but_do_not_lock(part):
     """Deeper than `uictest-stop` allows, which its scenario says."""
     [case] = load([part.parent / "slip-120.yaml"])
     result = campaign.run_stop(
@@ -58,17 +55,17 @@ def test_its_wheelsets_slide_in_a_slip_brake_test_but_do_not_lock(part: Path) ->
     assert {each.id for each in result.criteria} >= {"initial-adhesion", "minimum-slide", "locked-wheels"}
 
 
-def test_both_languages_give_the_same_answers(tmp_path: Path) -> None:
+def test_both_languages_give_the_same_answers(tmp_path):
     answers = []
     for language in ("python", "c"):
-        part = load_controller(str(written(language, tmp_path / language)))  # type: ignore[arg-type]
+        part = load_controller(str(written(language, tmp_path / language)))
         with Bench(conformance.subject_of(language, part)) as bench:
             answers.append([each.drives[0].outputs for each in bench.every_situation()])
     for one, other in zip(*answers, strict=True):
         assert one.tobytes() == other.tobytes()
 
 
-def test_make_builds_what_the_part_names(tmp_path: Path) -> None:
+def test_make_builds_what_the_part_names(tmp_path):
     if shutil.which("make") is None or shutil.which("cc") is None:
         pytest.skip("no make, or no C compiler")
     folder = tmp_path / "made"
@@ -79,7 +76,7 @@ def test_make_builds_what_the_part_names(tmp_path: Path) -> None:
     assert load_controller(str(folder / "my-wsp.yaml"))
 
 
-def _controllers(node: object) -> Iterator[dict[str, object]]:
+def _controllers(node):
     """Yield the controllers from outside that a shipped file names in place."""
     if isinstance(node, dict):
         if {"python", "library", "connect"} & node.keys():
@@ -92,7 +89,7 @@ SHIPPED = {"examples": REPOSITORY / "examples", "templates": Path(str(templates.
 
 
 @pytest.mark.parametrize("folder", SHIPPED.values(), ids=SHIPPED.keys())
-def test_what_is_shipped_declares_its_parameters(folder: Path) -> None:
+def test_what_is_shipped_declares_its_parameters(folder):
     shipped = [
         (path, each) for path in folder.rglob("*.yaml") for each in _controllers(plain(read_file(path)))
     ]

@@ -6,7 +6,6 @@ import signal
 import socket
 import subprocess
 import sys
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -32,7 +31,7 @@ def test_content_is_read_for_its_kind_and_inputs_and_no_others(root):
     assert user_cache.read("page", INPUTS) is None
 
 
-DAMAGE: dict[str, Callable[[bytes], bytes]] = {
+DAMAGE = {
     "a bit of the content": lambda whole: whole[:-1] + bytes([whole[-1] ^ 1]),
     "a bit of the digest": lambda whole: bytes([whole[0] ^ 1]) + whole[1:],
     "cut": lambda whole: whole[:-1],

@@ -11,7 +11,7 @@ TWO_CASES = "matrix:\n  brake.command: [80 %, 90 %]\n"
 @pytest.fixture
 def built(monkeypatch):
     """What would be built: case and version. The rig's own tests build FMUs."""
-    made: list[tuple[str, int]] = []
+    made = []
 
     def build(case, version, compiler):
         made.append((case.id, version))

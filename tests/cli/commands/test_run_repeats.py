@@ -2,7 +2,6 @@
 
 import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -10,7 +9,7 @@ WET = "rail: {condition: wet, friction: 0.05}\ncriteria: uictest-stop\n"
 
 
 def results():
-    document: dict[str, Any] = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+    document = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
     return document["cases"]
 
 

@@ -66,7 +66,7 @@ def whole(call, study, made_once):
 @pytest.fixture
 def counted(monkeypatch):
     """The numbers of cases that were simulated, chunk by chunk."""
-    sizes: list[int] = []
+    sizes = []
     run = ChunkRunner.run_together
 
     def counting(self, chunks):

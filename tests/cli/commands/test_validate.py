@@ -117,7 +117,7 @@ def test_a_stop_that_the_numbers_come_from_is_listed_and_not_counted(validate):
 
 def test_every_recorded_stop_has_a_draw_of_its_own_whatever_the_others_are(validate, monkeypatch):
     """One draw for all stops of a speed would make the interval of the bias too narrow."""
-    simulated: dict[str, int] = {}
+    simulated = {}
     run_stop = batch.run_stop
 
     def noted(stop, *rest):

@@ -1,14 +1,9 @@
 """Which modules a process holds, while others import."""
 
-from __future__ import annotations
-
 import gc
 import sys
-from collections.abc import Iterator
 from itertools import count
-from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 import pytest
 
@@ -16,11 +11,11 @@ from uictest.controllers.adapters import python_class
 
 
 @pytest.fixture
-def importing_elsewhere() -> Iterator[None]:
+def importing_elsewhere():
     """Let modules be imported whenever the garbage collector runs, which is at nearly every object."""
     numbers, thresholds, before = count(), gc.get_threshold(), set(sys.modules)
 
-    def import_another(phase: str, info: dict[str, Any]) -> None:
+    def import_another(phase, info):
         name = f"imported_meanwhile_{next(numbers)}"
         sys.modules[name] = ModuleType(name)
 
@@ -34,17 +29,15 @@ def importing_elsewhere() -> Iterator[None]:
 
 
 @pytest.mark.usefixtures("importing_elsewhere")
-def test_an_import_of_another_thread_is_no_error_of_a_controller(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_import_of_another_thread_is_no_error_of_a_controller(tmp_path, monkeypatch):
     monkeypatch.setattr(python_class, "_FOLDERS", set())
     python_class.check_imports(tmp_path / "wsp.py")
     python_class.check_imports(tmp_path / "other" / "wsp.py")
 
 
-def test_looking_for_modules_imports_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_looking_for_modules_imports_none(tmp_path, monkeypatch):
     class Lazy(ModuleType):
-        def __getattr__(self, name: str) -> Any:
+        def __getattr__(self, name):
             raise ImportError(f"{name} needs an extra")
 
     monkeypatch.setitem(sys.modules, "lazy_module_of_a_test", Lazy("lazy_module_of_a_test"))

@@ -1,13 +1,9 @@
 """Controllers of installed packages: a class, or functions in the built-in form."""
 
-from __future__ import annotations
-
 import json
 import sys
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -53,7 +49,7 @@ class Acme:
 
 
 @pytest.fixture(scope="module")
-def _site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+def _site(tmp_path_factory):
     """Install the package acme-wsp 2.1.0."""
     site = tmp_path_factory.mktemp("site")
     modules = site / "acme_wsp"
@@ -70,7 +66,7 @@ def _site(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 
 
 @pytest.fixture(autouse=True)
-def _package(_site: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def _package(_site, monkeypatch):
     """Begin with the package on the path and none of its modules imported."""
     monkeypatch.syspath_prepend(str(_site))
     monkeypatch.setenv("PYTHONPATH", str(_site))
@@ -79,7 +75,7 @@ def _package(_site: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         del sys.modules[name]
 
 
-def describe(metadata: Path, package: str, entry_points: str) -> None:
+def describe(metadata, package, entry_points):
     metadata.mkdir(parents=True)
     version = metadata.name.removesuffix(".dist-info").partition("-")[2]
     text = f"Metadata-Version: 2.1\nName: {package}\nVersion: {version}\n"
@@ -87,21 +83,21 @@ def describe(metadata: Path, package: str, entry_points: str) -> None:
     (metadata / "entry_points.txt").write_text(f"[uictest.controllers]\n{entry_points}", "utf-8")
 
 
-def test_its_part_has_name_and_version_of_the_package_which_is_not_imported() -> None:
+def test_its_part_has_name_and_version_of_the_package_which_is_not_imported():
     part = load_controller("acme-broken")
     assert (part.version, "acme_wsp" in sys.modules) == ("acme-wsp 2.1.0", False)
     assert opened("acme-class").version == load_controller("acme-class").version
 
 
-def test_parameters_of_a_class_are_read_from_its_module_which_is_not_imported() -> None:
+def test_parameters_of_a_class_are_read_from_its_module_which_is_not_imported():
     part = load_controller("acme-declares")
-    assert part.parameters == {"gain": 2.0}  # type: ignore[attr-defined]
+    assert part.parameters == {"gain": 2.0}
     with pytest.raises(ScenarioErrors, match="did you mean gain"):
-        with_parameters(part, {"gian": 1.0})  # type: ignore[arg-type]
+        with_parameters(part, {"gian": 1.0})
     assert "acme_wsp" not in sys.modules
 
 
-def test_a_class_that_declares_nothing_takes_no_parameters_once_it_runs() -> None:
+def test_a_class_that_declares_nothing_takes_no_parameters_once_it_runs():
     program = ControllerProgram("registered", "acme-class", "", '{"gian": 1.0}', {"parameters": "asked"})
     config = Config(4, 0.01, 30.0, (0.46,) * 4, {"gian": 1.0})
     with pytest.raises(ControllerError, match=r"controller.parameters.gian: .*free_parameters: true"):
@@ -109,9 +105,7 @@ def test_a_class_that_declares_nothing_takes_no_parameters_once_it_runs() -> Non
     assert open_controller(replace(program, options={"parameters": "free"}), config)
 
 
-def test_a_name_that_nobody_or_two_packages_registered_has_no_version(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_name_that_nobody_or_two_packages_registered_has_no_version(tmp_path, monkeypatch):
     assert installed_version("no-such") == ""
     describe(tmp_path / "other_wsp-1.0.dist-info", "other-wsp", "acme-class = other:Acme\n")
     monkeypatch.syspath_prepend(str(tmp_path))
@@ -119,18 +113,18 @@ def test_a_name_that_nobody_or_two_packages_registered_has_no_version(
     assert installed_version("acme-number") == "acme-wsp 2.1.0"
 
 
-def shipped() -> dict[str, float]:
+def shipped():
     """The parameters of the threshold controller of the library, SI units."""
     part = load_part("controllers/threshold")
     return {name: float(value) for name, value in part if isinstance(value, float) and name != "cycle_time"}
 
 
-def opened(name: str, **parameters: Any) -> Any:
+def opened(name, **parameters):
     config = Config(4, 0.01, 30.0, (0.46,) * 4, parameters)
     return open_controller(ControllerProgram("registered", name, parameters=json.dumps(parameters)), config)
 
 
-def stop(folder: Path, controller: str) -> Any:
+def stop(folder, controller):
     (folder / "stop.yaml").write_text(
         "schema: uictest/scenario/1\nname: stop\ninitial_speed: 60 km/h\n"
         f"rail: {{condition: wet, friction: 0.08}}\ncontroller: {controller}\n",
@@ -139,7 +133,7 @@ def stop(folder: Path, controller: str) -> Any:
     return load([folder / "stop.yaml"])[0]
 
 
-def test_a_copy_of_a_built_in_controller_gives_its_bits(tmp_path: Path) -> None:
+def test_a_copy_of_a_built_in_controller_gives_its_bits(tmp_path):
     ours = rig.simulate(stop(tmp_path, "threshold"))
     parameters = json.dumps(shipped())
     theirs = rig.simulate(stop(tmp_path, f"{{registered: acme-copy, parameters: {parameters}}}"))
@@ -147,7 +141,7 @@ def test_a_copy_of_a_built_in_controller_gives_its_bits(tmp_path: Path) -> None:
     assert theirs.wheelset_measures.tobytes() == ours.wheelset_measures.tobytes()
 
 
-def test_reset_leaves_nothing_of_the_stop_before() -> None:
+def test_reset_leaves_nothing_of_the_stop_before():
     instance = opened("acme-copy", **shipped())
     answers = []
     for _ in range(2):
@@ -157,7 +151,7 @@ def test_reset_leaves_nothing_of_the_stop_before() -> None:
     assert answers[0] == answers[1]
 
 
-def test_a_class_is_created_with_its_parameters() -> None:
+def test_a_class_is_created_with_its_parameters():
     instance = opened("acme-class", gain=2.0)
     assert instance.version == "acme-wsp 2.1.0"
     instance.reset()
@@ -166,7 +160,7 @@ def test_a_class_is_created_with_its_parameters() -> None:
     assert np.all(outputs["vent"] == 0)
 
 
-def test_a_name_outside_the_library_is_that_of_a_package_which_is_not_imported(tmp_path: Path) -> None:
+def test_a_name_outside_the_library_is_that_of_a_package_which_is_not_imported(tmp_path):
     case = stop(tmp_path, "acme-class")
     assert case.scenario.controller.program.kind == "registered"
     assert case.scenario.controller.program.location == "acme-class"
@@ -176,7 +170,7 @@ def test_a_name_outside_the_library_is_that_of_a_package_which_is_not_imported(t
     assert not [name for name in sys.modules if name.startswith("acme_wsp")]
 
 
-def test_an_unknown_name_gets_a_hint_with_the_registered_ones(tmp_path: Path) -> None:
+def test_an_unknown_name_gets_a_hint_with_the_registered_ones(tmp_path):
     with pytest.raises(ScenarioErrors, match="did you mean 'acme-class'"):
         stop(tmp_path, "acme-clas")
 
@@ -189,7 +183,7 @@ def test_an_unknown_name_gets_a_hint_with_the_registered_ones(tmp_path: Path) ->
         ("nobody", "no installed package has registered 'nobody'; registered: acme-broken, acme-class"),
     ],
 )
-def test_what_cannot_be_opened_says_why(name: str, message: str) -> None:
+def test_what_cannot_be_opened_says_why(name, message):
     with pytest.raises(ControllerError, match=message):
         opened(name)
 
@@ -205,13 +199,13 @@ def test_what_cannot_be_opened_says_why(name: str, message: str) -> None:
         ({"hold_limit": "9 ms"}, "hold_limit is 9 ms: 9 ms is shorter than one controller cycle"),
     ],
 )
-def test_wrong_parameters_are_rejected(changes: dict[str, Any], message: str) -> None:
+def test_wrong_parameters_are_rejected(changes, message):
     with pytest.raises(ControllerError) as error:
         opened("acme-copy", **{**shipped(), **changes})
     assert message in str(error.value)
 
 
-def test_parameters_may_have_units() -> None:
+def test_parameters_may_have_units():
     plain = opened("acme-copy", **shipped())
     written = opened("acme-copy", **{**shipped(), "slip_threshold": "3.6km/h", "deep_slide": "30 %"})
     values = written._memory["parameters"][0]
@@ -219,7 +213,7 @@ def test_parameters_may_have_units() -> None:
     assert values["deep_slide"] == plain._memory["parameters"][0]["deep_slide"]
 
 
-def test_missing_parameters_are_named() -> None:
+def test_missing_parameters_are_named():
     parameters = shipped()
     del parameters["slip_threshold"], parameters["hold_limit"]
     with pytest.raises(ControllerError, match="parameters without a value: slip_threshold, hold_limit"):

@@ -1,13 +1,9 @@
 """Controllers in a program at a socket: every frame, and everything that a program can do wrong."""
 
-from __future__ import annotations
-
 import socket
 import struct
 import threading
 import time
-from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
@@ -23,14 +19,11 @@ from uictest.controllers import (
 )
 from uictest.controllers.adapters import turns
 
-from .conftest import Fault, Start
-
-At = Callable[..., ControllerProgram]
 STEPPED = 2
 """Number of the first step frame: behind greeting and reset."""
 
 
-def step(controller: Any, cycle: int = 0) -> tuple[int, Any]:
+def step(controller, cycle=0):
     """Call a controller as compiled code does; return its status and outputs."""
     inputs, outputs = np.zeros(1, INPUTS), np.zeros(1, OUTPUTS)
     inputs["cycle"], inputs["wheel_speed"], inputs["speed_valid"] = cycle, [[1.0, 2.0, 3.0, 4.0]], 1
@@ -38,7 +31,7 @@ def step(controller: Any, cycle: int = 0) -> tuple[int, Any]:
     return status, outputs[0]
 
 
-def failure(program: ControllerProgram, config: Config) -> str:
+def failure(program, config):
     """Return what goes wrong in the greeting, the reset, or the first of two steps that fails."""
     try:
         controller = open_controller(program, config)
@@ -54,7 +47,7 @@ def failure(program: ControllerProgram, config: Config) -> str:
         controller.close()
 
 
-def test_the_greeting_says_what_the_program_has_to_know(start: Start, at: At, config: Config) -> None:
+def test_the_greeting_says_what_the_program_has_to_know(start, at, config):
     program = start()
     controller = open_controller(at(program.address), config)
     controller.close()
@@ -67,7 +60,7 @@ def test_the_greeting_says_what_the_program_has_to_know(start: Start, at: At, co
     assert controller.version == "Bremsprüfer 2.1"
 
 
-def test_inputs_and_outputs_travel_as_they_lie_in_memory(start: Start, at: At, config: Config) -> None:
+def test_inputs_and_outputs_travel_as_they_lie_in_memory(start, at, config):
     program = start()
     controller = open_controller(at(program.address), config)
     controller.reset()
@@ -87,16 +80,16 @@ def test_inputs_and_outputs_travel_as_they_lie_in_memory(start: Start, at: At, c
     ]
 
 
-def test_the_digest_of_no_case_is_zero(start: Start, at: At) -> None:
+def test_the_digest_of_no_case_is_zero(start, at):
     program = start()
     open_controller(at(program.address), Config(4, 0.01, 30.0, (0.4,) * 4, {})).close()
     assert program.received[0][2][64:96] == bytes(32)
 
 
-def changed(place: int, layout: str, value: object) -> Fault:
+def changed(place, layout, value):
     """Write a value into the answer."""
 
-    def fault(frame: bytes) -> bytes:
+    def fault(frame):
         content = bytearray(frame)
         struct.pack_into(layout, content, place, value)
         return bytes(content)
@@ -104,12 +97,12 @@ def changed(place: int, layout: str, value: object) -> Fault:
     return fault
 
 
-def refusal(text: bytes) -> Fault:
+def refusal(text):
     """Answer FAIL and a reason."""
     return lambda frame: struct.pack("<4sI", b"FAIL", len(text)) + frame[8:16] + text
 
 
-FAULTS: dict[str, tuple[int, Fault, str]] = {
+FAULTS = {
     "closes before the greeting": (
         *(0, lambda frame: None),
         "the program closed the connection before its answer to the greeting",
@@ -157,17 +150,15 @@ FAULTS: dict[str, tuple[int, Fault, str]] = {
 
 
 @pytest.mark.parametrize("name", FAULTS)
-def test_every_departure_from_the_protocol_is_named(start: Start, at: At, config: Config, name: str) -> None:
+def test_every_departure_from_the_protocol_is_named(start, at, config, name):
     number, fault, message = FAULTS[name]
     program = start(fault, number)
     assert failure(at(program.address), config) == message
 
 
 @pytest.mark.parametrize("part", [1, 15, 16, 40])
-def test_a_short_frame_is_named_where_the_connection_ends(
-    start: Start, at: At, config: Config, part: int
-) -> None:
-    def send_a_part(frame: bytes) -> None:
+def test_a_short_frame_is_named_where_the_connection_ends(start, at, config, part):
+    def send_a_part(frame):
         program.streams[-1].sendall(frame[:part])
 
     program = start(send_a_part, STEPPED)
@@ -178,15 +169,15 @@ def test_a_short_frame_is_named_where_the_connection_ends(
     assert failure(at(program.address), config) == expected
 
 
-def test_a_program_that_says_nothing_has_its_time(start: Start, at: At, config: Config) -> None:
+def test_a_program_that_says_nothing_has_its_time(start, at, config):
     ended = threading.Event()
     program = start(lambda frame: b"late" if ended.wait() else None)
     assert failure(at(program.address, 0.05), config) == "no answer to the greeting within 0.05 s"
     ended.set()
 
 
-def test_a_program_that_sends_byte_by_byte_has_no_more_time(start: Start, at: At, config: Config) -> None:
-    def trickle(frame: bytes) -> None:
+def test_a_program_that_sends_byte_by_byte_has_no_more_time(start, at, config):
+    def trickle(frame):
         for place in range(len(frame)):
             program.streams[-1].sendall(frame[place : place + 1])
             time.sleep(0.01)
@@ -197,15 +188,13 @@ def test_a_program_that_sends_byte_by_byte_has_no_more_time(start: Start, at: At
     assert message.endswith(" to the greeting within 0.2 s")
 
 
-def free_address() -> str:
+def free_address():
     with socket.create_server(("127.0.0.1", 0)) as listener:
         return f"tcp://127.0.0.1:{listener.getsockname()[1]}"
 
 
-def test_where_nobody_listens_only_the_first_stop_waits(
-    at: At, config: Config, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    waited: list[float] = []
+def test_where_nobody_listens_only_the_first_stop_waits(at, config, monkeypatch):
+    waited = []
     monkeypatch.setattr(turns, "STARTING", 0.2)
     monkeypatch.setattr(turns, "sleep", lambda pause: waited.append(pause) or time.sleep(pause))
     address = free_address()
@@ -217,14 +206,12 @@ def test_where_nobody_listens_only_the_first_stop_waits(
     assert not waited
 
 
-def test_a_program_may_start_after_the_run(
-    start: Start, at: At, config: Config, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_program_may_start_after_the_run(start, at, config, monkeypatch):
     program = start()
     connect = socket.create_connection
-    attempts: list[object] = []
+    attempts = []
 
-    def refused_twice(*arguments: Any, **options: Any) -> socket.socket:
+    def refused_twice(*arguments, **options):
         attempts.append(arguments)
         if len(attempts) <= 2:
             raise ConnectionRefusedError(111, "Connection refused")
@@ -235,8 +222,8 @@ def test_a_program_may_start_after_the_run(
     assert failure(at(program.address), config) == "nothing"
 
 
-def test_a_name_that_nobody_has_is_named(at: At, config: Config, monkeypatch: pytest.MonkeyPatch) -> None:
-    def unknown(*arguments: Any, **options: Any) -> socket.socket:
+def test_a_name_that_nobody_has_is_named(at, config, monkeypatch):
+    def unknown(*arguments, **options):
         raise socket.gaierror(-2, "Name or service not known")
 
     monkeypatch.setattr(turns, "STARTING", 0.0)
@@ -245,15 +232,15 @@ def test_a_name_that_nobody_has_is_named(at: At, config: Config, monkeypatch: py
     assert message.startswith("no program listens at tcp://box.invalid:5025 (Name or service not known)")
 
 
-def test_parameters_that_no_frame_holds_are_rejected(start: Start, config: Config) -> None:
+def test_parameters_that_no_frame_holds_are_rejected(start, config):
     program = start()
     long = ControllerProgram("connect", program.address, parameters=f'{{"map": "{"x" * 65536}"}}')
     assert failure(long, config) == "parameters: 65547 bytes as JSON, at most 65440 can be sent"
 
 
-def test_stops_at_one_address_run_one_after_the_other(start: Start, at: At, config: Config) -> None:
+def test_stops_at_one_address_run_one_after_the_other(start, at, config):
     program = start()
-    messages: list[str] = []
+    messages = []
     threads = [
         threading.Thread(target=lambda: messages.append(failure(at(program.address), config)))
         for _ in range(6)
@@ -269,17 +256,15 @@ def test_stops_at_one_address_run_one_after_the_other(start: Start, at: At, conf
     assert kinds.count(b"DONE") == 6
 
 
-def test_an_interruption_ends_stops_that_run_and_stops_that_wait(
-    start: Start, at: At, config: Config
-) -> None:
+def test_an_interruption_ends_stops_that_run_and_stops_that_wait(start, at, config):
     asked, ended = threading.Event(), threading.Event()
 
-    def hang(frame: bytes) -> None:
+    def hang(frame):
         asked.set()
         ended.wait()
 
     program = start(hang, STEPPED)
-    messages: list[str] = []
+    messages = []
     threads = [
         threading.Thread(target=lambda: messages.append(failure(at(program.address, 600.0), config)))
         for _ in range(2)

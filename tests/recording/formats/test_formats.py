@@ -1,6 +1,5 @@
 import re
 import sys
-from typing import Any
 
 import numpy as np
 import pytest
@@ -195,7 +194,7 @@ def test_sizes_are_bounded():
 
 
 def test_the_same_recording_gives_the_same_text(written):
-    path: Any = written("csv")
+    path = written("csv")
     first = path.read_bytes()
     assert written("csv").read_bytes() == first
     assert first.startswith(b"# case: small\n# brake_command_time: 0 s\ntime [s],speed [m/s]")

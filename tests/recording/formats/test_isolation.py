@@ -48,7 +48,7 @@ def test_a_full_temporary_folder_is_named(written, tmp_path, monkeypatch, name, 
 
 def test_a_reader_writes_nothing_but_what_it_read(written, monkeypatch):
     """Half a compiled module, as a full disk leaves it, would make every sound file seem damaged."""
-    commands: list[list[str]] = []
+    commands = []
     run = subprocess.run
 
     def recorded(command, **options):

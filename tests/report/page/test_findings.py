@@ -1,10 +1,7 @@
 """What a page answers first: what is not as expected, by how much and where."""
 
-from __future__ import annotations
-
 import re
 
-from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.report.close_calls import MOST_CLOSE, NARROW, TITLE
 from uictest.report.page.run_page import page_html
 from uictest.report.page.stop.margins import margins_of
@@ -24,20 +21,20 @@ _LOCKED = make_verdict(
 )
 
 
-def _failing(case_id: str, *verdicts: Verdict, **changes: object) -> CaseResult:
+def _failing(case_id, *verdicts, **changes):
     return make_result(id=case_id, outcome="fail", criteria=verdicts or (_LOCKED,), **changes)
 
 
-def _text(html: str) -> str:
+def _text(html):
     return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", html))
 
 
-def _first(html: str) -> str:
+def _first(html):
     """Return what stands above the table of cases."""
     return _text(html[html.index("<main") : html.index('id="verdicts"')])
 
 
-def test_what_failed_stands_first_with_value_limit_and_margin() -> None:
+def test_what_failed_stands_first_with_value_limit_and_margin():
     html = page_html(make_content(make_result(id="fine"), _failing("slides")))
     said = _first(html)
     assert "Not as expected" in said
@@ -46,29 +43,29 @@ def test_what_failed_stands_first_with_value_limit_and_margin() -> None:
     assert "fine" not in said.partition(TITLE)[0]
 
 
-def test_a_criterion_that_passes_is_no_reason_for_a_failure() -> None:
+def test_a_criterion_that_passes_is_no_reason_for_a_failure():
     said = _first(page_html(make_content(_failing("slides", _LOCKED, make_verdict()))))
     assert "braking-distance" not in said.partition(TITLE)[0]
 
 
-def test_a_case_that_fails_as_expected_is_no_finding() -> None:
+def test_a_case_that_fails_as_expected_is_no_finding():
     said = _first(page_html(make_content(_failing("slides", expect="fail"))))
     assert "All as expected" in said
     assert "locked-wheels" not in said
 
 
-def test_an_unexpected_pass_says_what_was_expected() -> None:
+def test_an_unexpected_pass_says_what_was_expected():
     said = _first(page_html(make_content(make_result(expect="fail"))))
     assert "unexpected pass" in said
     assert "Expected: fail" in said
 
 
-def test_an_error_shows_its_reason() -> None:
+def test_an_error_shows_its_reason():
     broken = make_result(outcome="error", criteria=(), measures=None, wheelsets=(), reason="the FMU stopped")
     assert "the FMU stopped" in _first(page_html(make_content(broken)))
 
 
-def test_where_all_is_well_the_criterion_with_the_least_to_spare_is_named() -> None:
+def test_where_all_is_well_the_criterion_with_the_least_to_spare_is_named():
     nearest = make_verdict(value=540.0, lower=400.0, upper=600.0, margin=60.0)
     wide = make_verdict(value=500.0, lower=400.0, upper=600.0, margin=100.0)
     cases = [make_result(id="wide", criteria=(wide,)), make_result(id="nearest", criteria=(nearest,))]
@@ -78,7 +75,7 @@ def test_where_all_is_well_the_criterion_with_the_least_to_spare_is_named() -> N
     assert TITLE not in said
 
 
-def test_what_is_close_or_uncertain_is_named_with_a_link_and_the_rest_is_counted() -> None:
+def test_what_is_close_or_uncertain_is_named_with_a_link_and_the_rest_is_counted():
     cases = [
         make_result(id=f"close-{n:02}", criteria=(make_verdict(value=441.0 + n, margin=1.0 + n),))
         for n in range(MOST_CLOSE + 2)
@@ -91,14 +88,14 @@ def test_what_is_close_or_uncertain_is_named_with_a_link_and_the_rest_is_counted
     assert "Least to spare" not in said
 
 
-def test_many_findings_are_counted_and_none_is_lost() -> None:
+def test_many_findings_are_counted_and_none_is_lost():
     html = page_html(make_content(*(_failing(f"case-{n:02}") for n in range(15))))
     assert "3 more stand below" in _first(html)
     assert len(re.findall(r"<tr [^>]*data-word=\"fail\"", html)) == 15
 
 
-def test_a_cell_of_the_matrix_is_shaped_by_its_margin() -> None:
-    def kind(**changes: object) -> str:
+def test_a_cell_of_the_matrix_is_shaped_by_its_margin():
+    def kind(**changes):
         own = margins_of([make_verdict(**changes)])
         return (*own.judged, *own.not_applicable)[0].kind
 
@@ -109,14 +106,14 @@ def test_a_cell_of_the_matrix_is_shaped_by_its_margin() -> None:
     assert kind(status="not_applicable", value=None, margin=None) == "not-judged"
 
 
-def test_what_does_not_apply_is_told_from_what_a_case_is_not_judged_by() -> None:
+def test_what_does_not_apply_is_told_from_what_a_case_is_not_judged_by():
     idle = make_verdict(id="idle", status="not_applicable", value=None, margin=None)
     html = page_html(make_content(make_result(id="a", criteria=(idle,)), make_result(id="b")))
     cells = re.findall(r'<td class="number criterion[^>]*>([^<]*)</td>', html)
     assert cells == ["+5.05", "–", "–", "n/a"]  # noqa: RUF001 - dashes on paper
 
 
-def test_every_case_has_a_cell_for_every_criterion_and_what_has_no_room_is_counted() -> None:
+def test_every_case_has_a_cell_for_every_criterion_and_what_has_no_room_is_counted():
     many = [make_verdict(id=f"criterion-{n:02}") for n in range(12)]
     missed = make_verdict(id="zz-missed", margin=-5.0, status="fail")
     html = page_html(make_content(_failing("a", *many, missed), make_result(id="b", criteria=(many[0],))))

@@ -1,28 +1,24 @@
 """Points of sampled sweeps: which they are, and what is said of those that are not shown."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 from scipy.stats import qmc
 
-from uictest.report.page.sweep.scatter import MOST_POINTS, Scatter, chosen_rows, is_sampled, scatter
+from uictest.report.page.sweep.scatter import MOST_POINTS, chosen_rows, is_sampled, scatter
 from uictest.report.sweep.cases import SummaryRows
 
 from ..sweep_rows import DRAWN, drawn_rows, sweep_result, write_rows
 
 
-def points(folder: Path, cases: int, failing: range = range(0), wanted: tuple[str, ...] = ()) -> Scatter:
+def points(folder, cases, failing=range(0), wanted=()):
     write_rows(folder, drawn_rows(cases, failing))
     result = sweep_result({**DRAWN, "topology": ["one", "four"]}, cases, logarithmic=["gain"])
     assert is_sampled(result)
     return scatter(result, SummaryRows(folder), wanted)
 
 
-def test_a_small_sample_is_shown_whole(tmp_path: Path) -> None:
+def test_a_small_sample_is_shown_whole(tmp_path):
     found = points(tmp_path, 300)
     rows = drawn_rows(300)
     assert (found.cases, found.added) == (300, 0)
@@ -34,7 +30,7 @@ def test_a_small_sample_is_shown_whole(tmp_path: Path) -> None:
     assert list(found.left_out) == ["topology"]
 
 
-def test_of_ten_thousand_cases_a_thousand_are_chosen_and_those_asked_for(tmp_path: Path) -> None:
+def test_of_ten_thousand_cases_a_thousand_are_chosen_and_those_asked_for(tmp_path):
     chosen = chosen_rows(10_000).tolist()
     other = next(k for k in range(10_000) if k not in chosen)
     found = points(
@@ -51,7 +47,7 @@ def test_of_ten_thousand_cases_a_thousand_are_chosen_and_those_asked_for(tmp_pat
 
 
 @given(st.integers(0, 20_000_000))
-def test_all_rows_are_chosen_or_as_many_as_a_page_shows(cases: int) -> None:
+def test_all_rows_are_chosen_or_as_many_as_a_page_shows(cases):
     rows = chosen_rows(cases)
     assert len(rows) == min(cases, MOST_POINTS)
     assert np.all(np.diff(rows) > 0)
@@ -60,7 +56,7 @@ def test_all_rows_are_chosen_or_as_many_as_a_page_shows(cases: int) -> None:
 
 
 @pytest.mark.parametrize("power", [12, 13, 14])
-def test_a_thinned_sobol_sequence_still_fills_its_space(power: int) -> None:
+def test_a_thinned_sobol_sequence_still_fills_its_space(power):
     """Every fifth of 8192 points has 60 to 400 of its 1639 in the eighths of a coordinate."""
     sequence = qmc.Sobol(4, scramble=True, rng=np.random.default_rng(1)).random_base2(power)
     chosen = sequence[chosen_rows(len(sequence))]

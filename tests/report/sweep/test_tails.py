@@ -1,10 +1,7 @@
 """Quantiles and K_dry as readers meet them: on the terminal, in Markdown, in a workbook, on the page."""
 
-from __future__ import annotations
-
 import html
 import io
-from typing import Any
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -14,7 +11,6 @@ from hypothesis import given, strategies as st
 from uictest.report import titled_lines
 from uictest.report.page import sweep_page_html
 from uictest.report.sweep.formats import sweep_markdown
-from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.tail_tables import (
     MOST_TABLES,
     k_dry_rows,
@@ -25,7 +21,6 @@ from uictest.report.sweep.tail_tables import (
 )
 from uictest.report.sweep.workbook import sweep_workbook_bytes
 
-from ..builders import MakeSweep
 from ..test_page import Page
 
 openpyxl = pytest.importorskip("openpyxl")
@@ -34,11 +29,11 @@ BASIS = "95 % confidence, 200 draws; nominal 1.2 m/s2, stated in the sweep file"
 REFUSAL = "needs 299 draws, has 200"
 
 
-def tail_lines(result: SweepResult) -> list[str]:
+def tail_lines(result):
     return [*titled_lines(tail_tables(result), None), *tables_left_out(result)]
 
 
-def tails(at: dict[str, str], without_value: int = 0) -> dict[str, Any]:
+def tails(at, without_value=0):
     """What sweep.json holds of a sweep with quantiles and K_dry."""
     sample = {"draws": 200, "without_value": without_value}
     refused = {"draws_needed": 299, "estimate": None, "lower": None, "upper": None}
@@ -60,7 +55,7 @@ def tails(at: dict[str, str], without_value: int = 0) -> dict[str, Any]:
     }
 
 
-def test_the_terminal_shows_bounds_and_refusals(make_sweep: MakeSweep) -> None:
+def test_the_terminal_shows_bounds_and_refusals(make_sweep):
     lines = list(tail_lines(make_sweep(**tails({"speed": "80 km/h"})).result))
     assert lines == [
         "quantiles of speed_mps2, m/s2 at speed = 80 km/h: 95 % confidence, 200 draws",
@@ -77,7 +72,7 @@ def test_the_terminal_shows_bounds_and_refusals(make_sweep: MakeSweep) -> None:
     ]
 
 
-def test_draws_without_a_value_are_stated_everywhere(make_sweep: MakeSweep) -> None:
+def test_draws_without_a_value_are_stated_everywhere(make_sweep):
     content = make_sweep(**tails({}, without_value=3))
     words = "200 draws; 3 without a value count as the worst"
     assert words in "\n".join(tail_lines(content.result))
@@ -86,7 +81,7 @@ def test_draws_without_a_value_are_stated_everywhere(make_sweep: MakeSweep) -> N
     assert "draws_without_value: 3" in k_dry_yaml(content.result)
 
 
-def test_every_report_shows_the_same(make_sweep: MakeSweep) -> None:
+def test_every_report_shows_the_same(make_sweep):
     content = make_sweep(**tails({"speed": "80 km/h"}))
     pq.write_table(
         pa.table({"id": ["a"], "met": [True], "outcome": ["pass"]}), content.folder / "summary.parquet"
@@ -108,7 +103,7 @@ def test_every_report_shows_the_same(make_sweep: MakeSweep) -> None:
         assert "at most 1.35" in text
 
 
-def test_many_combinations_are_counted_and_left_to_the_tables(make_sweep: MakeSweep) -> None:
+def test_many_combinations_are_counted_and_left_to_the_tables(make_sweep):
     one = tails({"speed": "80 km/h"})
     many = {name: tables * (MOST_TABLES + 2) for name, tables in one.items()}
     content = make_sweep(**many)
@@ -120,7 +115,7 @@ def test_many_combinations_are_counted_and_left_to_the_tables(make_sweep: MakeSw
         assert sentence in html.unescape(sweep_markdown(content))
 
 
-def test_draws_in_which_a_wheelset_slides_are_no_k_dry_in_any_report(make_sweep: MakeSweep) -> None:
+def test_draws_in_which_a_wheelset_slides_are_no_k_dry_in_any_report(make_sweep):
     of_sweep = tails({})
     (k_dry,) = of_sweep["k_dry"]
     content = make_sweep(**{**of_sweep, "k_dry": [{**k_dry, "sliding": 12}]})
@@ -130,17 +125,17 @@ def test_draws_in_which_a_wheelset_slides_are_no_k_dry_in_any_report(make_sweep:
     assert "in 12 of 200 draws" in sweep_markdown(content)
     assert "draws_sliding: 12" in k_dry_yaml(content.result)
     first, second = k_dry_rows(content.result)
-    assert (first["sliding"], first["note"][: len(words)]) == (12, words)  # type: ignore[index]
+    assert (first["sliding"], first["note"][: len(words)]) == (12, words)
     assert str(second["note"]).startswith(f"{REFUSAL}; {words}")
 
 
-def test_a_sweep_without_tails_says_nothing_of_them(make_sweep: MakeSweep) -> None:
+def test_a_sweep_without_tails_says_nothing_of_them(make_sweep):
     content = make_sweep()
     assert list(tail_lines(content.result)) == []
     assert "Tails" not in Page(sweep_page_html(content)).text
 
 
 @given(st.integers(0, 2000))
-def test_k_dry_is_never_rounded_up(thousandths: int) -> None:
+def test_k_dry_is_never_rounded_up(thousandths):
     assert k_dry_text(thousandths / 1000) == f"{thousandths / 1000:.3f}"
     assert float(k_dry_text((thousandths + 0.9) / 1000)) == thousandths / 1000

@@ -1,11 +1,8 @@
-from __future__ import annotations
-
 import shlex
-from typing import Any
 
 import pytest
 
-from uictest.report import DrawnInterval, Flip, SweepResult, SweptValue, WrittenValue
+from uictest.report import DrawnInterval, Flip, SweepResult, WrittenValue
 from uictest.report.sweep.sweep_sentences import (
     bar,
     circumstances_words,
@@ -17,20 +14,20 @@ from uictest.report.sweep.sweep_sentences import (
 )
 
 
-def _counts(met: int, **outcomes: int) -> SweepResult:
+def _counts(met, **outcomes):
     """A sweep of 75 cases, as far as counting goes."""
-    empty: Any = {"missed": (), "rates": {}, "maps": (), "distributions": (), "trends": (), "worst": ()}
-    rest: Any = {"subjects": {}, "sensitivities": (), "frontier": None, "notes": ()}
+    empty = {"missed": (), "rates": {}, "maps": (), "distributions": (), "trends": (), "worst": ()}
+    rest = {"subjects": {}, "sensitivities": (), "frontier": None, "notes": ()}
     return SweepResult(name="", title="", cases=75, met=met, outcomes=outcomes, **empty, **rest)
 
 
-def test_a_sweep_is_counted_by_outcome() -> None:
+def test_a_sweep_is_counted_by_outcome():
     outcomes = {"pass": 70, "fail": 1, "invalid": 0, "error": 1, "skipped": 0, "inconclusive": 3}
     counts = "75 cases: 70 pass, 1 fail, 1 error, 3 inconclusive; 5 not as expected"
     assert sweep_tally(_counts(70, **outcomes)) == counts
 
 
-def test_cases_that_no_criterion_applies_to_are_counted_as_skipped() -> None:
+def test_cases_that_no_criterion_applies_to_are_counted_as_skipped():
     assert (
         sweep_tally(_counts(75, **{"pass": 3, "error": 0, "skipped": 72})) == "75 cases: 3 pass, 72 skipped"
     )
@@ -47,7 +44,7 @@ def test_cases_that_no_criterion_applies_to_are_counted_as_skipped() -> None:
         ([], ""),
     ],
 )
-def test_what_is_swept_is_described_by_its_ends(values: list[SweptValue], shown: str) -> None:
+def test_what_is_swept_is_described_by_its_ends(values, shown):
     assert swept_words(values) == shown
 
 
@@ -55,28 +52,28 @@ def test_what_is_swept_is_described_by_its_ends(values: list[SweptValue], shown:
     ("met", "cases", "share", "blocks"),
     [(1000, 1000, "100", 10), (999, 1000, "99", 9), (1, 1000, "1", 1), (0, 9, "0", 0)],
 )
-def test_only_what_is_whole_is_shown_as_whole(met: int, cases: int, share: str, blocks: int) -> None:
+def test_only_what_is_whole_is_shown_as_whole(met, cases, share, blocks):
     assert share_words(met, cases) == share
     assert bar(met, cases).count("█") == blocks
     assert len(bar(met, cases)) == 10
 
 
-def test_no_case_has_no_share() -> None:
+def test_no_case_has_no_share():
     assert (share_words(0, 0), bar(0, 0)) == ("–", "")  # noqa: RUF001 - a dash on paper
 
 
-def test_a_flip_is_described_in_its_direction() -> None:
+def test_a_flip_is_described_in_its_direction():
     low, high = WrittenValue("0.10"), WrittenValue("0.11")
     assert flip_words(Flip(low, high, met_at_low=True)) == "met up to 0.10, not met from 0.11"
     assert flip_words(Flip(low, high, met_at_low=False)) == "not met up to 0.10, met from 0.11"
 
 
-def test_circumstances_are_listed() -> None:
+def test_circumstances_are_listed():
     assert circumstances_words({"a": WrittenValue("1"), "b": WrittenValue("2 m")}) == "a = 1, b = 2 m"
     assert circumstances_words({}) == "all cases"
 
 
-def test_one_case_alone_runs_as_in_the_sweep_in_a_folder_of_its_own() -> None:
+def test_one_case_alone_runs_as_in_the_sweep_in_a_folder_of_its_own():
     manifest = {"file": "my study.sweep.yaml", "set": ["brake.command=80 %"], "seed": 3}
     words = shlex.split(command_alone(manifest))
     assert words[:3] == ["uictest", "sweep", "my study.sweep.yaml"]

@@ -1,20 +1,16 @@
 """The band of the stops of a case, against the samples of each of them."""
 
-from __future__ import annotations
-
-from collections.abc import Sequence
-
 import numpy as np
 import pytest
 
 from uictest.core.recording import Recording
 from uictest.report.traces.band import stop_extremes, with_band
-from uictest.report.traces.trace import PlotTrace, trace_of
+from uictest.report.traces.trace import trace_of
 
 KILOMETRES_PER_HOUR = 3.6
 
 
-def _stop(seed: int, samples: int, every: float = 0.01) -> Recording:
+def _stop(seed, samples, every=0.01):
     """A train that slows down, and a wheelset that slides in some other way under every seed."""
     time = every * np.arange(samples)
     time[-1] -= 0.4 * every  # the last sample is that of the standstill, wherever it lies
@@ -24,13 +20,13 @@ def _stop(seed: int, samples: int, every: float = 0.01) -> Recording:
     return Recording(channels, {"time": "s", "speed": "m/s", "wheel_speed_1": "m/s"})
 
 
-def _band(stops: Sequence[Recording]) -> PlotTrace:
+def _band(stops):
     return with_band(trace_of(stops[0]), [stop_extremes(each) for each in stops])
 
 
 @pytest.mark.parametrize("every", [0.01, 0.002, 0.03, 0.2])
 @pytest.mark.parametrize("samples", [(901, 901, 901), (877, 951, 702), (1001, 803, 40)])
-def test_no_sample_of_any_stop_lies_beyond_the_band(every: float, samples: tuple[int, ...]) -> None:
+def test_no_sample_of_any_stop_lies_beyond_the_band(every, samples):
     stops = [_stop(seed, count, every) for seed, count in enumerate(samples)]
     trace = _band(stops)
     for name in ("speed", "wheel_speed_1"):
@@ -43,7 +39,7 @@ def test_no_sample_of_any_stop_lies_beyond_the_band(every: float, samples: tuple
             assert np.all(value - 1e-9 <= np.interp(time, high.x, high.y))
 
 
-def test_an_edge_is_where_some_stop_was_within_a_part_of_a_second() -> None:
+def test_an_edge_is_where_some_stop_was_within_a_part_of_a_second():
     stops = [_stop(seed, count) for seed, count in enumerate((901, 851, 951))]
     low, high = _band(stops).band["wheel_speed_1"]
     for x, lowest, highest in zip(low.x, low.y, high.y, strict=True):
@@ -53,7 +49,7 @@ def test_an_edge_is_where_some_stop_was_within_a_part_of_a_second() -> None:
         assert np.min(np.abs(values - highest)) < 1e-9
 
 
-def test_beyond_the_end_of_a_shorter_stop_the_band_is_that_of_those_that_still_run() -> None:
+def test_beyond_the_end_of_a_shorter_stop_the_band_is_that_of_those_that_still_run():
     long, short = _stop(0, 901), _stop(1, 301)
     alone, both = (
         with_band(trace_of(long), [stop_extremes(each) for each in stops]).band["wheel_speed_1"]
@@ -65,7 +61,7 @@ def test_beyond_the_end_of_a_shorter_stop_the_band_is_that_of_those_that_still_r
     assert both[0].y[~behind].min() < alone[0].y[~behind].min()
 
 
-def test_the_band_does_not_depend_on_the_order_in_which_stops_finish() -> None:
+def test_the_band_does_not_depend_on_the_order_in_which_stops_finish():
     trace, stops = trace_of(_stop(0, 901)), [stop_extremes(_stop(seed, 901 - 7 * seed)) for seed in range(4)]
     bands = [with_band(trace, each).band["speed"] for each in (stops, stops[::-1])]
     for own, other in zip(*bands, strict=True):
@@ -73,7 +69,7 @@ def test_the_band_does_not_depend_on_the_order_in_which_stops_finish() -> None:
         assert np.array_equal(own.y, other.y)
 
 
-def test_one_stop_spans_nothing() -> None:
+def test_one_stop_spans_nothing():
     trace = trace_of(_stop(0, 901))
     assert with_band(trace, [stop_extremes(_stop(0, 901))]) == trace
     assert (trace.band, trace.band_stops) == ({}, 0)

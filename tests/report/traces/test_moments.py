@@ -62,14 +62,12 @@ def test_a_criterion_is_drawn_whatever_it_measures(faulty_stop, measure):
     assert any(mark.x0 is not None or mark.y is not None for mark in marks)
 
 
-def _reported(stop) -> list[dict[str, float]]:
+def _reported(stop):
     return [wheelset_column_values(wheelset) for wheelset in stop.wheelset_measures]
 
 
 @pytest.mark.parametrize("measure", [name for name, measure in MEASURES.items() if measure.of_wheelsets])
-def test_the_wheelset_that_has_the_value_is_found_whichever_measure_is_judged_alone(
-    faulty_stop, measure: str
-) -> None:
+def test_the_wheelset_that_has_the_value_is_found_whichever_measure_is_judged_alone(faulty_stop, measure):
     """What a measure reads of the records was fed, or comes from the result: air and what the rail offers."""
     record, own = faulty_stop.recording, MEASURES[measure]
     assert record is not None
@@ -80,7 +78,7 @@ def test_the_wheelset_that_has_the_value_is_found_whichever_measure_is_judged_al
         assert moments.wheelset == wheelset
 
 
-def test_without_the_wheelset_that_decides_no_place_is_shown(faulty_stop) -> None:
+def test_without_the_wheelset_that_decides_no_place_is_shown(faulty_stop):
     """The vents of all wheelsets together are no place at which one of them vented its air."""
     record = faulty_stop.recording
     assert record is not None
@@ -173,7 +171,7 @@ def test_what_is_not_defined_or_not_recorded_has_no_moments():
     assert moments_of([lock], Recording({"time": time}, {"time": "s"})) == {}
 
 
-def test_a_gap_in_the_demanded_pressure_hides_no_build_up(faulty_stop) -> None:
+def test_a_gap_in_the_demanded_pressure_hides_no_build_up(faulty_stop):
     record = faulty_stop.recording
     assert record is not None
     build_up = _verdict("build_up_time", **DEFINED)

@@ -1,7 +1,5 @@
 """Vents one by one, against stops whose vents are known."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -9,24 +7,24 @@ import numpy as np
 import pytest
 
 from uictest.report.traces.trace import trace_of
-from uictest.report.traces.vent_cycles import VentCycle, vent_cycles
+from uictest.report.traces.vent_cycles import vent_cycles
 
 from ..builders import make_recording
 
 TIME = np.arange(0.0, 10.0, 0.01)
 
 
-def _cycles(**series: object) -> tuple[VentCycle, ...]:
+def _cycles(**series):
     return vent_cycles(
         TIME, {name: np.asarray(samples, dtype=np.float64) for name, samples in series.items()}
     )
 
 
-def _valve(*spans: tuple[float, float]) -> np.ndarray:
+def _valve(*spans):
     return 2.0 * np.any([(start - 1e-9 <= TIME) & (end - 1e-9 > TIME) for start, end in spans], axis=0)
 
 
-def test_a_vent_is_measured_from_its_start_to_the_next() -> None:
+def test_a_vent_is_measured_from_its_start_to_the_next():
     pressure = 4.0 - np.clip(TIME - 2.0, 0.0, 1.0) + np.clip(TIME - 5.0, 0.0, 0.5)
     slide = 100.0 * np.interp(TIME, [0.0, 1.0, 3.0, 5.0], [0.0, 0.0, 0.4, 0.0])
     (one, other) = _cycles(
@@ -40,38 +38,38 @@ def test_a_vent_is_measured_from_its_start_to_the_next() -> None:
     assert other.drop == pytest.approx(0.0)
 
 
-def test_a_slide_that_never_comes_back_has_no_recovery_and_what_is_not_recorded_no_number() -> None:
+def test_a_slide_that_never_comes_back_has_no_recovery_and_what_is_not_recorded_no_number():
     (locked,) = _cycles(valve_command_1=_valve((2.0, 3.0)), slide_1=10.0 * TIME)
     assert math.isnan(locked.recovery)
     assert math.isnan(locked.drop)
     assert locked.slide == pytest.approx(20.0)
 
 
-def test_a_slide_that_is_not_back_before_the_next_vent_has_not_recovered() -> None:
+def test_a_slide_that_is_not_back_before_the_next_vent_has_not_recovered():
     slide = 100.0 * np.interp(TIME, [0.0, 2.0, 3.0, 4.0, 9.0], [0.0, 0.2, 0.5, 0.3, 0.0])
     (one, other) = _cycles(valve_command_1=_valve((2.0, 2.5), (4.0, 4.5)), slide_1=slide)
     assert math.isnan(one.recovery)
     assert other.recovery == pytest.approx(0.0)
 
 
-def test_a_stop_in_which_nothing_is_vented_has_none() -> None:
+def test_a_stop_in_which_nothing_is_vented_has_none():
     assert _cycles(valve_command_1=np.zeros(len(TIME)), slide_1=np.zeros(len(TIME))) == ()
 
 
-def test_a_vent_that_the_record_cuts_off_ends_with_it() -> None:
+def test_a_vent_that_the_record_cuts_off_ends_with_it():
     (cut,) = _cycles(valve_command_3=_valve((9.5, 20.0)))
     assert cut.start + cut.duration == pytest.approx(TIME[-1])
     assert math.isnan(cut.slide)
 
 
-def test_vents_of_all_wheelsets_stand_in_the_order_of_their_starts() -> None:
+def test_vents_of_all_wheelsets_stand_in_the_order_of_their_starts():
     cycles = _cycles(valve_command_1=_valve((1.0, 2.0), (5.0, 6.0)), valve_command_4=_valve((3.0, 4.0)))
     assert [(cycle.start, cycle.wheelset) for cycle in cycles] == [
         (pytest.approx(1.0), 1), (pytest.approx(3.0), 4), (pytest.approx(5.0), 1),
     ]  # fmt: skip
 
 
-def test_the_trace_of_a_stop_has_as_many_vents_as_its_valves_show() -> None:
+def test_the_trace_of_a_stop_has_as_many_vents_as_its_valves_show():
     record = make_recording()
     vents = trace_of(record).vents
     assert [vent.wheelset for vent in vents] == [1, 2, 3, 4]

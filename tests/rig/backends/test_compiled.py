@@ -3,17 +3,15 @@
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
 
-from uictest.controllers import CONTROLLERS, Controller
+from uictest.controllers import CONTROLLERS
 from uictest.core.lanes import translate
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES, note_samples
 from uictest.core.physics.air import mass_flow, orifice_law
 from uictest.core.physics.arithmetic import exp, maximum
-from uictest.rig import StopInputs
 from uictest.rig.backends.compiled import compiled_operations, sources, with_controllers
 from uictest.rig.backends.lane_stops import run_queue
 from uictest.rig.backends.native import compiled_stop
@@ -98,7 +96,7 @@ SETTINGS = {
 }
 
 
-def everything(function: Any, inputs: StopInputs, every: int) -> dict[str, bytes]:
+def everything(function, inputs, every):
     """Bytes of all records and of the trace after a stop."""
     layouts = {"car": CAR, "bogies": BOGIE, "wheelsets": WHEELSET}
     layouts |= {"memory": RAIL_MEMORY, "measures": STOP_MEASURES, "wheelset measures": WHEELSET_MEASURES}
@@ -115,7 +113,7 @@ def everything(function: Any, inputs: StopInputs, every: int) -> dict[str, bytes
     }
 
 
-def quickly(*arguments: Any) -> None:
+def quickly(*arguments):
     """Run the stop in plain Python, on plain numbers and fused by the C library: in an eighth of the time."""
     stop = translate(run_stop, lambda copy: copy, with_controllers(CHOICES, lambda copy: copy, dict(FUSED)))
     records = [each for each in arguments if getattr(each, "dtype", None) is not None and each.dtype.names]
@@ -125,13 +123,13 @@ def quickly(*arguments: Any) -> None:
         _write_back(plain[id(record)], record)
 
 
-def _numbers(record: Any) -> Any:
+def _numbers(record):
     if record.shape:
         return [_numbers(each) for each in record]
     return SimpleNamespace(**{name: record[name].tolist() for name in record.dtype.names})
 
 
-def _write_back(numbers: Any, record: Any) -> None:
+def _write_back(numbers, record):
     if record.shape:
         for place, each in enumerate(numbers):
             _write_back(each, record[place])
@@ -140,13 +138,13 @@ def _write_back(numbers: Any, record: Any) -> None:
             record[name] = getattr(numbers, name)
 
 
-def fields_that_differ(layout: np.dtype[Any], one: bytes, other: bytes) -> list[str]:
+def fields_that_differ(layout, one, other):
     a, b = (np.frombuffer(data, layout) for data in (one, other))
     return [name for name in layout.names or () if a[name].tobytes() != b[name].tobytes()]
 
 
 @pytest.mark.parametrize("setting", SETTINGS)
-def test_plain_and_compiled_code_give_the_same_bits(rig: Any, setting: str) -> None:
+def test_plain_and_compiled_code_give_the_same_bits(rig, setting):
     """In every field of every record, and in every sample."""
     overrides, fields = SETTINGS[setting]
     if "cycles" not in fields:
@@ -165,7 +163,7 @@ def test_plain_and_compiled_code_give_the_same_bits(rig: Any, setting: str) -> N
     assert plain == compiled
 
 
-def test_the_settings_reach_what_they_say(rig: Any) -> None:
+def test_the_settings_reach_what_they_say(rig):
     """Standstill, venting and locks happen within the short stops that are compared."""
     ends = {name: rig.stop(*overrides, **fields) for name, (overrides, fields) in SETTINGS.items()}
     standstill, slides, band, air, counted, fading, blocks, downhill, cleaned, faulty = ends.values()
@@ -192,11 +190,11 @@ def test_the_settings_reach_what_they_say(rig: Any) -> None:
     assert used == CONTROLLERS.keys()
 
 
-def test_every_translated_function_decides_whether_code_is_compiled_anew() -> None:
+def test_every_translated_function_decides_whether_code_is_compiled_anew():
     """Else a change of its source would run the code of before."""
-    files: set[Path] = set()
+    files = set()
 
-    def note(function: Any) -> Any:
+    def note(function):
         files.add(Path(function.__code__.co_filename))
         return function
 
@@ -210,22 +208,22 @@ def test_every_translated_function_decides_whether_code_is_compiled_anew() -> No
 
 
 @pytest.mark.parametrize("controller", CHOICES, ids=lambda controller: controller.name)
-def test_the_number_of_a_controller_chooses_it(controller: Controller) -> None:
-    called: list[Any] = []
+def test_the_number_of_a_controller_chooses_it(controller):
+    called = []
     noting = {each.decide: _noting(called, each) for each in CHOICES}
     chosen = with_controllers(CHOICES, lambda function: function, noting)[decide]
     chosen(None, None, SimpleNamespace(controller=CHOICES.index(controller)))
     assert called == [controller]
 
 
-def _noting(called: list[Any], controller: Controller) -> Any:
-    def note(train: Any, wheelsets: Any, p: Any) -> None:
+def _noting(called, controller):
+    def note(train, wheelsets, p):
         called.append(controller)
 
     return note
 
 
-def test_a_stop_made_without_a_controller_says_so(rig: Any) -> None:
+def test_a_stop_made_without_a_controller_says_so(rig):
     with pytest.raises(NotImplementedError, match="without a controller"):
         everything(run_stop, rig.inputs(cycles=1), 0)
 
@@ -234,7 +232,7 @@ SLIDING = ("rail.condition=wet", "rail.friction=0.08", "initial_speed=60 km/h")
 
 
 @pytest.mark.parametrize("overrides", [SLIDING, (*SLIDING, "rail.condition=wet-cleaning")])
-def test_recording_changes_nothing(rig: Any, overrides: tuple[str, ...]) -> None:
+def test_recording_changes_nothing(rig, overrides):
     """The same bits without a recording and at several rates, one of them no divisor of the cycle."""
     first, *others = (rig.stop(*overrides, every=every) for every in (0, 1, 7, 20, 200))
     for other in others:
@@ -242,13 +240,13 @@ def test_recording_changes_nothing(rig: Any, overrides: tuple[str, ...]) -> None
             assert getattr(other, record).tobytes() == getattr(first, record).tobytes()
 
 
-def test_a_sparse_trace_is_part_of_a_dense_one(rig: Any) -> None:
+def test_a_sparse_trace_is_part_of_a_dense_one(rig):
     dense, sparse = (rig.stop(*SLIDING, every=every).trace for every in (1, 7))
     for one, other in zip(dense, sparse, strict=True):
         np.testing.assert_array_equal(one[::7], other)
 
 
-def test_threads_do_not_disturb_each_other(rig: Any) -> None:
+def test_threads_do_not_disturb_each_other(rig):
     """The same stop in six places, and others beside it."""
     cases = [rig.inputs(*SLIDING, f"rail.friction={mu}") for mu in (0.08, 0.05, 0.08, 0.12, 0.08)]
     compiled = compiled_stop()
@@ -259,7 +257,7 @@ def test_threads_do_not_disturb_each_other(rig: Any) -> None:
     assert ends[1] == ends[6] != ends[0]
 
 
-def test_seed_and_case_change_the_noise_and_nothing_else_does(rig: Any) -> None:
+def test_seed_and_case_change_the_noise_and_nothing_else_does(rig):
     speeds = [
         rig.columns(*SLIDING, f"seed={seed}", noise_key=key)["measured_speed"][1]
         for seed, key in ((0, 1), (0, 1), (1, 1), (0, 2))
@@ -272,10 +270,10 @@ def test_seed_and_case_change_the_noise_and_nothing_else_does(rig: Any) -> None:
 THROUGH_AN_ORIFICE = (8e5, 1e5, 1.0, 1.0, 1e-8, *orifice_law(0.35, 0.995))
 
 
-def test_translation_wraps_every_function_of_the_package_and_leaves_the_originals_alone() -> None:
-    wrapped: list[str] = []
+def test_translation_wraps_every_function_of_the_package_and_leaves_the_originals_alone():
+    wrapped = []
 
-    def note(function: Any) -> Any:
+    def note(function):
         wrapped.append(function.__name__)
         return function
 
@@ -287,13 +285,13 @@ def test_translation_wraps_every_function_of_the_package_and_leaves_the_original
     assert mass_flow.__globals__["maximum"] is maximum
 
 
-def test_translation_replaces_what_it_is_told_to_replace() -> None:
+def test_translation_replaces_what_it_is_told_to_replace():
     """With a larger maximum the pressure upstream is larger, and so is the flow."""
     copy = translate(mass_flow, lambda function: function, {maximum: lambda a, b: 2.0 * max(a, b)})
     assert copy(*THROUGH_AN_ORIFICE) > mass_flow(*THROUGH_AN_ORIFICE)
 
 
-def test_a_translation_leaves_nothing_behind_for_the_next() -> None:
+def test_a_translation_leaves_nothing_behind_for_the_next():
     operations = compiled_operations()
     assert translate(exp, lambda function: function, operations) is operations[exp]
     assert exp not in compiled_operations()

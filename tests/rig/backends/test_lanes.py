@@ -2,17 +2,13 @@
 
 import subprocess
 import sys
-from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
-from numpy.typing import NDArray
 
-from uictest.rig.backends.lanes import BatchMeasures, longest_first, run_in_lanes
+from uictest.rig.backends.lanes import longest_first, run_in_lanes
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import FRICTIONS, ROWS
@@ -47,7 +43,7 @@ LEAKS = (
 )
 TEETH = "faults=[{at: 1 s, wheelset: 2, part: speed-sensor, kind: missing-teeth, value: 3}]"
 CLEANED = "rail.condition=wet-cleaning"
-VARIANTS: tuple[tuple[str, ...], ...] = (
+VARIANTS = (
     (),
     ("rig.compensation=none", *WET),
     ("rig.compensation=cylinder", *WET),
@@ -92,15 +88,15 @@ print(run_in_lanes(*inputs).measures.tobytes().hex())
 class Batch:
     """Cases of all kinds and what each of them gives alone."""
 
-    def __init__(self, rig: Any) -> None:
+    def __init__(self, rig):
         cases = [
             rig.inputs(*variant, f"initial_speed={speed} km/h", noise_key=number)
             for number, variant in enumerate(VARIANTS)
             for speed in (9, 24 + number)
         ]
         cases.append(rig.inputs(cycles=120))
-        self.parameters: NDArray[Any] = np.zeros(len(cases), PARAMETERS)
-        self.wheelsets: NDArray[Any] = np.zeros((len(cases), 4), WHEELSET_PARAMETERS)
+        self.parameters = np.zeros(len(cases), PARAMETERS)
+        self.wheelsets = np.zeros((len(cases), 4), WHEELSET_PARAMETERS)
         self.rail = np.zeros((len(cases), 4, max(case.rail.shape[1] for case in cases)))
         for number, (parameters, wheelsets, rail, *_) in enumerate(cases):
             self.parameters[number] = parameters
@@ -108,12 +104,12 @@ class Batch:
             self.rail[number, :, : rail.shape[1]] = rail
         self.alone = [run_to_end(compiled_stop(), case) for case in cases]
 
-    def in_lanes(self, numbers: Sequence[int], width: int | None = None) -> BatchMeasures:
+    def in_lanes(self, numbers, width=None):
         chosen = list(numbers)
         inputs = (self.parameters[chosen], self.wheelsets[chosen], self.rail[chosen])
         return run_in_lanes(*inputs, width)
 
-    def is_as_alone(self, numbers: Sequence[int], batch: BatchMeasures) -> bool:
+    def is_as_alone(self, numbers, batch):
         return all(
             batch.measures[place].tobytes() == self.alone[number].measures.tobytes()
             and batch.wheelset_measures[place].tobytes() == self.alone[number].wheelset_measures.tobytes()
@@ -122,14 +118,14 @@ class Batch:
 
 
 @pytest.fixture(name="batch", scope="module")
-def _batch(rig: Any) -> Batch:
+def _batch(rig):
     return Batch(rig)
 
 
 ALL = range(2 * len(VARIANTS) + 1)
 
 
-def test_the_cases_differ_in_what_they_do(batch: Batch) -> None:
+def test_the_cases_differ_in_what_they_do(batch):
     stopped = {float(outcome.measures.stopped) for outcome in batch.alone}
     slides = [outcome.wheelset_measures.maximum_slide.max() for outcome in batch.alone]
     assert stopped == {0.0, 1.0}
@@ -142,31 +138,31 @@ def test_the_cases_differ_in_what_they_do(batch: Batch) -> None:
 @pytest.mark.parametrize(
     "width", [None, 4, 8, pytest.param(2, marks=pytest.mark.slow), pytest.param(16, marks=pytest.mark.slow)]
 )
-def test_a_lane_of_any_number_of_them_gives_the_bits_of_a_stop_alone(batch: Batch, width: int | None) -> None:
+def test_a_lane_of_any_number_of_them_gives_the_bits_of_a_stop_alone(batch, width):
     assert batch.is_as_alone(ALL, batch.in_lanes(ALL, width))
 
 
 @given(numbers=st.lists(st.sampled_from(ALL), max_size=20))
 @settings(max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture])
-def test_neighbours_order_and_number_do_not_matter(batch: Batch, numbers: list[int]) -> None:
+def test_neighbours_order_and_number_do_not_matter(batch, numbers):
     assert batch.is_as_alone(numbers, batch.in_lanes(numbers))
 
 
-def test_threads_run_batches_of_their_own(batch: Batch) -> None:
+def test_threads_run_batches_of_their_own(batch):
     shares = [ALL[first::3] for first in range(3)]
     with ThreadPoolExecutor(3) as pool:
         batches = list(pool.map(batch.in_lanes, shares))
     assert all(batch.is_as_alone(share, result) for share, result in zip(shares, batches, strict=True))
 
 
-def test_parameters_and_friction_laws_are_only_read(batch: Batch) -> None:
+def test_parameters_and_friction_laws_are_only_read(batch):
     inputs = (batch.parameters, batch.wheelsets, batch.rail)
     before = [each.tobytes() for each in inputs]
     batch.in_lanes(ALL)
     assert [each.tobytes() for each in inputs] == before
 
 
-def test_a_warm_start_needs_no_compiler(batch: Batch, tmp_path: Path) -> None:
+def test_a_warm_start_needs_no_compiler(batch, tmp_path):
     warm = batch.in_lanes([0, 1])
     for name in ("parameters", "wheelsets", "rail"):
         np.save(tmp_path / f"{name}.npy", getattr(batch, name)[:2], allow_pickle=False)
@@ -176,7 +172,7 @@ def test_a_warm_start_needs_no_compiler(batch: Batch, tmp_path: Path) -> None:
     assert done.stdout.strip() == warm.measures.tobytes().hex(), done.stderr
 
 
-def test_the_compiler_is_loaded_only_for_a_batch() -> None:
+def test_the_compiler_is_loaded_only_for_a_batch():
     code = (
         "import sys, uictest.rig.backends.lanes; "
         "sys.exit('numba' in sys.modules or 'llvmlite' in sys.modules)"
@@ -184,7 +180,7 @@ def test_the_compiler_is_loaded_only_for_a_batch() -> None:
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
-def test_stops_that_should_take_longest_begin_first() -> None:
+def test_stops_that_should_take_longest_begin_first():
     """From a high speed or on a slippery rail; a rail that is better than needed shortens none."""
     parameters, rail = np.zeros(4, PARAMETERS), np.zeros((4, ROWS, 2))
     parameters["initial_speed"] = 20.0, 20.0, 40.0, 20.0

@@ -1,18 +1,13 @@
 """Machine code is called only if it is what the compiler made here."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 import pytest
 
 from uictest.core import user_cache
 from uictest.rig.backends import machine_code
-from uictest.rig.backends.machine_code import Entries, Unit, is_kept, native_function
+from uictest.rig.backends.machine_code import Unit, is_kept, native_function
 
-Begin = Callable[[], Callable[..., int]]
 NAME, OTHER, UNIT = "uictest_test", "uictest_other", "uictest_tests"
 
 
@@ -22,7 +17,7 @@ damaged = pytest.mark.parametrize(
 
 
 @pytest.fixture
-def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def cache(tmp_path, monkeypatch):
     """A cache of its own, for a process that has loaded nothing yet."""
     monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "cache"))
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
@@ -30,30 +25,30 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def begin(monkeypatch: pytest.MonkeyPatch) -> Begin:
+def begin(monkeypatch):
     """Load the function as a new process would."""
 
-    def load() -> Callable[..., int]:
+    def load():
         monkeypatch.setattr(machine_code, "_loaded", {})
         return _function(NAME)
 
     return load
 
 
-def _function(name: str) -> Callable[..., int]:
+def _function(name):
     return native_function(Unit(UNIT, {NAME: "a test", OTHER: "another"}, _entries), name, 1)
 
 
-def _entries() -> Entries:
+def _entries():
     return {NAME: (lambda number: 3 * number, (int,)), OTHER: (lambda number: number - 1, (int,))}
 
 
-def _kept(cache: Path, kind: str = NAME) -> Path:
+def _kept(cache, kind=NAME):
     (path,) = cache.glob(f"{kind}-*")
     return path
 
 
-def test_code_is_compiled_once(cache: Path, begin: Begin, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_code_is_compiled_once(cache, begin, monkeypatch):
     assert not is_kept(NAME)
     assert begin()(14) == 42
     assert is_kept(NAME)
@@ -61,9 +56,7 @@ def test_code_is_compiled_once(cache: Path, begin: Begin, monkeypatch: pytest.Mo
     assert begin()(14) == 42
 
 
-def test_what_shares_code_is_compiled_once(
-    cache: Path, begin: Begin, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_shares_code_is_compiled_once(cache, begin, monkeypatch):
     begin()
     assert not is_kept(OTHER)
     monkeypatch.setitem(globals(), "_entries", lambda: pytest.fail("compiled again"))
@@ -71,9 +64,7 @@ def test_what_shares_code_is_compiled_once(
 
 
 @damaged
-def test_damaged_bitcode_is_compiled_anew(
-    cache: Path, begin: Begin, damage: Callable[[bytes], bytes]
-) -> None:
+def test_damaged_bitcode_is_compiled_anew(cache, begin, damage):
     begin()
     sound = _kept(cache, UNIT).read_bytes()
     _kept(cache, UNIT).write_bytes(damage(sound))
@@ -81,8 +72,8 @@ def test_damaged_bitcode_is_compiled_anew(
     assert len(_kept(cache, UNIT).read_bytes()) > 64
 
 
-def test_progress_is_told_from_nothing_to_the_end(cache: Path, begin: Begin) -> None:
-    told: list[tuple[str, float]] = []
+def test_progress_is_told_from_nothing_to_the_end(cache, begin):
+    told = []
     with machine_code.compilation_watched(lambda title, done: told.append((title, done))):
         begin()
         _function(OTHER)
@@ -95,7 +86,7 @@ def test_progress_is_told_from_nothing_to_the_end(cache: Path, begin: Begin) -> 
 
 
 @damaged
-def test_damaged_code_is_compiled_anew(cache: Path, begin: Begin, damage: Callable[[bytes], bytes]) -> None:
+def test_damaged_code_is_compiled_anew(cache, begin, damage):
     begin()
     damaged = damage(_kept(cache).read_bytes())
     _kept(cache).write_bytes(damaged)
@@ -105,7 +96,7 @@ def test_damaged_code_is_compiled_anew(cache: Path, begin: Begin, damage: Callab
     assert _kept(cache).read_bytes() != damaged
 
 
-def test_no_single_flipped_bit_is_executed(cache: Path, begin: Begin) -> None:
+def test_no_single_flipped_bit_is_executed(cache, begin):
     begin()
     sound = bytearray(_kept(cache).read_bytes())
     for place in range(0, len(sound), 97):
@@ -117,17 +108,13 @@ def test_no_single_flipped_bit_is_executed(cache: Path, begin: Begin) -> None:
     assert is_kept(NAME)
 
 
-def test_code_of_another_processor_is_not_executed(
-    cache: Path, begin: Begin, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_code_of_another_processor_is_not_executed(cache, begin, monkeypatch):
     begin()
     monkeypatch.setattr(machine_code, "_inputs", lambda target: b"another processor")
     assert not is_kept(NAME)
 
 
-def test_without_any_place_it_is_compiled_and_nothing_is_left(
-    tmp_path: Path, begin: Begin, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_any_place_it_is_compiled_and_nothing_is_left(tmp_path, begin, monkeypatch):
     (tmp_path / "file").write_text("not a folder")
     monkeypatch.setenv("UICTEST_CACHE", str(tmp_path / "file" / "cache"))
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "file"))
@@ -135,16 +122,14 @@ def test_without_any_place_it_is_compiled_and_nothing_is_left(
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
-def test_what_another_process_compiles_meanwhile_is_used(
-    cache: Path, begin: Begin, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_another_process_compiles_meanwhile_is_used(cache, begin, monkeypatch):
     begin()
     path = _kept(cache)
     code = path.read_bytes()
     path.unlink()
 
     @contextmanager
-    def turn(name: str, inputs: bytes) -> Iterator[None]:
+    def turn(name, inputs):
         path.write_bytes(code)
         path.chmod(0o600)
         yield

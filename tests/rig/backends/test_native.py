@@ -4,8 +4,6 @@ import os
 import platform
 import subprocess
 import sys
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -42,7 +40,7 @@ print(simulate(load([Path(sys.argv[1])])[0]).measures.tobytes().hex())
 """
 
 
-def arguments(rig: Any) -> dict[str, Any]:
+def arguments(rig):
     inputs = rig.inputs(cycles=1)
     return {
         "car": np.zeros(1, CAR)[0],
@@ -59,7 +57,7 @@ def arguments(rig: Any) -> dict[str, Any]:
     }
 
 
-def test_a_warm_start_needs_no_compiler(tmp_path: Any) -> None:
+def test_a_warm_start_needs_no_compiler(tmp_path):
     compiled_stop()
     assert stop_is_compiled()
     scenario = tmp_path / "stop.yaml"
@@ -71,7 +69,7 @@ def test_a_warm_start_needs_no_compiler(tmp_path: Any) -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(platform.machine() != "x86_64", reason="names a processor of this architecture")
-def test_a_processor_without_fused_multiply_add_gives_the_same_bits(tmp_path: Path) -> None:
+def test_a_processor_without_fused_multiply_add_gives_the_same_bits(tmp_path):
     scenario = tmp_path / "stop.yaml"
     scenario.write_text(
         "schema: uictest/scenario/1\nname: stop\ninitial_speed: 40 km/h\nrail: {condition: wet}\n"
@@ -98,7 +96,7 @@ def test_a_processor_without_fused_multiply_add_gives_the_same_bits(tmp_path: Pa
         "trace": Trace(np.zeros(0, TRAIN_SAMPLE), np.zeros((0, 4), TRAIN_SAMPLE)),
     }.items(),
 )
-def test_another_layout_is_refused(rig: Any, name: str, other: Any) -> None:
+def test_another_layout_is_refused(rig, name, other):
     """Machine code would read and write beyond it."""
     with pytest.raises(TypeError, match="contiguous"):
         compiled_stop()(**{**arguments(rig), name: other})

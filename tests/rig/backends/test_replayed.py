@@ -29,7 +29,7 @@ def slipping():
     return simulate(case, record_every=0.01).recording, SimpleNamespace(**definition)
 
 
-def _replay(recording, definition, *, with_faults: bool) -> Replay:
+def _replay(recording, definition, *, with_faults):
     rows = len(recording["time"])
     begun = np.arange(rows) > rows // 3
     of_one = np.tile([0.0, 0.0, 1.0, 0.0], (rows, 1)) * begun[:, None]
@@ -40,7 +40,7 @@ def _replay(recording, definition, *, with_faults: bool) -> Replay:
 
 @pytest.mark.parametrize("with_faults", [True, False])
 @pytest.mark.parametrize("gap", ["", "wheel_speed_1", "clamping_force_2", "brake_line_pressure"])
-def test_compiled_code_and_plain_python_note_the_same_bits(slipping, gap: str, with_faults: bool) -> None:
+def test_compiled_code_and_plain_python_note_the_same_bits(slipping, gap, with_faults):
     recording, definition = slipping
     if gap:
         channel = recording[gap].copy()

@@ -1,20 +1,18 @@
 """A stop that is stepped from outside is the stop of `run`, to the bit."""
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from uictest.controllers import FORBIDDEN_COMMAND, NO_FAILURE, NO_MAGNET_STATE
 from uictest.core.record import fields_of
-from uictest.plans.scenario import Case, load
+from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.backends.stepped import SteppedStop
 from uictest.rig.model.state import Car, Wheelset
-from uictest.rig.single_stop import FinishedStop, run_to_end
+from uictest.rig.single_stop import run_to_end
 
 SCENARIOS = Path(__file__).parents[3] / "scenarios"
 OF_THE_NEXT_CYCLE = {
@@ -30,7 +28,7 @@ VARIANTS = {
 }
 
 
-def stepped_to_end(case: Case, outside: Any, every: int) -> FinishedStop:
+def stepped_to_end(case, outside, every):
     stop, controller = SteppedStop(assemble(case), every), outside(case)
     exchange = stop.exchange
     while not stop.has_ended:
@@ -40,7 +38,7 @@ def stepped_to_end(case: Case, outside: Any, every: int) -> FinishedStop:
     return stop.finished()
 
 
-def assert_same(stepped: FinishedStop, run: FinishedStop) -> None:
+def assert_same(stepped, run):
     """Every measure, every sample and every state but those of the cycle that never came."""
     assert stepped.measures.tobytes() == run.measures.tobytes()
     assert stepped.wheelset_measures.tobytes() == run.wheelset_measures.tobytes()
@@ -52,32 +50,28 @@ def assert_same(stepped: FinishedStop, run: FinishedStop) -> None:
         assert differ <= OF_THE_NEXT_CYCLE | memory_of_controller
 
 
-def own_states() -> set[str]:
+def own_states():
     """States of the rig and what any controller shows of itself."""
     return {*fields_of(Car), *fields_of(Wheelset)}
 
 
-def assert_bits_of_run(case: Case, outside: Callable[[Case], Any], every: int) -> None:
+def assert_bits_of_run(case, outside, every):
     run = run_to_end(compiled_stop(), assemble(case), every)
     assert_same(stepped_to_end(case, outside, every), run)
 
 
-def test_every_shipped_stop_has_the_bits_of_run(
-    scenarios: list[Case], controller_outside: Callable[[Case], Any]
-) -> None:
+def test_every_shipped_stop_has_the_bits_of_run(scenarios, controller_outside):
     for number, case in enumerate(scenarios):
         assert_bits_of_run(case, controller_outside, every=0 if number % 5 else 7)
 
 
 @pytest.mark.parametrize("name", VARIANTS)
-def test_other_parts_of_the_rig_have_the_bits_of_run(
-    name: str, controller_outside: Callable[[Case], Any]
-) -> None:
+def test_other_parts_of_the_rig_have_the_bits_of_run(name, controller_outside):
     file, overrides = VARIANTS[name]
     assert_bits_of_run(load([SCENARIOS / file], overrides)[0], controller_outside, every=20)
 
 
-def test_a_stop_ends_after_its_longest_duration(rig: Any) -> None:
+def test_a_stop_ends_after_its_longest_duration(rig):
     inputs = rig.inputs("rig.wsp=bypassed", cycles=50)
     stop, steps = SteppedStop(inputs), 0
     while not stop.has_ended:
@@ -88,7 +82,7 @@ def test_a_stop_ends_after_its_longest_duration(rig: Any) -> None:
     assert stop.finished().measures.tobytes() == run.measures.tobytes()
 
 
-def test_the_present_state_is_that_of_the_recording(rig: Any) -> None:
+def test_the_present_state_is_that_of_the_recording(rig):
     """Sampled at the end of each cycle, after the sensors were read for the next one."""
     inputs = rig.inputs("rail.condition=wet", "rail.friction=0.06", cycles=150)
     steps = int(inputs.parameters["steps_per_cycle"])
@@ -106,7 +100,7 @@ def test_the_present_state_is_that_of_the_recording(rig: Any) -> None:
     ("hold", "vent", "failure"),
     [(0, 1, FORBIDDEN_COMMAND), (2, 0, NO_MAGNET_STATE), (0, -1, NO_MAGNET_STATE)],
 )
-def test_a_command_that_no_valve_has_moves_nothing(rig: Any, hold: int, vent: int, failure: int) -> None:
+def test_a_command_that_no_valve_has_moves_nothing(rig, hold, vent, failure):
     stop, other = (SteppedStop(rig.inputs(cycles=20)) for _ in range(2))
     stop.exchange["hold"][2], stop.exchange["vent"][2] = hold, vent
     stop.step()
@@ -120,7 +114,7 @@ def test_a_command_that_no_valve_has_moves_nothing(rig: Any, hold: int, vent: in
     assert stop.finished().measures.tobytes() == other.finished().measures.tobytes()
 
 
-def test_a_copy_of_the_memory_is_a_copy_of_the_stop(rig: Any) -> None:
+def test_a_copy_of_the_memory_is_a_copy_of_the_stop(rig):
     """It holds no address, so that a tool can go back to an earlier state."""
     stop = SteppedStop(rig.inputs("rail.condition=wet", "rail.friction=0.06", cycles=60))
     for _ in range(30):

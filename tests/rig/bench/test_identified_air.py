@@ -1,17 +1,13 @@
 """The air of the caliper's module, identified from records of the simulated one."""
 
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
-from uictest.core.recording import Recording
-from uictest.plans.scenario import Case
 from uictest.plans.scenario.yaml import parse_quantity
-from uictest.rig.bench import BenchTest, identify_air, load_bench, run_test
-from uictest.rig.identification import AirResult, UnsuitableRecordError
+from uictest.rig.bench import identify_air, load_bench, run_test
+from uictest.rig.identification import UnsuitableRecordError
 
 RECIPE = """schema: uictest/bench/1
 name: cycling
@@ -29,28 +25,28 @@ inputs:
 
 
 @pytest.fixture(name="test", scope="module")
-def _test(tmp_path_factory: pytest.TempPathFactory) -> BenchTest:
+def _test(tmp_path_factory):
     recipe = tmp_path_factory.mktemp("bench") / "cycling.yaml"
     recipe.write_text(RECIPE, "utf-8")
     return load_bench(recipe)
 
 
 @pytest.fixture(name="record", scope="module")
-def _record(test: BenchTest) -> Recording:
+def _record(test):
     return run_test(test)
 
 
-def changed(case: Case, part: str, **fields: float) -> Case:
+def changed(case, part, **fields):
     """The case with other values in a part of its scenario."""
 
-    def copied(model: Any, names: list[str]) -> Any:
+    def copied(model, names):
         update = {names[0]: copied(getattr(model, names[0]), names[1:])} if names else fields
         return model.model_copy(update=update)
 
     return replace(case, scenario=copied(case.scenario, part.split(".")))
 
 
-def channels(record: Recording) -> dict[str, np.ndarray]:
+def channels(record):
     names = {
         "time": "time",
         "tank": "measured_pressure_2",
@@ -62,11 +58,11 @@ def channels(record: Recording) -> dict[str, np.ndarray]:
 
 
 @pytest.fixture(name="result", scope="module")
-def _result(test: BenchTest, record: Recording) -> AirResult:
+def _result(test, record):
     return identify_air(channels(record), test.case)
 
 
-def test_the_air_that_made_a_record_is_found_in_it(test: BenchTest, result: AirResult) -> None:
+def test_the_air_that_made_a_record_is_found_in_it(test, result):
     """Surfaces times film coefficients, the volume of the stroke, the pressures of spring and friction."""
     system, caliper = test.case.scenario.brake.system, test.case.scenario.rig.caliper
     tank = system.tank.surface * system.tank.film_coefficient
@@ -83,24 +79,20 @@ def test_the_air_that_made_a_record_is_found_in_it(test: BenchTest, result: AirR
 
 
 @pytest.mark.parametrize("volume", ["1 L", "4 L"])
-def test_a_record_of_a_tank_of_another_volume_contradicts_the_rig(
-    test: BenchTest, record: Recording, volume: str
-) -> None:
+def test_a_record_of_a_tank_of_another_volume_contradicts_the_rig(test, record, volume):
     """Heat conductances fitted to it would be wrong by a factor, with small errors."""
     other = changed(test.case, "brake.system.tank", volume=parse_quantity(volume, "volume"))
     with pytest.raises(UnsuitableRecordError, match=rf"as one of .* L would, .* has {volume}"):
         identify_air(channels(record), other)
 
 
-def test_the_numbers_do_not_depend_on_those_of_the_compensation(
-    test: BenchTest, record: Recording, result: AirResult
-) -> None:
+def test_the_numbers_do_not_depend_on_those_of_the_compensation(test, record, result):
     air = {"tank_heat_conductance": 0.0, "swept_volume": 1e-6}
     other = changed(test.case, "rig.compensation_model.air", **air)
     assert identify_air(channels(record), other) == result
 
 
-def test_sensors_with_noise_change_little(tmp_path: Path) -> None:
+def test_sensors_with_noise_change_little(tmp_path):
     recipe = tmp_path / "noisy.yaml"
     recipe.write_text(RECIPE[: RECIPE.index("stop:")] + RECIPE[RECIPE.index("inputs:") :], "utf-8")
     noisy = load_bench(recipe)
@@ -119,9 +111,7 @@ def test_sensors_with_noise_change_little(tmp_path: Path) -> None:
         ({"line": lambda record: record["line"] + 2e5}, "begin with released brakes, but the line pressure"),
     ],
 )
-def test_a_record_that_cannot_support_it_is_refused(
-    test: BenchTest, record: Recording, spoil: dict, reason: str
-) -> None:
+def test_a_record_that_cannot_support_it_is_refused(test, record, spoil, reason):
     spoiled = channels(record)
     spoiled |= {name: change(spoiled) for name, change in spoil.items()}
     with pytest.raises(UnsuitableRecordError, match=reason):

@@ -1,33 +1,31 @@
 """The compensation that is identified from the bench for the rig of a stop."""
 
 from importlib import resources
-from pathlib import Path
-from typing import Any
 
 import pytest
 
 from uictest import rig
 from uictest.core import user_cache
-from uictest.plans.scenario import Case, load, rig_differences
+from uictest.plans.scenario import load, rig_differences
 from uictest.rig import bench
 from uictest.rig.bench import identified_rig
 
 LINES = resources.files("uictest.plans.library") / "compensations" / "six-inch.yaml"
 
 
-def stop(folder: Path, *overrides: str) -> Case:
+def stop(folder, *overrides):
     path = folder / "stop.yaml"
     path.write_text("schema: uictest/scenario/1\nname: stop\ninitial_speed: 120 km/h\n")
     return load([path], ["rig.compensation_model=identify", *overrides])[0]
 
 
 @pytest.fixture(name="identifications")
-def _identifications(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def _identifications(monkeypatch):
     """The names of what is identified, each as if it were like six-inch; the cache begins empty."""
-    names: list[str] = []
-    kept: dict[bytes, bytes] = {}
+    names = []
+    kept = {}
 
-    def identify(scenario: Any, pressure: str, name: str) -> str:
+    def identify(scenario, pressure, name):
         names.append(name)
         return LINES.read_text("utf-8").replace("name: six-inch", f"name: {name}")
 
@@ -38,7 +36,7 @@ def _identifications(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return names
 
 
-def test_each_distinct_rig_is_identified_once(tmp_path: Path, identifications: list[str]) -> None:
+def test_each_distinct_rig_is_identified_once(tmp_path, identifications):
     first = bench.identified(stop(tmp_path, "rig.caliper.lever_ratio=3"))
     again = bench.identified(stop(tmp_path, "rig.caliper.lever_ratio=3.0", "seed=7", "initial_speed=80 km/h"))
     assert first.scenario.rig.compensation_model.name == again.scenario.rig.compensation_model.name
@@ -49,7 +47,7 @@ def test_each_distinct_rig_is_identified_once(tmp_path: Path, identifications: l
     assert len(identifications) == 2
 
 
-def test_what_is_identified_lists_its_very_rig(tmp_path: Path, identifications: list[str]) -> None:
+def test_what_is_identified_lists_its_very_rig(tmp_path, identifications):
     case = bench.identified(stop(tmp_path, "rig.caliper.lever_ratio=3", "rig.caliper.load_friction=15 %"))
     differences = rig_differences(case.scenario)
     assert differences
@@ -57,18 +55,18 @@ def test_what_is_identified_lists_its_very_rig(tmp_path: Path, identifications: 
     assert float(rig.assemble(case).parameters["compensation_misfit"]) == 0.0
 
 
-def test_a_rig_with_four_calipers_needs_none(tmp_path: Path, identifications: list[str]) -> None:
+def test_a_rig_with_four_calipers_needs_none(tmp_path, identifications):
     case = stop(tmp_path, "rig.topology=four-caliper")
     assert bench.identified(case) is case
     assert identifications == []
 
 
-def test_a_stop_is_not_run_with_the_numbers_that_stand_in(tmp_path: Path) -> None:
+def test_a_stop_is_not_run_with_the_numbers_that_stand_in(tmp_path):
     with pytest.raises(ValueError, match="is to be identified first"):
         rig.assemble(stop(tmp_path))
 
 
-def test_lines_identified_for_another_lever_follow_it(tmp_path: Path) -> None:
+def test_lines_identified_for_another_lever_follow_it(tmp_path):
     """Twice the lever, twice the force; the brake and its sensors are given the room for it."""
     sensors = "rig.sensors.loadcell.range=60 kN"
     lines = [
@@ -81,7 +79,7 @@ def test_lines_identified_for_another_lever_follow_it(tmp_path: Path) -> None:
     assert lines[0].slope.text != lines[1].slope.text
 
 
-def test_a_bench_that_saturates_the_loadcells_identifies_nothing(tmp_path: Path) -> None:
+def test_a_bench_that_saturates_the_loadcells_identifies_nothing(tmp_path):
     case = stop(tmp_path, "rig.caliper.lever_ratio=4", "rig.compensation=hysteresis")
     with pytest.raises(ValueError, match=r"their range, 25 kN: give rig\.sensors\.loadcell\.range"):
         bench.identified(case)

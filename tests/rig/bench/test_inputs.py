@@ -1,7 +1,5 @@
 """Inputs of a bench test."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

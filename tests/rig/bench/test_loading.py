@@ -1,7 +1,5 @@
 """Bench recipes."""
 
-from __future__ import annotations
-
 import pytest
 
 from uictest.plans.scenario import ScenarioErrors

@@ -1,7 +1,5 @@
 """The bench: the same parts as in a stop, without vehicle and controller."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -104,7 +102,7 @@ def test_the_settings_differ_as_their_names_say(pulled):
 def test_the_modelled_air_is_nearer_to_module_1_than_the_tank_is(pulled):
     at = pulled["time"] > 1.0
 
-    def largest_error(name: str) -> float:
+    def largest_error(name):
         return np.abs(pulled[name] - pulled["cylinder_pressure_1"])[at].max()
 
     assert largest_error("cylinder_pressure_thermal_2") < 0.5 * largest_error("measured_pressure_2")

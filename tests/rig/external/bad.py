@@ -9,23 +9,22 @@ import sys
 import time
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
-from uictest.controllers import Config, Inputs, Outputs
+from uictest.controllers import Outputs
 
 __version__ = "1.2"
 
 
 class Bad:
-    def __init__(self, config: Config) -> None:
-        self.fault: str = config.parameters["fault"]
-        self.at: int = config.parameters["at"]
+    def __init__(self, config):
+        self.fault = config.parameters["fault"]
+        self.at = config.parameters["at"]
         if self.fault == "create":
             raise ValueError("told to")
         if self.fault == "leave":
             raise SystemExit(0)
 
-    def __del__(self) -> None:
+    def __del__(self):
         if self.fault == "immortal":
             time.sleep(3600.0)
         if self.fault == "hang-later":
@@ -33,14 +32,14 @@ class Bad:
             signal.signal(signal.SIGALRM, lambda number, frame: time.sleep(3600.0))
             signal.setitimer(signal.ITIMER_REAL, 0.5)
 
-    def reset(self) -> None:
+    def reset(self):
         if self.fault == "reset":
             raise ValueError("told to")
         if self.fault == "leave-reset":
             raise SystemExit(0)
 
-    def step(self, inputs: Inputs) -> Any:
-        filling: list[float] = [0, 0, 0, 0]
+    def step(self, inputs):
+        filling = [0, 0, 0, 0]
         return (
             FAULTS[self.fault]()
             if inputs.cycle == self.at and self.fault in FAULTS
@@ -48,47 +47,47 @@ class Bad:
         )
 
 
-def spin() -> None:
+def spin():
     while True:
         pass
 
 
-def hold_the_interpreter() -> None:
+def hold_the_interpreter():
     """Start a process of its own, then hang in a call that no other thread can run beside."""
     sleeper = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(3600)"])
     Path("started.txt").write_text(str(sleeper.pid), "utf-8")
     ctypes.PyDLL(None).sleep(3600)
 
 
-def fail() -> None:
+def fail():
     raise ValueError("told to")
 
 
-def end() -> None:
+def end():
     raise SystemExit(0)
 
 
 class MuteError(Exception):
-    def __str__(self) -> str:
+    def __str__(self):
         raise RuntimeError("told to")
 
 
-def fail_mute() -> None:
+def fail_mute():
     raise MuteError
 
 
-def fail_at_length() -> None:
+def fail_at_length():
     raise ValueError("x" * 1_000_000)
 
 
-def scribble() -> Outputs:
+def scribble():
     for descriptor in range(3, 30):
         with suppress(OSError):
             os.write(descriptor, b"\x01\x00\x00\x00" + b"\x7f\x00\x00\x00\x00\x00\x00\x00")
     return Outputs([0, 0, 0, 0], [0, 0, 0, 0])
 
 
-def forge(head: bytes) -> Outputs:
+def forge(head):
     for descriptor in range(3, 30):
         with suppress(OSError):
             os.write(descriptor, b"\x01\x00\x00\x00" + len(head).to_bytes(8, "little") + head)
@@ -114,7 +113,7 @@ FAULTS = {
     "nan": lambda: Outputs([math.nan, 0, 0, 0], [0, 0, 0, 0]),
     "short": lambda: Outputs([0, 0, 0], [0, 0, 0, 0]),
     "forbidden": lambda: Outputs([0, 0, 0, 0], [0, 1, 0, 0]),
-    "speed": lambda: Outputs([0, 0, 0, 0], [0, 0, 0, 0], reference_speed="fast"),  # type: ignore[arg-type]
+    "speed": lambda: Outputs([0, 0, 0, 0], [0, 0, 0, 0], reference_speed="fast"),
     "bits": lambda: Outputs([0, 0, 0, 0], [0, 0, 0, 0], diagnosis=2**32),
 }
 

@@ -1,16 +1,12 @@
 """Stops in one block: in lanes where the controller says that it runs beside others, else one by one."""
 
-from __future__ import annotations
-
 import json
 import shutil
 import sys
-from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 import uictest.controllers.built_in.threshold as threshold
 from uictest.controllers import EXCHANGE
@@ -18,13 +14,10 @@ from uictest.controllers.adapters import registered
 from uictest.plans.scenario import load, load_part
 from uictest.rig.assembly import assemble
 from uictest.rig.backends import lanes
-from uictest.rig.external.block import BlockInputs, run_block
+from uictest.rig.external.block import run_block
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.workers import Workers
-from uictest.rig.single_stop import StopInputs
 
-Compile = Callable[..., Path]
-BlockOf = Callable[[Sequence[StopInputs]], BlockInputs]
 ENTRY_POINTS = """\
 [uictest.controllers]
 acme-copy = acme_lanes:CONTROLLER
@@ -33,7 +26,7 @@ acme-class = bad:Bad
 
 
 @pytest.fixture(scope="module")
-def package(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+def package(tmp_path_factory):
     """Install a package with a copy of the threshold controller and a class that fails as told to."""
     site = tmp_path_factory.mktemp("site")
     metadata = site / "acme_lanes-1.0.dist-info"
@@ -54,40 +47,38 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
 
 
 @pytest.fixture
-def ran_in_lanes(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+def ran_in_lanes(monkeypatch):
     """How many stops ran in lanes, for each call."""
-    counts: list[int] = []
+    counts = []
     original = lanes.run_in_lanes
 
-    def counted(parameters: NDArray[np.void], *others: object) -> object:
+    def counted(parameters, *others):
         counts.append(len(parameters))
-        return original(parameters, *others)  # type: ignore[arg-type]
+        return original(parameters, *others)
 
     monkeypatch.setattr(lanes, "run_in_lanes", counted)
     return counts
 
 
-def copies(*frictions: float, **changes: object) -> list[StopInputs]:
+def copies(*frictions, **changes):
     """Stops with the copy of the threshold controller, on rails that need it."""
     part = load_part("controllers/threshold")
     own = {name: float(value) for name, value in part if isinstance(value, float) and name != "cycle_time"}
     return stops(f"{{registered: acme-copy, parameters: {json.dumps({**own, **changes})}}}", *frictions)
 
 
-def stops(controller: str, *frictions: float) -> list[StopInputs]:
+def stops(controller, *frictions):
     rails = [f"rail={{condition: wet, friction: {friction}}}" for friction in frictions]
     return [assemble(load([Path("stop.yaml")], [rail, f"controller={controller}"])[0]) for rail in rails]
 
 
-def bits(run: object, place: int | tuple[()] = ()) -> bytes:
-    measures, of_wheelsets = run.measures[place], run.wheelset_measures[place]  # type: ignore[attr-defined]
+def bits(run, place=()):
+    measures, of_wheelsets = run.measures[place], run.wheelset_measures[place]
     return bytes(measures.tobytes() + of_wheelsets.tobytes())
 
 
 @pytest.mark.usefixtures("package", "folder")
-def test_machine_code_runs_in_lanes_with_the_bits_of_a_stop_alone(
-    library: Compile, block_of: BlockOf, ran_in_lanes: list[int]
-) -> None:
+def test_machine_code_runs_in_lanes_with_the_bits_of_a_stop_alone(library, block_of, ran_in_lanes):
     """Whatever stands between them in the block; a class of a package runs one by one."""
     library()
     frictions = (0.06, 0.08, 0.11)
@@ -107,7 +98,7 @@ def test_machine_code_runs_in_lanes_with_the_bits_of_a_stop_alone(
 
 
 @pytest.mark.usefixtures("package", "folder")
-def test_a_controller_that_fails_ends_its_own_stop_alone(block_of: BlockOf, ran_in_lanes: list[int]) -> None:
+def test_a_controller_that_fails_ends_its_own_stop_alone(block_of, ran_in_lanes):
     inputs = [
         *copies(0.08, slip_threshold=99.0),
         *copies(0.08),
@@ -134,7 +125,7 @@ def test_a_controller_that_fails_ends_its_own_stop_alone(block_of: BlockOf, ran_
 
 
 @pytest.mark.usefixtures("package", "folder")
-def test_a_block_in_a_child_process_has_the_bits_of_one_here(block_of: BlockOf) -> None:
+def test_a_block_in_a_child_process_has_the_bits_of_one_here(block_of):
     inputs = copies(0.06, 0.09)
     with Workers() as workers:
         there = workers.run_block(block_of(inputs))

@@ -1,9 +1,5 @@
 """Controllers driven through given cycles: each that was created is closed once."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -19,21 +15,21 @@ class Instance:
 
     version = ""
 
-    def __init__(self) -> None:
+    def __init__(self):
         self.closed = 0
 
-    def reset(self) -> None:
+    def reset(self):
         """Nothing to reset."""
 
-    def close(self) -> None:
+    def close(self):
         self.closed += 1
 
 
-def test_a_controller_that_cannot_be_created_again_was_closed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_controller_that_cannot_be_created_again_was_closed_once(monkeypatch):
     """A second destroy of what a library has created would free its memory twice."""
-    created: list[Instance] = []
+    created = []
 
-    def opened(*arguments: Any) -> Instance:
+    def opened(*arguments):
         if created:
             raise ControllerError("only one licence")
         created.append(Instance())

@@ -1,22 +1,13 @@
 """`uictest_parameters` of a library: asked where its code runs, in a child process."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import pytest
 
 from uictest.controllers import ControllerError
 from uictest.plans.scenario import load
-from uictest.rig import Workers
 from uictest.rig.assembly import assemble
-from uictest.rig.single_stop import StopInputs
-
-Compile = Callable[..., Path]
 
 
-def stop(folder: Path, controller: str) -> StopInputs:
+def stop(folder, controller):
     path = folder / "stop.yaml"
     head = "schema: uictest/scenario/1\nname: stop\ninitial_speed: 40 km/h\n"
     path.write_text(f"{head}controller: {{library: libbad.so, {controller}}}\n", "utf-8")
@@ -39,9 +30,7 @@ SILENT = "-DSILENT"
         ('-DSTATED="{\\"at\\": {\\"range\\": [0]}}"', "parameters: {at: 1}", "are not of the form"),
     ],
 )
-def test_what_a_library_does_not_state_ends_the_stop(
-    folder: Path, library: Compile, workers: Workers, option: str, controller: str, message: str
-) -> None:
+def test_what_a_library_does_not_state_ends_the_stop(folder, library, workers, option, controller, message):
     library(*filter(None, [option]))
     with pytest.raises(ControllerError) as error:
         workers.run(stop(folder, controller))
@@ -57,8 +46,6 @@ def test_what_a_library_does_not_state_ends_the_stop(
         (SILENT, "declared_parameters: {at: {default: 9999, unit: '1'}}"),
     ],
 )
-def test_what_it_states_or_the_part_accepts_runs(
-    folder: Path, library: Compile, workers: Workers, option: str, controller: str
-) -> None:
+def test_what_it_states_or_the_part_accepts_runs(folder, library, workers, option, controller):
     library(*filter(None, [option]))
     workers.run(stop(folder, controller))

@@ -1,10 +1,5 @@
 """Two versions of a controller in one run: each has the modules that lie beside its own file."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from pathlib import Path
-
 import pytest
 
 from uictest.controllers import ControllerError
@@ -12,11 +7,7 @@ from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.workers import Workers
-from uictest.rig.single_stop import StopInputs
 
-VersionOf = Callable[[str], StopInputs]
-Compile = Callable[..., Path]
-StopOf = Callable[..., StopInputs]
 WSP = """
 from uictest.controllers import Outputs
 import shared_logic
@@ -29,10 +20,10 @@ class Wsp:
 
 
 @pytest.fixture
-def version_of(folder: Path) -> VersionOf:
+def version_of(folder):
     """A stop with the controller of a folder; its helper module has the folder's number."""
 
-    def inputs(name: str) -> StopInputs:
+    def inputs(name):
         (folder / name).mkdir(exist_ok=True)
         (folder / name / "wsp.py").write_text(WSP, "utf-8")
         (folder / name / "shared_logic.py").write_text(f"SPEED = {name[1:]}.0\n", "utf-8")
@@ -44,7 +35,7 @@ def version_of(folder: Path) -> VersionOf:
     return inputs
 
 
-def test_each_version_imports_what_lies_beside_it(version_of: VersionOf) -> None:
+def test_each_version_imports_what_lies_beside_it(version_of):
     stops = {name: version_of(name) for name in ("v1", "v2", "v1", "v2")}
     with Workers() as workers:
         for name, stop in stops.items():
@@ -52,22 +43,20 @@ def test_each_version_imports_what_lies_beside_it(version_of: VersionOf) -> None
             assert set(speeds[1:-1]) == {float(name[1:])}, name
 
 
-def test_in_one_process_a_second_version_is_refused(version_of: VersionOf) -> None:
+def test_in_one_process_a_second_version_is_refused(version_of):
     first, second = version_of("v3"), version_of("v4")
     run_in_process(first)
     with pytest.raises(ControllerError, match=r"^wsp\.py may import shared_logic\.py, and this process"):
         run_in_process(second)
 
 
-def test_modules_of_the_working_folder_are_not_those_of_the_child(
-    version_of: VersionOf, folder: Path
-) -> None:
+def test_modules_of_the_working_folder_are_not_those_of_the_child(version_of, folder):
     (folder / "mmap.py").write_text('raise RuntimeError("not ours")\n', "utf-8")
     with Workers() as workers:
         workers.run(version_of("v1"))
 
 
-def test_a_forked_copy_of_a_controller_does_not_answer(version_of: VersionOf, folder: Path) -> None:
+def test_a_forked_copy_of_a_controller_does_not_answer(version_of, folder):
     stop = version_of("v1")
     with Workers() as workers:
         expected = workers.run(stop).measures.tobytes()
@@ -79,7 +68,7 @@ def test_a_forked_copy_of_a_controller_does_not_answer(version_of: VersionOf, fo
             assert workers.run(stop).measures.tobytes() == expected
 
 
-def test_in_one_process_a_library_that_was_built_anew_is_refused(library: Compile, stop_of: StopOf) -> None:
+def test_in_one_process_a_library_that_was_built_anew_is_refused(library, stop_of):
     """The system's loader returns the library that it has loaded from the same path."""
     path = library()
     run_in_process(stop_of(library=path.name))

@@ -1,7 +1,5 @@
 """Controllers from outside in child processes: what they do wrong ends their stop and nothing else."""
 
-from __future__ import annotations
-
 import ctypes
 import os
 import re
@@ -9,22 +7,15 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
 
 from uictest.controllers import ControllerError
 from uictest.rig.external import worker
-from uictest.rig.external.block import BlockInputs
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.external.worker import Worker
 from uictest.rig.external.workers import Workers
-from uictest.rig.single_stop import StopInputs
-
-StopOf = Callable[..., StopInputs]
-Compile = Callable[..., Path]
-BlockOf = Callable[[Sequence[StopInputs]], BlockInputs]
 
 IN_PYTHON = {
     "create": "Bad(config) failed: ValueError: told to",
@@ -57,16 +48,16 @@ IN_C = {
 }
 
 
-def children() -> set[int]:
+def children():
     """The child processes of this one that are not yet collected."""
     return {int(pid) for pid in Path(f"/proc/{os.getpid()}/task/{os.getpid()}/children").read_text().split()}
 
 
-def bits(stop: object) -> bytes:
-    return bytes(stop.measures.tobytes() + stop.wheelset_measures.tobytes())  # type: ignore[attr-defined]
+def bits(stop):
+    return bytes(stop.measures.tobytes() + stop.wheelset_measures.tobytes())
 
 
-def line_of(fault: str) -> int:
+def line_of(fault):
     text = (Path(__file__).parent / "bad.py").read_text("utf-8").splitlines()
     raising = {
         "raise": 'raise ValueError("told to")',
@@ -77,7 +68,7 @@ def line_of(fault: str) -> int:
     return max(number for number, line in enumerate(text, start=1) if raising in line)
 
 
-def test_a_child_process_gives_the_bits_of_this_one(workers: Workers, stop_of: StopOf) -> None:
+def test_a_child_process_gives_the_bits_of_this_one(workers, stop_of):
     here, there = run_in_process(stop_of(), 10), workers.run(stop_of(), 10)
     assert bits(here) == bits(there)
     assert here.trace.train.tobytes() == there.trace.train.tobytes()
@@ -86,9 +77,7 @@ def test_a_child_process_gives_the_bits_of_this_one(workers: Workers, stop_of: S
 
 
 @pytest.mark.parametrize("fault", IN_PYTHON)
-def test_a_fault_in_python_names_the_reason_and_the_cycle(
-    workers: Workers, stop_of: StopOf, fault: str
-) -> None:
+def test_a_fault_in_python_names_the_reason_and_the_cycle(workers, stop_of, fault):
     expected = IN_PYTHON[fault]
     with pytest.raises(ControllerError) as error:
         workers.run(stop_of(fault))
@@ -96,21 +85,19 @@ def test_a_fault_in_python_names_the_reason_and_the_cycle(
 
 
 @pytest.mark.parametrize("fault", IN_C)
-def test_a_fault_in_c_names_the_reason_and_the_cycle(
-    workers: Workers, stop_of: StopOf, library: Compile, fault: str
-) -> None:
+def test_a_fault_in_c_names_the_reason_and_the_cycle(workers, stop_of, library, fault):
     library()
     with pytest.raises(ControllerError) as error:
         workers.run(stop_of(fault, library="libbad.so"))
     assert str(error.value).startswith(IN_C[fault])
 
 
-def test_a_controller_that_does_not_answer_is_ended(workers: Workers, stop_of: StopOf) -> None:
+def test_a_controller_that_does_not_answer_is_ended(workers, stop_of):
     with pytest.raises(ControllerError, match=r"^step did not return within 3 s \(cycle 700\)$"):
         workers.run(stop_of("spin", limit="3 s"))
 
 
-def test_a_fault_touches_no_later_stop_and_leaves_no_process_behind(stop_of: StopOf) -> None:
+def test_a_fault_touches_no_later_stop_and_leaves_no_process_behind(stop_of):
     before = children()
     with Workers() as own:
         sound = bits(own.run(stop_of()))
@@ -123,7 +110,7 @@ def test_a_fault_touches_no_later_stop_and_leaves_no_process_behind(stop_of: Sto
     assert children() - before == set()
 
 
-def test_a_second_close_leaves_files_of_others_alone() -> None:
+def test_a_second_close_leaves_files_of_others_alone():
     """What is opened after the first one has the numbers of what that has closed."""
     worker = Worker(("python", "", ""))
     worker.close()
@@ -137,9 +124,7 @@ def test_a_second_close_leaves_files_of_others_alone() -> None:
     ("fault", "message"),
     [("immortal", "destroy did not return within 3 s"), ("hang-later", "what runs outside of its calls")],
 )
-def test_a_controller_that_hangs_after_its_stop_is_ended(
-    stop_of: StopOf, monkeypatch: pytest.MonkeyPatch, fault: str, message: str
-) -> None:
+def test_a_controller_that_hangs_after_its_stop_is_ended(stop_of, monkeypatch, fault, message):
     """In its destructor, or while its process waits for the next stop."""
     with Workers() as own:
         own.run(stop_of())  # a slow machine starts the process before the limits count
@@ -153,9 +138,7 @@ def test_a_controller_that_hangs_after_its_stop_is_ended(
         own.run(stop_of())
 
 
-def test_a_process_that_takes_no_request_is_ended(
-    stop_of: StopOf, block_of: BlockOf, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_process_that_takes_no_request_is_ended(stop_of, block_of, monkeypatch):
     """A block of stops is more than the memory between two processes takes up."""
     monkeypatch.setattr(worker, "ANSWER_LIMIT", 1.0)
     asked = Worker(("python", "", ""))
@@ -166,7 +149,7 @@ def test_a_process_that_takes_no_request_is_ended(
 
 
 @pytest.mark.parametrize("fault", ["hang", "hold"])
-def test_a_child_ends_with_its_parent(stop_of: StopOf, folder: Path, fault: str) -> None:
+def test_a_child_ends_with_its_parent(stop_of, folder, fault):
     """The parent is killed while its child hangs in a step: no process and no temporary file is left.
 
     A controller that holds the interpreter lets no thread of the child run, and has started a process.
@@ -193,16 +176,16 @@ def test_a_child_ends_with_its_parent(stop_of: StopOf, folder: Path, fault: str)
     assert list(temporary.iterdir()) == []
 
 
-def children_of(pid: int) -> list[int]:
+def children_of(pid):
     tasks = Path(f"/proc/{pid}/task").glob("*/children")
     return [int(child) for task in tasks for child in task.read_text().split()]
 
 
-def is_zombie(pid: int) -> bool:
+def is_zombie(pid):
     return ") Z " in Path(f"/proc/{pid}/stat").read_text()
 
 
-def waited_for(condition: Callable[[], int]) -> int:
+def waited_for(condition):
     """Return what the condition gives once it is true; the machine may be slow."""
     for _ in range(6000):
         if found := condition():
@@ -211,7 +194,7 @@ def waited_for(condition: Callable[[], int]) -> int:
     raise AssertionError("waited in vain")
 
 
-def test_libraries_that_are_none(workers: Workers, stop_of: StopOf, library: Compile, folder: Path) -> None:
+def test_libraries_that_are_none(workers, stop_of, library, folder):
     text = folder / "text.so"
     text.write_text("no library", "utf-8")
     narrow = folder / "narrow.so"
@@ -231,9 +214,7 @@ def test_libraries_that_are_none(workers: Workers, stop_of: StopOf, library: Com
             workers.run(stop_of(library=name))
 
 
-def test_a_file_that_changes_after_it_was_read_is_not_run(
-    workers: Workers, stop_of: StopOf, folder: Path
-) -> None:
+def test_a_file_that_changes_after_it_was_read_is_not_run(workers, stop_of, folder):
     inputs = stop_of()
     with (folder / "bad.py").open("a") as file:
         file.write("# changed\n")
@@ -241,14 +222,12 @@ def test_a_file_that_changes_after_it_was_read_is_not_run(
         workers.run(inputs)
 
 
-def test_a_library_that_changes_while_it_is_loaded_is_not_run(
-    stop_of: StopOf, library: Compile, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_library_that_changes_while_it_is_loaded_is_not_run(stop_of, library, monkeypatch):
     path = library()
     inputs = stop_of(library="libbad.so")
     load = ctypes.CDLL
 
-    def replaced(location: str) -> ctypes.CDLL:
+    def replaced(location):
         with path.open("ab") as file:
             file.write(b"another build")
         return load(location)
@@ -258,9 +237,7 @@ def test_a_library_that_changes_while_it_is_loaded_is_not_run(
         run_in_process(inputs)
 
 
-def test_a_fault_in_a_block_ends_its_own_stop_alone(
-    workers: Workers, stop_of: StopOf, library: Compile, block_of: BlockOf
-) -> None:
+def test_a_fault_in_a_block_ends_its_own_stop_alone(workers, stop_of, library, block_of):
     """Stops of C libraries run side by side in lanes."""
     library()
     faults = ("create", "none", "crash", "none", "forbidden", "hang", "exit", "none", "destroy")
@@ -285,15 +262,13 @@ def test_a_fault_in_a_block_ends_its_own_stop_alone(
         assert own == bits(alone)
 
 
-def test_a_long_reason_is_shortened(workers: Workers, stop_of: StopOf) -> None:
+def test_a_long_reason_is_shortened(workers, stop_of):
     with pytest.raises(ControllerError) as error:
         workers.run(stop_of("long"))
     assert len(str(error.value)) < 3000
 
 
-def test_something_else_than_an_answer_ends_the_stop(
-    stop_of: StopOf, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_something_else_than_an_answer_ends_the_stop(stop_of, folder, monkeypatch):
     """A controller may write into whatever its process has open."""
     monkeypatch.setattr(worker, "ANSWER_LIMIT", 1.0)
     with Workers() as own, pytest.raises(ControllerError, match="something else than an answer"):
@@ -301,7 +276,7 @@ def test_something_else_than_an_answer_ends_the_stop(
 
 
 @pytest.mark.parametrize("head", ["object", "list", "depth"])
-def test_a_message_that_is_no_answer_ends_the_stop_and_its_process(stop_of: StopOf, head: str) -> None:
+def test_a_message_that_is_no_answer_ends_the_stop_and_its_process(stop_of, head):
     """The true answer comes after it, and the next stop would get that."""
     with Workers() as own:
         with pytest.raises(ControllerError, match="something else than an answer"):

@@ -1,8 +1,5 @@
 """From pressure to clamping force: the caliper's module, the computed force, and nothing that jumps."""
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import pytest
 from scipy.signal import lfilter
@@ -13,7 +10,6 @@ from ...conftest import quick
 
 step_clamping = quick(clamping.step_clamping)
 
-Benches = Callable[[Any], Any]
 EXACT = {
     f"{sensor}_{error}": 0.0
     for sensor in ("pressure", "loadcell")
@@ -27,7 +23,7 @@ EXACT = {
 }
 
 
-def clamped(wheelset: Any, p: Any, gauge: np.ndarray) -> dict[str, np.ndarray]:
+def clamped(wheelset, p, gauge):
     """What a module makes of a history of gauge pressures, Pa, one per step."""
     names = ("clamping_force", "caliper_force", "computed_force", "compensated_pressure", "wsp_share")
     rows = []
@@ -38,12 +34,12 @@ def clamped(wheelset: Any, p: Any, gauge: np.ndarray) -> dict[str, np.ndarray]:
     return dict(zip(names, np.array(rows).T, strict=True))
 
 
-def braking(full: float = 3.8e5) -> np.ndarray:
+def braking(full=3.8e5):
     """A rise to full pressure, a partial release, a second rise and a release."""
     return np.interp(np.arange(8000) * 5e-4, [0.0, 1.0, 2.0, 3.0, 4.0], [0.0, full, 0.4 * full, full, 0.0])
 
 
-def test_module_with_a_caliper_gives_what_its_loadcells_read(rig: Any, bench: Benches) -> None:
+def test_module_with_a_caliper_gives_what_its_loadcells_read(rig, bench):
     p = rig.parameters(**{**EXACT, "loadcell_gain_error": 0.01, "loadcell_offset": 20.0})[0]
     braked = bench(p)
     seen = clamped(braked.wheelsets[0], braked.p, braking())
@@ -52,13 +48,13 @@ def test_module_with_a_caliper_gives_what_its_loadcells_read(rig: Any, bench: Be
     assert seen["clamping_force"].max() > 1e4
 
 
-def test_module_without_a_caliper_gives_the_computed_force(rig: Any, bench: Benches) -> None:
+def test_module_without_a_caliper_gives_the_computed_force(rig, bench):
     braked = bench(rig.parameters(**EXACT)[0])
     seen = clamped(braked.wheelsets[1], braked.p, braking())
     np.testing.assert_array_equal(seen["clamping_force"], seen["computed_force"])
 
 
-def test_without_compensation_the_force_is_one_line_of_the_pressure(rig: Any, bench: Benches) -> None:
+def test_without_compensation_the_force_is_one_line_of_the_pressure(rig, bench):
     braked = bench(rig.parameters("rig.compensation=none", **EXACT)[0])
     gauge = braking()
     seen = clamped(braked.wheelsets[1], braked.p, gauge)
@@ -70,9 +66,7 @@ def test_without_compensation_the_force_is_one_line_of_the_pressure(rig: Any, be
     ("setting", "filters", "plays"),
     [("none", False, False), ("hysteresis", False, True), ("cylinder", True, False), ("full", True, True)],
 )
-def test_settings_of_the_compensation(
-    rig: Any, bench: Benches, setting: str, filters: bool, plays: bool
-) -> None:
+def test_settings_of_the_compensation(rig, bench, setting, filters, plays):
     """The cylinder's model filters the pressure as scipy does; the hysteresis opens a loop."""
     braked = bench(rig.parameters(f"rig.compensation={setting}", **EXACT)[0])
     p, gauge = braked.p, braking()
@@ -89,9 +83,7 @@ def test_settings_of_the_compensation(
 
 @pytest.mark.parametrize("module", [0, 1], ids=["caliper", "tank"])
 @pytest.mark.parametrize("setting", ["hysteresis", "full", "thermal"])
-def test_only_the_setting_thermal_takes_the_ratio_to_the_modelled_pressure(
-    rig: Any, bench: Benches, setting: str, module: int
-) -> None:
+def test_only_the_setting_thermal_takes_the_ratio_to_the_modelled_pressure(rig, bench, setting, module):
     """Of absolute pressures, and only where there is no caliper."""
     without, braked = (bench(rig.parameters(f"rig.compensation={setting}", **EXACT)[0]) for _ in range(2))
     braked.wheelsets[module].pressure_ratio = 0.97
@@ -103,7 +95,7 @@ def test_only_the_setting_thermal_takes_the_ratio_to_the_modelled_pressure(
     np.testing.assert_allclose(seen, expected, atol=1e-6)
 
 
-def test_a_caliper_needs_no_model_of_its_cylinder(rig: Any, bench: Benches) -> None:
+def test_a_caliper_needs_no_model_of_its_cylinder(rig, bench):
     """Its pressure is that of the cylinder already."""
     braked = bench(rig.parameters(**EXACT)[0])
     seen = clamped(braked.wheelsets[0], braked.p, braking())
@@ -111,7 +103,7 @@ def test_a_caliper_needs_no_model_of_its_cylinder(rig: Any, bench: Benches) -> N
 
 
 @pytest.mark.parametrize("turned", [0.0, 0.25, 1.0])
-def test_force_does_not_jump_when_the_phase_changes(rig: Any, bench: Benches, turned: float) -> None:
+def test_force_does_not_jump_when_the_phase_changes(rig, bench, turned):
     """At one pressure the lines of the two phases lie apart; the force goes from one to the other in time."""
     settings = {**EXACT, "wsp_squeezing_slope": 0.036, "wsp_releasing_slope": 0.053}
     braked = bench(rig.parameters("rig.compensation=hysteresis", **settings)[0])
@@ -129,7 +121,7 @@ def test_force_does_not_jump_when_the_phase_changes(rig: Any, bench: Benches, tu
     assert wheelset.wsp_share == 1.0
 
 
-def test_computed_force_is_never_negative(rig: Any, bench: Benches) -> None:
+def test_computed_force_is_never_negative(rig, bench):
     braked = bench(rig.parameters(**{**EXACT, "pressure_offset": -2e4})[0])
     for wheelset in braked.wheelsets:
         assert clamped(wheelset, braked.p, braking(1e5))["clamping_force"].min() == 0.0

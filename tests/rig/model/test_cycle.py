@@ -1,8 +1,5 @@
 """Once per controller cycle: friction under each wheelset, sensor noise and the delay of the valves."""
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -16,14 +13,12 @@ read_sensors = quick(at_cycle.read_sensors)
 start_cycle = quick(at_cycle.start_cycle)
 step = quick(at_step.step)
 
-Benches = Callable[[Any], Any]
 
-
-def scripted(commands: list[int]) -> Any:
+def scripted(commands):
     """The cycle with a controller that gives every wheelset the next of these commands, then fills."""
     script = iter(commands)
 
-    def cycle(car: Any, wheelsets: Any, p: Any, rail: Any) -> None:
+    def cycle(car, wheelsets, p, rail):
         start_cycle(car, wheelsets, p, rail)
         command = next(script, FILL)
         for wheelset in wheelsets:
@@ -32,7 +27,7 @@ def scripted(commands: list[int]) -> Any:
     return cycle
 
 
-def openings(bench: Any, rail: Any, commands: list[int], cycles: int) -> dict[str, np.ndarray]:
+def openings(bench, rail, commands, cycles):
     """Openings of the first valve after each step."""
     cycle = scripted(commands)
     vent, fill = [], []
@@ -47,7 +42,7 @@ def openings(bench: Any, rail: Any, commands: list[int], cycles: int) -> dict[st
 
 
 @pytest.mark.parametrize("steps", [1, 19, 20, 21, 127, 128, 240])
-def test_valve_moves_a_whole_delay_after_the_command(rig: Any, bench: Benches, steps: int) -> None:
+def test_valve_moves_a_whole_delay_after_the_command(rig, bench, steps):
     """Exact to the step, whatever part of a controller cycle the delay ends in."""
     delay = f"brake.system.wsp_valve.switching_delay={steps * 0.5} ms"
     parameters, rail = rig.parameters(delay, "brake.system.wsp_valve.travel_time=0.5 ms")
@@ -59,7 +54,7 @@ def test_valve_moves_a_whole_delay_after_the_command(rig: Any, bench: Benches, s
     np.testing.assert_array_equal(seen["fill"], 1.0 - expected)
 
 
-def test_valve_travels_for_its_travel_time(rig: Any, bench: Benches) -> None:
+def test_valve_travels_for_its_travel_time(rig, bench):
     parameters, rail = rig.parameters("brake.system.wsp_valve.travel_time=20 ms")
     seen = openings(bench(parameters), rail, [FILL] + [HOLD] * 20, 20)
     moving = (seen["fill"] > 0.0) & (seen["fill"] < 1.0)
@@ -67,14 +62,14 @@ def test_valve_travels_for_its_travel_time(rig: Any, bench: Benches) -> None:
     assert not seen["vent"].any()
 
 
-def test_bypassed_valves_always_fill(rig: Any, bench: Benches) -> None:
+def test_bypassed_valves_always_fill(rig, bench):
     parameters, rail = rig.parameters("rig.wsp=bypassed")
     seen = openings(bench(parameters), rail, [VENT] * 20, 20)
     assert np.all(seen["fill"] == 1.0)
     assert not seen["vent"].any()
 
 
-def test_friction_is_looked_up_at_each_wheelsets_own_place_and_time(rig: Any, bench: Benches) -> None:
+def test_friction_is_looked_up_at_each_wheelsets_own_place_and_time(rig, bench):
     """The second wheelset of a bogie is a wheelbase behind, the second bogie the pivots' distance."""
     parameters, _ = rig.parameters(friction_points=3, friction_times=2)
     rail = np.array([[0.0, 50.0, 60.0], [0.3, 0.3, 0.05], [0.0, 10.0, 0.0], [1.0, 0.5, 0.0]])
@@ -91,7 +86,7 @@ def test_friction_is_looked_up_at_each_wheelsets_own_place_and_time(rig: Any, be
         np.testing.assert_allclose(found, along * factor, rtol=1e-12)
 
 
-def test_a_step_of_friction_is_met_by_one_wheelset_after_the_other(rig: Any) -> None:
+def test_a_step_of_friction_is_met_by_one_wheelset_after_the_other(rig):
     friction = (
         "rail.friction={interpolation: steps, points: [{position: 0 m, friction: 0.3}, "
         "{position: 40 m, friction: 0.2}]}"
@@ -104,7 +99,7 @@ def test_a_step_of_friction_is_met_by_one_wheelset_after_the_other(rig: Any) -> 
     np.testing.assert_allclose(met, [0.0, wheelbase, pivots, pivots + wheelbase], atol=2.0 * one_cycle)
 
 
-def test_every_sensor_has_noise_of_its_own(rig: Any, bench: Benches) -> None:
+def test_every_sensor_has_noise_of_its_own(rig, bench):
     parameters, rail = rig.parameters()
     rolling = bench(parameters)
     undecided = scripted([])

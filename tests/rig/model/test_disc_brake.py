@@ -1,7 +1,5 @@
 """Pads and discs within stops: heat, friction, and what stays as it was."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -16,7 +14,7 @@ WET = ("rail.condition=wet", "rail.friction=0.09")
 STOP = ("speed", "distance", "clamping_force", "brake_torque", "slide", "friction")
 
 
-def ring_capacity(rig: Any, *overrides: str) -> float:
+def ring_capacity(rig, *overrides):
     """Heat capacity in J/K of the rings of one wheelset, from the scenario."""
     disc = rig.case(*overrides).scenario.brake.system.disc
     ring = disc.thermal
@@ -25,7 +23,7 @@ def ring_capacity(rig: Any, *overrides: str) -> float:
 
 
 @pytest.mark.parametrize("more", [(), WET], ids=["dry", "wet"])
-def test_the_work_of_the_pads_is_in_the_discs_or_in_the_air(rig: Any, more: tuple[str, ...]) -> None:
+def test_the_work_of_the_pads_is_in_the_discs_or_in_the_air(rig, more):
     overrides = (*WARM, *more, "brake.initial_disc_temperature=150 degC")
     wheelsets = rig.stop(*overrides).wheelsets
     np.testing.assert_array_equal(wheelsets.disc_heat, wheelsets.brake_heat)
@@ -35,7 +33,7 @@ def test_the_work_of_the_pads_is_in_the_discs_or_in_the_air(rig: Any, more: tupl
     assert (wheelsets.disc_cooling > 1e4).all()
 
 
-def test_without_air_all_heat_stays_in_the_discs(rig: Any) -> None:
+def test_without_air_all_heat_stays_in_the_discs(rig):
     still = (*WARM, "brake.system.disc.thermal.film_coefficient=0 W/(m2 K)")
     wheelsets = rig.stop(*still).wheelsets
     stored = ring_capacity(rig, *still) * (wheelsets.disc_temperature - 293.15)
@@ -43,7 +41,7 @@ def test_without_air_all_heat_stays_in_the_discs(rig: Any) -> None:
     assert np.abs(wheelsets.disc_cooling).max() < 1e-9 * wheelsets.brake_heat.min()
 
 
-def test_cooling_is_that_of_the_recorded_temperature(rig: Any) -> None:
+def test_cooling_is_that_of_the_recorded_temperature(rig):
     """h A (T - T_ambient) over the trace, by the trapezoidal rule."""
     overrides = (*WARM, "brake.initial_disc_temperature=300 degC")
     trace = rig.columns(*overrides, every=20)
@@ -53,7 +51,7 @@ def test_cooling_is_that_of_the_recorded_temperature(rig: Any) -> None:
     np.testing.assert_allclose(rig.stop(*overrides).wheelsets.disc_cooling, lost, rtol=2e-3)
 
 
-def test_the_surface_of_a_stop_is_as_hot_as_a_thick_disc_says(rig: Any) -> None:
+def test_the_surface_of_a_stop_is_as_hot_as_a_thick_disc_says(rig):
     """0.5319 q0 sqrt(t)/sqrt(k rho c) for a flux that falls linearly; the brake's build-up is short."""
     thick = (*WARM, "brake.system.disc.thermal.thickness=80 mm", "brake.position=emergency")
     finished = rig.stop(*thick)
@@ -66,14 +64,14 @@ def test_the_surface_of_a_stop_is_as_hot_as_a_thick_disc_says(rig: Any) -> None:
 
 
 @pytest.mark.parametrize("more", [(), WET], ids=["dry", "wet"])
-def test_modelled_discs_change_nothing_of_a_stop_with_constant_pads(rig: Any, more: tuple[str, ...]) -> None:
+def test_modelled_discs_change_nothing_of_a_stop_with_constant_pads(rig, more):
     constant, modelled = (rig.columns(*overrides, *more, every=20) for overrides in (DRY, WARM))
     assert all(np.array_equal(constant[name], modelled[name]) for name in STOP)
     assert (constant["disc_temperature"] == 293.15).all()
     assert (modelled["disc_surface_temperature"][-1] > 330.0).all()
 
 
-def test_a_table_of_ones_is_a_constant_pad(rig: Any) -> None:
+def test_a_table_of_ones_is_a_constant_pad(rig):
     """Factors of exactly 1, looked up in every cycle, give the bits of no factor at all."""
     ones = "{temperature: {points: [{temperature: 20 degC, factor: 1}, {temperature: 90 degC, factor: 1}]}}"
     tabled = rig.columns(*DRY, *WET, f"brake.pad={ones}", every=20)
@@ -82,7 +80,7 @@ def test_a_table_of_ones_is_a_constant_pad(rig: Any) -> None:
     assert (tabled["pad_friction"] == 0.38).all()
 
 
-def test_the_highest_temperature_is_a_measure_only_where_it_is_modelled(rig: Any) -> None:
+def test_the_highest_temperature_is_a_measure_only_where_it_is_modelled(rig):
     assert np.isnan(rig.stop(*DRY).wheelset_measures.maximum_disc_temperature).all()
     hot = rig.stop(*WARM, every=20)
     np.testing.assert_allclose(
@@ -92,7 +90,7 @@ def test_the_highest_temperature_is_a_measure_only_where_it_is_modelled(rig: Any
     )
 
 
-def test_recorded_pad_friction_is_the_product_of_the_tables(rig: Any) -> None:
+def test_recorded_pad_friction_is_the_product_of_the_tables(rig):
     """Speed, force and surface temperature as they were at the beginning of the cycle."""
     trace = rig.columns(*FADING, every=20)
     p = rig.parameters(*FADING)[0]
@@ -100,9 +98,9 @@ def test_recorded_pad_friction_is_the_product_of_the_tables(rig: Any) -> None:
     rubbing = trace["wheel_speed"] / p.wheel_radius * p.disc_radius
     expected = 0.38 * np.ones_like(rubbing)
     for law, at in (
-        (pad.speed, rubbing),  # type: ignore[attr-defined]
-        (pad.force, trace["clamping_force"]),  # type: ignore[attr-defined]
-        (pad.temperature, trace["disc_surface_temperature"]),  # type: ignore[attr-defined]
+        (pad.speed, rubbing),
+        (pad.force, trace["clamping_force"]),
+        (pad.temperature, trace["disc_surface_temperature"]),
     ):
         places, factors = zip(*law.table, strict=True)
         expected *= np.interp(at, places, factors)
@@ -111,7 +109,7 @@ def test_recorded_pad_friction_is_the_product_of_the_tables(rig: Any) -> None:
 
 
 @pytest.mark.parametrize("pad", ["disc-pad", "composite-block"])
-def test_torque_is_that_of_the_recorded_friction(rig: Any, pad: str) -> None:
+def test_torque_is_that_of_the_recorded_friction(rig, pad):
     trace = rig.columns(*DRY, *WET, f"brake.pad={pad}", every=20)
     p = rig.parameters()[0]
     per_force = p.calipers_per_wheelset * p.pads_per_caliper * p.disc_radius
@@ -119,7 +117,7 @@ def test_torque_is_that_of_the_recorded_friction(rig: Any, pad: str) -> None:
     np.testing.assert_allclose(trace["brake_torque"][1:], torque[1:], rtol=1e-14)
 
 
-def test_a_hot_start_stops_later_with_pads_that_fade(rig: Any) -> None:
+def test_a_hot_start_stops_later_with_pads_that_fade(rig):
     """Beyond 250 degC; constant pads do not know how hot the discs are."""
     distances = {
         hot: [
@@ -133,14 +131,14 @@ def test_a_hot_start_stops_later_with_pads_that_fade(rig: Any) -> None:
     assert len(set(constant)) == 1
 
 
-def test_the_initial_temperature_is_that_of_the_air_unless_given(rig: Any) -> None:
+def test_the_initial_temperature_is_that_of_the_air_unless_given(rig):
     cold = (*FADING, "brake.system.air.temperature=-10 degC")
     assert rig.parameters(*cold)[0].initial_disc_temperature == pytest.approx(263.15)
     given = rig.parameters(*cold, "brake.initial_disc_temperature=90 degC")[0]
     assert given.initial_disc_temperature == pytest.approx(363.15)
 
 
-def test_discs_warm_up_where_the_friction_depends_on_it_unless_told_otherwise(rig: Any) -> None:
+def test_discs_warm_up_where_the_friction_depends_on_it_unless_told_otherwise(rig):
     assert rig.parameters(*FADING)[0].models_disc_temperature == 1.0
     assert rig.parameters(*DRY, "brake.pad=composite-block")[0].models_disc_temperature == 0.0
     held = rig.columns(*FADING, "brake.disc_temperature=constant", every=20)
@@ -148,12 +146,12 @@ def test_discs_warm_up_where_the_friction_depends_on_it_unless_told_otherwise(ri
     assert np.ptp(held["pad_friction"]) > 0.005
 
 
-def test_energy_closes_with_pads_that_fade(rig: Any) -> None:
+def test_energy_closes_with_pads_that_fade(rig):
     assert abs(rig.stop(*FADING, *WET).measures.energy_residual) < 1e-9
 
 
 @pytest.mark.parametrize("cycle", ["5 ms", "20 ms"])
-def test_the_controller_cycle_hardly_matters(rig: Any, cycle: str) -> None:
+def test_the_controller_cycle_hardly_matters(rig, cycle):
     """Friction and temperature are held for a cycle, in which they hardly change."""
     stops = [rig.stop(*FADING, f"controller.cycle_time={each}") for each in ("10 ms", cycle)]
     distances = [float(stop.measures.braking_distance) for stop in stops]
@@ -162,7 +160,7 @@ def test_the_controller_cycle_hardly_matters(rig: Any, cycle: str) -> None:
     np.testing.assert_allclose(*hottest, rtol=1e-3)
 
 
-def test_friction_of_disc_pads_stays_in_its_band(rig: Any, bench: Any) -> None:
+def test_friction_of_disc_pads_stays_in_its_band(rig, bench):
     """0.35 to 0.45 over all speeds, forces and temperatures, with the reference friction of ep-disc."""
     settled = bench(rig.parameters(*FADING)[0])
     wheelset, lowest, highest = settled.wheelsets[0], 1.0, 0.0
@@ -178,7 +176,7 @@ def test_friction_of_disc_pads_stays_in_its_band(rig: Any, bench: Any) -> None:
     assert 0.40 < highest <= 0.45
 
 
-def test_a_wheelset_that_turns_backwards_rubs_as_fast(rig: Any, bench: Any) -> None:
+def test_a_wheelset_that_turns_backwards_rubs_as_fast(rig, bench):
     settled = bench(rig.parameters(*FADING)[0])
     frictions = []
     for rotation in (20.0, -20.0):
@@ -188,7 +186,7 @@ def test_a_wheelset_that_turns_backwards_rubs_as_fast(rig: Any, bench: Any) -> N
     assert frictions[0] == frictions[1]
 
 
-def test_a_disc_that_is_not_modelled_keeps_its_temperature_to_the_bit(rig: Any, bench: Any) -> None:
+def test_a_disc_that_is_not_modelled_keeps_its_temperature_to_the_bit(rig, bench):
     """It may run in a lane beside one that is."""
     settled = bench(rig.parameters(*DRY, "brake.initial_disc_temperature=123.4 degC")[0])
     wheelset = settled.wheelsets[0]
@@ -199,7 +197,7 @@ def test_a_disc_that_is_not_modelled_keeps_its_temperature_to_the_bit(rig: Any, 
     assert (wheelset.disc_temperature, wheelset.disc_surface_temperature) == (before, before)
 
 
-def test_tables_are_those_of_the_part(rig: Any) -> None:
+def test_tables_are_those_of_the_part(rig):
     p = rig.parameters(*FADING)[0]
     assert interpolated(300.0, p.pad_temperatures, p.pad_temperature_factors, p.pad_temperature_points) == (
         pytest.approx(1.0 + 0.03 * (300.0 - 293.15) / 130.0)
@@ -210,7 +208,7 @@ def test_tables_are_those_of_the_part(rig: Any) -> None:
     )
 
 
-def test_pad_friction_decides_the_dry_verdict(rig: Any) -> None:
+def test_pad_friction_decides_the_dry_verdict(rig):
     """Of 0.36, 0.38 and 0.42, all met in data of trains, one stops within 440 to 490 m from 120 km/h."""
     distances = {
         friction: float(

@@ -1,7 +1,6 @@
 """The air that a caliper's module would hold, followed beside a tank, against a module that has a caliper."""
 
-from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -14,7 +13,6 @@ step_clamping = quick(clamping.step_clamping)
 follow_module_air = quick(module_air.follow_module_air)
 step_air = quick(pneumatics.step_air)
 
-Benches = Callable[[Any], Any]
 EXACT = {f"pressure_{error}": 0.0 for error in ("gain_error", "offset", "noise")} | {
     # A converter so fine that it does not show.
     "pressure_resolution": 2.0**-30,
@@ -33,7 +31,7 @@ class Followed(NamedTuple):
     modelled: np.ndarray
 
 
-def commands(seed: int, seconds: float) -> Iterator[tuple[float, float]]:
+def commands(seed, seconds):
     """Fill for two seconds, then fill, hold and vent for 40 to 200 ms at random; (fill, vent) per step."""
     random = np.random.default_rng(seed)
     history = [FILL] * 4000
@@ -42,7 +40,7 @@ def commands(seed: int, seconds: float) -> Iterator[tuple[float, float]]:
     return iter(history[: round(seconds / 5e-4)])
 
 
-def followed(bench: Any, history: Iterator[tuple[float, float]]) -> Followed:
+def followed(bench, history):
     """Step air and clamping of modules 1, with a caliper, and 2, a tank, under the same valve commands."""
     p, rows = bench.p, []
     caliper, tank = bench.wheelsets[:2]
@@ -62,10 +60,10 @@ def followed(bench: Any, history: Iterator[tuple[float, float]]) -> Followed:
 
 
 @pytest.fixture(name="thermal")
-def _thermal(rig: Any, bench: Benches) -> Callable[..., Any]:
+def _thermal(rig, bench):
     """A rig with the modelled air, whose walls, piston and pressures are those of the rig itself."""
 
-    def thermal(*overrides: str, **changes: float) -> Any:
+    def thermal(*overrides, **changes):
         overrides = ("rig.compensation=thermal", *overrides)
         p = rig.parameters(*overrides, **(EXACT | changes))[0]
         per_exchange = (p.heat_capacity_ratio - 1.0) * p.air_temperature / p.tank_volume
@@ -83,7 +81,7 @@ def _thermal(rig: Any, bench: Benches) -> Callable[..., Any]:
     return thermal
 
 
-def test_modelled_pressure_is_that_of_the_caliper_within_a_per_cent(thermal: Any) -> None:
+def test_modelled_pressure_is_that_of_the_caliper_within_a_per_cent(thermal):
     """Of the commanded pressure: friction of the piston and heat of the line are not modelled."""
     bench = thermal()
     caliper, tank, modelled = followed(bench, commands(0, 6.0))
@@ -93,7 +91,7 @@ def test_modelled_pressure_is_that_of_the_caliper_within_a_per_cent(thermal: Any
     assert np.abs(modelled - caliper)[acting].max() < 0.01 * bench.p.commanded_pressure
 
 
-def test_heat_alone_is_followed_within_two_per_mille(thermal: Any) -> None:
+def test_heat_alone_is_followed_within_two_per_mille(thermal):
     """A piston that never moves and a line as warm as its wall: only the balls make a difference."""
     still = {"preload": 1e6, "caliper_tank_volume": thermal().p.tank_volume, "line_exchange": 1e9}
     bench = thermal(**still, **LIKE_THE_TANK)
@@ -102,7 +100,7 @@ def test_heat_alone_is_followed_within_two_per_mille(thermal: Any) -> None:
     assert np.abs(modelled - caliper).max() < 0.002 * bench.p.commanded_pressure
 
 
-def test_the_piston_alone_is_followed_within_two_per_mille(thermal: Any) -> None:
+def test_the_piston_alone_is_followed_within_two_per_mille(thermal):
     """No heat and a quick piston before a rigid disc: only the volume that it sweeps makes a difference."""
     caliper = ("viscous_friction=20 N s/m", "contact_friction=0 N s/m", "contact_stiffness=1e10 N/m")
     walls = {"tank_exchange": 0.0, "caliper_tank_exchange": 0.0, "line_exchange": 1e9}
@@ -112,7 +110,7 @@ def test_the_piston_alone_is_followed_within_two_per_mille(thermal: Any) -> None
     assert np.abs(modelled - caliper).max() < 0.002 * bench.p.commanded_pressure
 
 
-def test_a_module_like_the_tank_has_the_tanks_pressure_at_every_step(thermal: Any) -> None:
+def test_a_module_like_the_tank_has_the_tanks_pressure_at_every_step(thermal):
     exchange = thermal().p.modelled_tank_exchange
     bench = thermal(modelled_exchange=exchange, **LIKE_THE_TANK)
     _, tank, modelled = followed(bench, commands(1, 4.0))
@@ -120,7 +118,7 @@ def test_a_module_like_the_tank_has_the_tanks_pressure_at_every_step(thermal: An
     np.testing.assert_allclose(modelled, tank, rtol=1e-8)
 
 
-def test_air_at_rest_stays_at_rest(thermal: Any) -> None:
+def test_air_at_rest_stays_at_rest(thermal):
     """Until the dead time of the command is over."""
     bench = thermal()
     _, _, modelled = followed(bench, iter([FILL] * int(bench.p.dead_time / bench.p.step)))
@@ -132,9 +130,7 @@ def test_air_at_rest_stays_at_rest(thermal: Any) -> None:
     [({}, 1e-4), ({"pressure_offset": 2e3, "pressure_gain_error": 0.005}, 1e-3)],
     ids=["exact sensors", "offset and gain"],
 )
-def test_the_ratio_of_pressures_comes_to_one_while_the_valve_fills(
-    thermal: Any, errors: dict[str, float], accuracy: float
-) -> None:
+def test_the_ratio_of_pressures_comes_to_one_while_the_valve_fills(thermal, errors, accuracy):
     """Whatever went before there is no drift; what sensors err in shifts tank, line and module alike."""
     bench = thermal(**errors)
     followed(bench, commands(0, 4.0))
@@ -145,7 +141,7 @@ def test_the_ratio_of_pressures_comes_to_one_while_the_valve_fills(
     assert tank.modelled_travel == 1.0
 
 
-def test_the_piston_closes_the_clearance_once_and_opens_it_when_the_tank_is_empty(thermal: Any) -> None:
+def test_the_piston_closes_the_clearance_once_and_opens_it_when_the_tank_is_empty(thermal):
     bench = thermal()
     tank = bench.wheelsets[1]
     followed(bench, iter([FILL] * 2000))

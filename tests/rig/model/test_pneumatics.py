@@ -1,8 +1,6 @@
 """Air of the rig: what flows in, what is stored, what flows out."""
 
-from collections.abc import Callable
 from copy import deepcopy
-from typing import Any
 
 import numpy as np
 import pytest
@@ -15,42 +13,40 @@ from ...conftest import quick
 
 step_air = quick(pneumatics.step_air)
 
-Benches = Callable[[Any], Any]
 
-
-def set_valves(bench: Any, fill: float, vent: float) -> None:
+def set_valves(bench, fill, vent):
     for wheelset in bench.wheelsets:
         wheelset.fill_before = wheelset.fill_after = wheelset.fill_opening = fill
         wheelset.vent_before = wheelset.vent_after = wheelset.vent_opening = vent
 
 
-def blow(bench: Any, steps: int) -> None:
+def blow(bench, steps):
     for _ in range(steps):
         step_air(bench.car, bench.wheelsets, bench.p)
         bench.car.steps += 1.0
         bench.car.time = bench.car.steps * bench.p.step
 
 
-def after(bench: Any, fill: float, steps: int) -> Any:
+def after(bench, fill, steps):
     set_valves(bench, fill=fill, vent=0.0)
     blow(bench, steps)
     return bench
 
 
 @pytest.fixture(scope="module")
-def histories(rig: Any, bench: Benches) -> dict[str, Any]:
+def histories(rig, bench):
     """A rig after eight seconds of braking, and one whose valves were shut for the first three."""
     p = rig.parameters()[0]
     return {"braked": after(bench(p), 1.0, 16_000), "charged": after(bench(p), 0.0, 6000)}
 
 
 @pytest.fixture
-def braked(histories: dict[str, Any]) -> Any:
+def braked(histories):
     """A rig after eight seconds of braking, its valves filling."""
     return deepcopy(histories["braked"])
 
 
-def test_brake_line_and_tanks_reach_the_demand(braked: Any) -> None:
+def test_brake_line_and_tanks_reach_the_demand(braked):
     p = braked.p
     assert braked.car.demanded_pressure == p.commanded_pressure
     assert braked.car.line_pressure - p.atmospheric_pressure == pytest.approx(p.commanded_pressure, rel=1e-4)
@@ -59,7 +55,7 @@ def test_brake_line_and_tanks_reach_the_demand(braked: Any) -> None:
         assert wheelset.pressure == pytest.approx(braked.car.line_pressure, rel=3e-4)
 
 
-def test_air_that_left_the_reservoir_is_in_the_line_and_the_tanks(braked: Any) -> None:
+def test_air_that_left_the_reservoir_is_in_the_line_and_the_tanks(braked):
     car = braked.car
     lost = braked.p.reservoir_pressure - car.reservoir_pressure
     expected = (car.consumed_air - car.compressor_air) * braked.p.gas_constant * braked.p.air_temperature
@@ -67,7 +63,7 @@ def test_air_that_left_the_reservoir_is_in_the_line_and_the_tanks(braked: Any) -
     assert stored_air(car, braked.wheelsets) == pytest.approx(car.initial_air + car.compressor_air, rel=1e-13)
 
 
-def test_nothing_is_lost_however_the_valves_move(rig: Any, bench: Benches) -> None:
+def test_nothing_is_lost_however_the_valves_move(rig, bench):
     moving = bench(rig.parameters()[0])
     random = np.random.default_rng(6)
     for _ in range(200):
@@ -82,7 +78,7 @@ def test_nothing_is_lost_however_the_valves_move(rig: Any, bench: Benches) -> No
 
 
 @pytest.fixture
-def charged(histories: dict[str, Any]) -> Any:
+def charged(histories):
     """A rig with a full brake line before empty tanks."""
     return deepcopy(histories["charged"])
 
@@ -90,9 +86,7 @@ def charged(histories: dict[str, Any]) -> Any:
 @pytest.mark.parametrize(
     ("start", "fill", "vent"), [("charged", 1.0, 0.0), ("braked", 0.0, 1.0)], ids=["filled", "vented"]
 )
-def test_held_tanks_come_to_the_temperature_of_their_walls(
-    histories: dict[str, Any], start: str, fill: float, vent: float
-) -> None:
+def test_held_tanks_come_to_the_temperature_of_their_walls(histories, start, fill, vent):
     """T - Tw falls as exp(-t h A / (m cv)); the pressure sinks after a quick fill, rises after a vent."""
     held = deepcopy(histories[start])
     set_valves(held, fill, vent)
@@ -115,20 +109,20 @@ def test_held_tanks_come_to_the_temperature_of_their_walls(
     np.testing.assert_allclose(pressures[-1], gas_law, rtol=1e-3)
 
 
-def test_the_balls_keep_the_air_nearer_to_the_temperature_of_the_wall(charged: Any) -> None:
+def test_the_balls_keep_the_air_nearer_to_the_temperature_of_the_wall(charged):
     set_valves(charged, fill=1.0, vent=0.0)
     blow(charged, 400)
     with_balls, *bare = (w.air_temperature - charged.p.air_temperature for w in charged.wheelsets)
     assert 0.0 < with_balls < 0.9 * min(bare)
 
 
-def test_vented_tanks_fall_to_the_atmosphere(braked: Any) -> None:
+def test_vented_tanks_fall_to_the_atmosphere(braked):
     set_valves(braked, fill=0.0, vent=1.0)
     blow(braked, 20_000)
     assert braked.wheelsets[1].pressure == pytest.approx(braked.p.atmospheric_pressure, rel=1e-3)
 
 
-def test_temperatures_stay_those_of_brakes_however_the_valves_move(charged: Any) -> None:
+def test_temperatures_stay_those_of_brakes_however_the_valves_move(charged):
     """From a full line into empty tanks and out again: hotter or colder than this, no step was right."""
     random = np.random.default_rng(2)
     for fill, vent in [(1.0, 0.0), *random.choice([(1.0, 0.0), (0.0, 0.0), (0.0, 1.0)], 80)]:
@@ -139,7 +133,7 @@ def test_temperatures_stay_those_of_brakes_however_the_valves_move(charged: Any)
             assert all(150.0 < temperature < 450.0 for temperature in (charged.car.line_temperature, *air))
 
 
-def test_flows_are_those_of_air_of_the_temperature_that_it_came_to(charged: Any) -> None:
+def test_flows_are_those_of_air_of_the_temperature_that_it_came_to(charged):
     set_valves(charged, fill=1.0, vent=0.0)
     blow(charged, 200)
     car, modules = charged.car, charged.wheelsets
@@ -149,7 +143,7 @@ def test_flows_are_those_of_air_of_the_temperature_that_it_came_to(charged: Any)
     assert coldness == [REFERENCE_TEMPERATURE / temperature for temperature in temperatures]
 
 
-def test_a_tank_takes_the_enthalpy_of_the_air_in_the_line(charged: Any) -> None:
+def test_a_tank_takes_the_enthalpy_of_the_air_in_the_line(charged):
     """Of a line that is warmer than its wall: cp T_line m_in, less what the wall takes in a step."""
     p, car, tank = charged.p, charged.car, charged.wheelsets[1]
     car.line_temperature = 350.0
@@ -162,7 +156,7 @@ def test_a_tank_takes_the_enthalpy_of_the_air_in_the_line(charged: Any) -> None:
     assert gained == pytest.approx(p.heat_capacity_pressure * 350.0 * (tank.air_mass - mass), rel=1e-9)
 
 
-def test_air_at_rest_does_not_change_by_a_bit(rig: Any, bench: Benches) -> None:
+def test_air_at_rest_does_not_change_by_a_bit(rig, bench):
     """Until the dead time of the command is over."""
     resting = bench(rig.parameters()[0])
     before = [(w.pressure, w.air_temperature, w.air_mass) for w in resting.wheelsets]
@@ -172,7 +166,7 @@ def test_air_at_rest_does_not_change_by_a_bit(rig: Any, bench: Benches) -> None:
     assert (resting.car.line_pressure, resting.car.line_temperature) == line
 
 
-def test_overcharged_line_is_exhausted_by_the_relay_valve(braked: Any) -> None:
+def test_overcharged_line_is_exhausted_by_the_relay_valve(braked):
     braked.p.commanded_pressure *= 0.5
     blow(braked, 8000)
     assert braked.car.exhausted_air > 0.0
@@ -181,7 +175,7 @@ def test_overcharged_line_is_exhausted_by_the_relay_valve(braked: Any) -> None:
     assert abs(air_energy_residual(braked.car, braked.wheelsets, braked.p)) < 1e-12
 
 
-def test_moving_piston_draws_on_the_air_of_its_tank_and_of_no_other(rig: Any, bench: Benches) -> None:
+def test_moving_piston_draws_on_the_air_of_its_tank_and_of_no_other(rig, bench):
     """p V^1.4 stays: 0.1 mm of stroke in a closed tank, too quick for heat; p dV is its work."""
     closed = bench(rig.parameters()[0])
     set_valves(closed, fill=0.0, vent=0.0)
@@ -198,7 +192,7 @@ def test_moving_piston_draws_on_the_air_of_its_tank_and_of_no_other(rig: Any, be
     assert work == pytest.approx([before[0] * p.piston_area * 1e-4, 0.0, 0.0, 0.0])
 
 
-def test_work_on_the_piston_is_in_the_account_of_the_airs_energy(braked: Any) -> None:
+def test_work_on_the_piston_is_in_the_account_of_the_airs_energy(braked):
     for stroke in np.linspace(0.0, 3e-3, 50).tolist():
         caliper = braked.wheelsets[0]
         caliper.stroke_change, caliper.stroke = stroke - caliper.stroke, stroke
@@ -207,8 +201,8 @@ def test_work_on_the_piston_is_in_the_account_of_the_airs_energy(braked: Any) ->
     assert abs(air_energy_residual(braked.car, braked.wheelsets, braked.p)) < 1e-12
 
 
-def test_position_g_fills_more_slowly_than_r(rig: Any) -> None:
-    def developed(position: str) -> float:
+def test_position_g_fills_more_slowly_than_r(rig):
+    def developed(position):
         trace = rig.columns(f"brake.position={position}")
         full = trace["tank_pressure"].max(axis=0)
         return float(trace["time"][np.argmax(trace["tank_pressure"][:, 1] > 0.95 * full[1])])
@@ -217,7 +211,7 @@ def test_position_g_fills_more_slowly_than_r(rig: Any) -> None:
     assert 18.0 < developed("G") < 30.0
 
 
-def test_compressor_refills_the_reservoir_up_to_its_cut_out(rig: Any, bench: Benches) -> None:
+def test_compressor_refills_the_reservoir_up_to_its_cut_out(rig, bench):
     p = rig.parameters(compressor_delivery=0.5)[0]
     p.reservoir_pressure = p.compressor_cut_in - 1e4
     low = bench(p)

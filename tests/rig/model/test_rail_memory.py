@@ -1,8 +1,6 @@
 """What the rail remembers: shares left behind, read by the next wheelset at the same place."""
 
-from collections.abc import Callable, Sequence
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +10,6 @@ from numpy.typing import NDArray
 from uictest.rig.model.rail import MARGIN, POINTS, RAIL_MEMORY, clean_rail, forget_rail
 
 Array = NDArray[np.float64]
-LossPerMetre = Callable[[float], float]
 BEHIND = (0.0, 2.5, 17.5, 20.0)
 """Places of the wheelsets behind the first one, m."""
 GRID = 15.0 / (POINTS - MARGIN)
@@ -28,17 +25,15 @@ class Track:
         friction: that each of them met, shape (cycles, 4).
     """
 
-    def __init__(self, losses: Sequence[LossPerMetre], advance: float, **numbers: float) -> None:
+    def __init__(self, losses, advance, **numbers):
         settings = {"cleaning_response": 1 / 5300, "cleaning_decay": 2.0, "recovered_friction": 0.28}
-        p: Any = SimpleNamespace(rail_points_per_metre=1.0 / GRID, carry_over=1.0, **settings)
+        p = SimpleNamespace(rail_points_per_metre=1.0 / GRID, carry_over=1.0, **settings)
         vars(p).update(numbers)
-        car: Any = SimpleNamespace(position=0.0)
-        wheelsets: list[Any] = [
-            SimpleNamespace(behind=behind, contact_loss=0.0, cleaned_share=0.0) for behind in BEHIND
-        ]
-        memory: Any = np.full(1, 9.0, RAIL_MEMORY)[0]
+        car = SimpleNamespace(position=0.0)
+        wheelsets = [SimpleNamespace(behind=behind, contact_loss=0.0, cleaned_share=0.0) for behind in BEHIND]
+        memory = np.full(1, 9.0, RAIL_MEMORY)[0]
         forget_rail(memory)
-        rows: list[list[list[float]]] = [[], [], []]
+        rows = [[], [], []]
         for cycle in range(round(60.0 / advance)):
             for wheelset, loss in zip(wheelsets, losses, strict=True):
                 middle = car.position - 0.5 * advance - wheelset.behind
@@ -51,22 +46,21 @@ class Track:
             car.position += advance
         self.place, self.share, self.friction = (np.array(each) for each in rows)
 
-    def share_at(self, number: int, places: Array) -> Array:
+    def share_at(self, number, places):
         """What a wheelset left at places of the track."""
-        found: Array = np.interp(places, self.place[:, number], self.share[:, number])
-        return found
+        return np.interp(places, self.place[:, number], self.share[:, number])
 
 
-def patch(first: float, last: float, loss: float = 8000.0) -> LossPerMetre:
+def patch(first, last, loss=8000.0):
     return lambda place: loss if first <= place < last else 0.0
 
 
-def rolls(place: float) -> float:
+def rolls(place):
     return 0.0
 
 
 @pytest.mark.parametrize("speed", [2.0, 9.0, 33.0])
-def test_a_wheelset_meets_at_a_place_what_the_one_before_left_there(speed: float) -> None:
+def test_a_wheelset_meets_at_a_place_what_the_one_before_left_there(speed):
     """Only the first slides, between 10 m and 14 m. The others find its patch there, at any speed."""
     track = Track([patch(10.0, 14.0), rolls, rolls, rolls], 0.01 * speed)
     assert track.share[:, 0].max() == pytest.approx(1.0 - np.exp(-8000.0 / 5300.0), rel=0.01)
@@ -80,13 +74,13 @@ def test_a_wheelset_meets_at_a_place_what_the_one_before_left_there(speed: float
 
 
 @pytest.mark.parametrize("speed", [2.0, 9.0, 33.0])
-def test_a_follower_comes_later_by_distance_over_speed(speed: float) -> None:
+def test_a_follower_comes_later_by_distance_over_speed(speed):
     track = Track([patch(10.0, 14.0), rolls, rolls, rolls], 0.01 * speed)
     first = [np.flatnonzero(track.share[:, number] > 0.3)[0] for number in range(4)]
     np.testing.assert_allclose(np.subtract(first, first[0]), np.divide(BEHIND, 0.01 * speed), atol=1.0)
 
 
-def test_carry_over_counts_once_for_every_wheelset_that_follows() -> None:
+def test_carry_over_counts_once_for_every_wheelset_that_follows():
     track = Track([patch(10.0, 20.0), rolls, rolls, rolls], 0.1, carry_over=0.5)
     place = np.array([18.0])
     left = [track.share_at(number, place)[0] for number in range(4)]
@@ -94,7 +88,7 @@ def test_carry_over_counts_once_for_every_wheelset_that_follows() -> None:
     np.testing.assert_allclose(left, [settled, settled / 2, settled / 4, settled / 8], rtol=1e-3)
 
 
-def test_each_wheelset_cleans_what_the_others_have_left() -> None:
+def test_each_wheelset_cleans_what_the_others_have_left():
     track = Track([patch(5.0, 25.0)] * 4, 0.1, carry_over=0.5)
     one = 1.0 - np.exp(-8000.0 / 5300.0)
     expected = [one]
@@ -106,7 +100,7 @@ def test_each_wheelset_cleans_what_the_others_have_left() -> None:
     np.testing.assert_allclose(met, 0.08 + np.array(expected) * 0.2, rtol=1e-3)
 
 
-def test_the_first_wheelset_does_not_depend_on_the_carry_over() -> None:
+def test_the_first_wheelset_does_not_depend_on_the_carry_over():
     kept, lost = (Track([patch(5.0, 25.0)] * 4, 0.1, carry_over=share) for share in (1.0, 0.0))
     np.testing.assert_array_equal(kept.share[:, 0], lost.share[:, 0])
     places = lost.place[60:, 0]
@@ -114,7 +108,7 @@ def test_the_first_wheelset_does_not_depend_on_the_carry_over() -> None:
     assert np.all(kept.share[200:, 1:].max(axis=0) > lost.share[200:, 1:].max(axis=0))
 
 
-def test_rail_that_was_passed_before_the_brake_command_was_not_cleaned() -> None:
+def test_rail_that_was_passed_before_the_brake_command_was_not_cleaned():
     """The followers start on it."""
     track = Track([patch(-50.0, 50.0), rolls, rolls, rolls], 0.1)
     for number in (1, 2, 3):
@@ -122,7 +116,7 @@ def test_rail_that_was_passed_before_the_brake_command_was_not_cleaned() -> None
         np.testing.assert_allclose(track.share[before, number], 0.0, atol=1e-12)
 
 
-def test_a_rail_better_than_a_cleaned_one_keeps_its_friction() -> None:
+def test_a_rail_better_than_a_cleaned_one_keeps_its_friction():
     track = Track([patch(5.0, 25.0)] * 4, 0.1, recovered_friction=0.05)
     assert np.all(track.friction == 0.08)
 
@@ -135,9 +129,7 @@ def test_a_rail_better_than_a_cleaned_one_keeps_its_friction() -> None:
     st.floats(0.0, 1.0),
 )
 @settings(max_examples=20)
-def test_shares_stay_between_nothing_and_all(
-    slides: list[tuple[float, float, float]], advance: float, carry_over: float
-) -> None:
+def test_shares_stay_between_nothing_and_all(slides, advance, carry_over):
     losses = [patch(first, first + length, loss) for first, length, loss in slides]
     track = Track(losses, advance, carry_over=carry_over)
     assert np.all((track.share >= 0.0) & (track.share <= 1.0))

@@ -1,8 +1,6 @@
 """The vehicle against a state space built here from its geometry, and against statics by hand."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import control
 import numpy as np
@@ -19,20 +17,17 @@ from uictest.rig.model.slip_search import HIGHEST_LOAD, bracket_slip
 from uictest.rig.model.step import step
 
 Array = NDArray[np.float64]
-Benches = Callable[[Any], Any]
 CREEP_DAMPING = 5e4
 """Creep force of one wheel per slip speed in the linear law that stands in for Polach's, N s/m."""
 LEVEL = {"resistance_constant": 0.0, "resistance_linear": 0.0, "resistance_quadratic": 0.0, "gradient": 0.0}
 
 
-def linear_creep(
-    gradient: tuple[float, ...], speed: float, limit: float, limit_slope: float, stiffness: float, *_: float
-) -> tuple[float, float]:
+def linear_creep(gradient, speed, limit, limit_slope, stiffness, *_):
     slip_speed = gradient[0] / stiffness
     return CREEP_DAMPING * slip_speed, CREEP_DAMPING
 
 
-def still(*_: object) -> None:
+def still(*_):
     pass
 
 
@@ -60,7 +55,7 @@ class Linear:
     inputs: Array
 
     @property
-    def system(self) -> Any:
+    def system(self):
         """State space of the 13 sprung coordinates and 17 speeds, with the brake torques as input."""
         inverse = np.linalg.inv(self.mass)
         a = np.zeros((30, 30))
@@ -71,7 +66,7 @@ class Linear:
         return control.ss(a, b, np.eye(30), np.zeros((30, 4)))
 
 
-def point(frame: int, ahead: float, above: float) -> tuple[Array, Array]:
+def point(frame, ahead, above):
     """Rows that give the longitudinal and vertical displacement of a point of a frame."""
     along, up = np.zeros(FREEDOMS), np.zeros(FREEDOMS)
     along[[frame, frame + 2]] = 1.0, -above
@@ -79,14 +74,14 @@ def point(frame: int, ahead: float, above: float) -> tuple[Array, Array]:
     return along, up
 
 
-def linear_vehicle(p: Any) -> Linear:
+def linear_vehicle(p):
     """Energy method: each spring and damper adds k b b^T and c b b^T, b being the row of its deflection."""
     frames = [p.body_mass, p.body_mass, p.body_inertia] + 2 * [p.bogie_mass, p.bogie_mass, p.bogie_inertia]
     mass = np.diag([*frames, *4 * [p.wheelset_mass], *4 * [p.wheelset_inertia]])
     damping, stiffness = np.zeros((2, FREEDOMS, FREEDOMS))
     inputs = np.zeros((FREEDOMS, 4))
 
-    def connect(deflection: Array, k: float, c: float) -> None:
+    def connect(deflection, k, c):
         stiffness[:] += k * np.outer(deflection, deflection)
         damping[:] += c * np.outer(deflection, deflection)
 
@@ -116,11 +111,11 @@ def linear_vehicle(p: Any) -> Linear:
     return Linear(mass, damping, stiffness, inputs)
 
 
-def frames(bench: Any) -> list[Any]:
+def frames(bench):
     return [bench.car, *bench.bogies]
 
 
-def state(bench: Any) -> Array:
+def state(bench):
     """State of the rig in the order of the state space."""
     positions = [x for f in frames(bench) for x in (f.position, f.height, f.pitch)]
     speeds = [x for f in frames(bench) for x in (f.speed, f.vertical_speed, f.pitch_rate)]
@@ -129,7 +124,7 @@ def state(bench: Any) -> Array:
     return np.array(positions + speeds)
 
 
-def set_state(bench: Any, x: Array) -> None:
+def set_state(bench, x):
     values = iter(x.tolist())
     for frame in frames(bench):
         frame.position, frame.height, frame.pitch = next(values), next(values), next(values)
@@ -143,7 +138,7 @@ def set_state(bench: Any, x: Array) -> None:
         wheelset.rotation = next(values)
 
 
-def advance(bench: Any, torques: Array) -> None:
+def advance(bench, torques):
     p = bench.p
     per_force = p.calipers_per_wheelset * p.pads_per_caliper * p.reference_pad_friction * p.disc_radius
     for wheelset, torque in zip(bench.wheelsets, torques.tolist(), strict=True):
@@ -152,7 +147,7 @@ def advance(bench: Any, torques: Array) -> None:
     LINEAR_STEP(bench.car, bench.bogies, bench.wheelsets, p)
 
 
-def one_step_matrix(bench: Any) -> Array:
+def one_step_matrix(bench):
     """The linear map of one step, found by displacing each state by one."""
     rolling = state(bench)
     columns = []
@@ -164,20 +159,20 @@ def one_step_matrix(bench: Any) -> Array:
 
 
 @pytest.fixture(name="level", params=["intercity-180", "manchester-benchmark", "crh380a"], scope="module")
-def _level(request: pytest.FixtureRequest, rig: Any) -> Callable[[float], Any]:
+def _level(request, rig):
     """Parameters of a vehicle on level track without running resistance, at a step in ms."""
 
-    def parameters(step: float) -> Any:
+    def parameters(step):
         overrides = (f"vehicle={request.param}", "rig.compensation=none", f"simulation.time_step={step} ms")
         return rig.parameters(*overrides, initial_speed=30.0, **LEVEL)[0]
 
     return parameters
 
 
-def test_one_step_is_the_matrix_exponential_to_second_order(level: Any, bench: Benches) -> None:
+def test_one_step_is_the_matrix_exponential_to_second_order(level, bench):
     """Local error of a first-order scheme: a quarter at half the step, in all thirty states."""
 
-    def error(step: float) -> float:
+    def error(step):
         p = level(step)
         exact = expm(linear_vehicle(p).system.A * p.step)
         return float(np.abs(one_step_matrix(bench(p)) - exact).max() / np.abs(exact).max())
@@ -186,7 +181,7 @@ def test_one_step_is_the_matrix_exponential_to_second_order(level: Any, bench: B
     assert error(0.01) == pytest.approx(0.25 * error(0.02), rel=0.1)
 
 
-def test_eigenfrequencies_and_damping_at_the_base_step(level: Any, bench: Benches) -> None:
+def test_eigenfrequencies_and_damping_at_the_base_step(level, bench):
     """Bounce, pitch and longitudinal modes: all that oscillate, against the continuous system."""
     p = level(0.5)
     exact = oscillating(linear_vehicle(p).system.poles())
@@ -196,15 +191,13 @@ def test_eigenfrequencies_and_damping_at_the_base_step(level: Any, bench: Benche
     np.testing.assert_allclose(ours.real / np.abs(ours), exact.real / np.abs(exact), atol=0.05)
 
 
-def oscillating(poles: Array) -> Array:
+def oscillating(poles):
     """One pole of each pair that oscillates below 100 Hz, by frequency."""
     chosen = poles[(poles.imag > 0.2) & (np.abs(poles) < 2.0 * np.pi * 100.0)]
     return chosen[np.argsort(np.abs(chosen))]
 
 
-def test_irregular_braking_moves_the_vehicle_as_the_exact_discretisation_does(
-    rig: Any, bench: Benches
-) -> None:
+def test_irregular_braking_moves_the_vehicle_as_the_exact_discretisation_does(rig, bench):
     """Torques of their own on each wheelset, held for 50 ms each, which excite every mode."""
     count = 1600
     random = np.random.default_rng(2)
@@ -229,7 +222,7 @@ def test_irregular_braking_moves_the_vehicle_as_the_exact_discretisation_does(
     assert np.max(deviation[~bounces]) < 1e-9
 
 
-def test_stored_energy_is_the_quadratic_form_of_mass_and_stiffness(rig: Any, bench: Benches) -> None:
+def test_stored_energy_is_the_quadratic_form_of_mass_and_stiffness(rig, bench):
     p = rig.parameters(initial_speed=30.0, **LEVEL)[0]
     model = linear_vehicle(p)
     displaced = bench(p)
@@ -243,7 +236,7 @@ def test_stored_energy_is_the_quadratic_form_of_mass_and_stiffness(rig: Any, ben
 
 
 @pytest.fixture(name="steady", scope="module")
-def _steady(rig: Any) -> tuple[Any, float, Array]:
+def _steady(rig):
     """Parameters, deceleration and changes of wheelset load of a train that brakes evenly on a dry rail."""
     settings = {
         "secondary_height": 0.8,
@@ -261,7 +254,7 @@ def _steady(rig: Any) -> tuple[Any, float, Array]:
     return p, float(deceleration), load
 
 
-def test_weight_transfer_is_that_of_statics(steady: tuple[Any, float, Array]) -> None:
+def test_weight_transfer_is_that_of_statics(steady):
     """Moments of the inertia forces about the rail, for the car as a whole and for each bogie."""
     p, a, load = steady
     height = p.secondary_height
@@ -276,18 +269,18 @@ def test_weight_transfer_is_that_of_statics(steady: tuple[Any, float, Array]) ->
     np.testing.assert_allclose(load, expected, rtol=2e-3, atol=1e-3 * of_bogie)
 
 
-def test_trailing_wheelsets_of_the_bogies_carry_least(rig: Any) -> None:
+def test_trailing_wheelsets_of_the_bogies_carry_least(rig):
     trace = rig.columns("initial_speed=120 km/h")
     braking = (trace["time"] > 5.0) & (trace["speed"] > 3.0)
     load = trace["wheel_load"][braking].mean(axis=0)
     assert set(np.argsort(load)[:2]) == {1, 3}
 
 
-def test_wheel_loads_together_are_the_weight(steady: tuple[Any, float, Array]) -> None:
+def test_wheel_loads_together_are_the_weight(steady):
     assert abs(steady[2].sum()) < 1e-3 * np.abs(steady[2]).max()
 
 
-def test_contact_grows_with_the_load_as_hertz_says_up_to_a_highest_load(rig: Any, bench: Benches) -> None:
+def test_contact_grows_with_the_load_as_hertz_says_up_to_a_highest_load(rig, bench):
     p = rig.parameters()[0]
     wheelset = bench(p).wheelsets[0]
     wheelset.friction = 0.3
@@ -301,7 +294,7 @@ def test_contact_grows_with_the_load_as_hertz_says_up_to_a_highest_load(rig: Any
 LOCKING = ("rail.condition=wet", "rail.friction=0.09", "rig.wsp=bypassed")
 
 
-def test_locked_wheels_decelerate_at_the_sliding_friction(rig: Any) -> None:
+def test_locked_wheels_decelerate_at_the_sliding_friction(rig):
     """mu(v) of the wheels that slide at the train's speed, times g, and no rotating mass with it."""
     trace = rig.columns(*LOCKING, **LEVEL)
     p = rig.parameters(*LOCKING, **LEVEL)[0]
@@ -320,7 +313,7 @@ def test_locked_wheels_decelerate_at_the_sliding_friction(rig: Any) -> None:
     assert mean == pytest.approx(p.gravity * sliding[stretch].mean(), rel=2e-3)
 
 
-def test_a_wheel_that_locks_stays_locked_without_chatter(rig: Any) -> None:
+def test_a_wheel_that_locks_stays_locked_without_chatter(rig):
     """At every step until the train stands: no turning back, no second start."""
     trace = rig.columns(*LOCKING, every=1)
     assert trace["wheel_speed"].min() == 0.0
@@ -328,7 +321,7 @@ def test_a_wheel_that_locks_stays_locked_without_chatter(rig: Any) -> None:
     assert np.all(np.abs(np.diff(turning.astype(int), axis=0)).sum(axis=0) == 1)
 
 
-def test_a_locked_wheel_turns_again_once_the_brake_cannot_hold_it(rig: Any, bench: Benches) -> None:
+def test_a_locked_wheel_turns_again_once_the_brake_cannot_hold_it(rig, bench):
     """The rail's torque is 2 Q mu r; a brake of four fifths of it lets go, one of six fifths holds."""
     p = rig.parameters(*LOCKING, **LEVEL)[0]
     pressed = translate(step, lambda f: f, {step_air: still, step_clamping: still})

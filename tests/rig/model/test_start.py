@@ -1,18 +1,14 @@
 """The rig at the instant of the brake command."""
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 import pytest
 
 from uictest.rig.model.step import step
 
-Benches = Callable[[Any], Any]
 NO_RESISTANCE = {"resistance_constant": 0.0, "resistance_linear": 0.0, "resistance_quadratic": 0.0}
 
 
-def test_without_a_brake_the_train_rolls_on_as_it_began(rig: Any, bench: Benches) -> None:
+def test_without_a_brake_the_train_rolls_on_as_it_began(rig, bench):
     """All parts are in equilibrium: nothing swings, nothing slides, no air flows."""
     quiet = {"commanded_pressure": 0.0, "loadcell_offset": 0.0, "loadcell_noise": 0.0, **NO_RESISTANCE}
     rolling = bench(rig.parameters(**quiet)[0])
@@ -32,7 +28,7 @@ def test_without_a_brake_the_train_rolls_on_as_it_began(rig: Any, bench: Benches
     assert rolling.car.consumed_air == 0.0
 
 
-def test_places_of_wheelsets_and_bogies(rig: Any, bench: Benches) -> None:
+def test_places_of_wheelsets_and_bogies(rig, bench):
     p = rig.parameters()[0]
     started = bench(p)
     ahead = [started.bogies[i // 2].ahead + started.wheelsets[i].ahead for i in range(4)]
@@ -44,14 +40,12 @@ def test_places_of_wheelsets_and_bogies(rig: Any, bench: Benches) -> None:
 @pytest.mark.parametrize(
     ("topology", "calipers"), [("one-caliper", [1, 0, 0, 0]), ("four-caliper", [1, 1, 1, 1])]
 )
-def test_topology_says_which_modules_have_a_caliper(
-    rig: Any, bench: Benches, topology: str, calipers: list[int]
-) -> None:
+def test_topology_says_which_modules_have_a_caliper(rig, bench, topology, calipers):
     started = bench(rig.parameters(f"rig.topology={topology}")[0])
     assert [wheelset.has_caliper for wheelset in started.wheelsets] == calipers
 
 
-def test_tanks_hold_air_of_the_pressure_and_temperature_around_them(rig: Any, bench: Benches) -> None:
+def test_tanks_hold_air_of_the_pressure_and_temperature_around_them(rig, bench):
     started = bench(rig.parameters("brake.system.air.temperature=-10 degC")[0])
     p = started.p
     assert [started.car.line_temperature, *(w.air_temperature for w in started.wheelsets)] == [263.15] * 5

@@ -1,7 +1,5 @@
 """Whole stops against closed forms, and what they must conserve."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -10,13 +8,13 @@ EXACT_SENSORS = {"pressure_noise": 0.0, "loadcell_noise": 0.0, "pressure_offset"
 DRY = "initial_speed=120 km/h"
 
 
-def masses(p: Any) -> tuple[float, float]:
+def masses(p):
     """Mass of the car, and the mass that its kinetic energy seems to have, kg."""
     mass = p.body_mass + 2.0 * p.bogie_mass + 4.0 * p.wheelset_mass
     return mass, mass + 4.0 * p.wheelset_inertia / p.wheel_radius**2
 
 
-def brake_force(p: Any, trace: dict[str, np.ndarray]) -> np.ndarray:
+def brake_force(p, trace):
     """Force of all brakes at the wheel rims, from the recorded clamping forces, N."""
     faces = p.calipers_per_wheelset * p.pads_per_caliper
     return (
@@ -30,7 +28,7 @@ def brake_force(p: Any, trace: dict[str, np.ndarray]) -> np.ndarray:
 
 @pytest.mark.parametrize("gradient", [0, 20, -20])
 @pytest.mark.parametrize("position", ["R", "G"])
-def test_dry_stop_is_that_of_the_textbook(rig: Any, gradient: int, position: str) -> None:
+def test_dry_stop_is_that_of_the_textbook(rig, gradient, position):
     """s = v0 te + v0^2 / (2 a), with the equivalent build-up time te from the history of the force.
 
     The gradient acts from the start: it changes the deceleration and, during te, the speed.
@@ -56,7 +54,7 @@ def test_dry_stop_is_that_of_the_textbook(rig: Any, gradient: int, position: str
     assert measures.braking_time == pytest.approx(te + v_te / a, rel=2e-3)
 
 
-def test_standstill_lies_between_two_steps_where_the_speed_says(rig: Any) -> None:
+def test_standstill_lies_between_two_steps_where_the_speed_says(rig):
     trace = rig.columns(DRY, every=1)
     measures = rig.stop(DRY, every=1).measures
     after = int(np.argmax(trace["speed"] <= 0.0))
@@ -67,7 +65,7 @@ def test_standstill_lies_between_two_steps_where_the_speed_says(rig: Any) -> Non
     assert measures.end_speed == 0.0
 
 
-def test_coasting_follows_the_running_resistance(rig: Any) -> None:
+def test_coasting_follows_the_running_resistance(rig):
     """M v' = -(a + b v + c v^2) has a closed form: v falls along a tangent."""
     settings = {"commanded_pressure": 0.0, "cycles": 6000, **EXACT_SENSORS}
     p = rig.parameters(DRY, **settings)[0]
@@ -81,7 +79,7 @@ def test_coasting_follows_the_running_resistance(rig: Any) -> None:
     np.testing.assert_allclose(trace["speed"], expected, rtol=2e-5)
 
 
-def test_train_rolls_downhill_as_on_an_inclined_plane(rig: Any) -> None:
+def test_train_rolls_downhill_as_on_an_inclined_plane(rig):
     settings = {"commanded_pressure": 0.0, "cycles": 1000, **NO_RESISTANCE, **EXACT_SENSORS}
     overrides = (DRY, "rail.gradient=-25 permille")
     p = rig.parameters(*overrides, **settings)[0]
@@ -100,7 +98,7 @@ STEADY = {
 
 
 @pytest.mark.parametrize("kind", STEADY)
-def test_halving_the_step_changes_distance_and_time_by_less_than_a_per_mille(rig: Any, kind: str) -> None:
+def test_halving_the_step_changes_distance_and_time_by_less_than_a_per_mille(rig, kind):
     coarse = rig.stop(*STEADY[kind]).measures
     fine = rig.stop(*STEADY[kind], "simulation.time_step=0.25 ms").measures
     assert fine.braking_distance == pytest.approx(coarse.braking_distance, rel=1e-3)
@@ -108,19 +106,19 @@ def test_halving_the_step_changes_distance_and_time_by_less_than_a_per_mille(rig
 
 
 @pytest.mark.parametrize("friction", [0.005, 0.03, 0.1, 0.3])
-def test_standstill_is_reached_on_every_rail(rig: Any, friction: float) -> None:
+def test_standstill_is_reached_on_every_rail(rig, friction):
     overrides = ("rail.condition=wet", f"rail.friction={friction}", "initial_speed=10 km/h")
     assert rig.stop(*overrides).measures.stopped == 1.0
 
 
-def test_a_train_that_is_not_stopped_in_time_has_not_stopped(rig: Any) -> None:
+def test_a_train_that_is_not_stopped_in_time_has_not_stopped(rig):
     measures = rig.stop(DRY, cycles=500).measures
     assert (measures.stopped, measures.end_time) == (0.0, 5.0)
     assert np.isnan(measures.braking_distance)
 
 
 @pytest.mark.parametrize("friction", [0.04, 0.12, 0.3])
-def test_energy_and_air_are_conserved(rig: Any, friction: float) -> None:
+def test_energy_and_air_are_conserved(rig, friction):
     overrides = ("rail.condition=wet", f"rail.friction={friction}", "rail.gradient=10 permille")
     measures = rig.stop(*overrides).measures
     assert abs(measures.energy_residual) < 1e-9
@@ -128,7 +126,7 @@ def test_energy_and_air_are_conserved(rig: Any, friction: float) -> None:
     assert abs(measures.air_energy_residual) < 1e-9
 
 
-def test_energy_ends_as_heat(rig: Any) -> None:
+def test_energy_ends_as_heat(rig):
     """On level track all of the kinetic energy goes into discs, contacts, dampers and running resistance."""
     end = rig.stop(DRY, **NO_RESISTANCE)
     heat = end.wheelsets.brake_heat.sum() + end.wheelsets.contact_loss.sum() + end.car.damper_loss
@@ -137,12 +135,12 @@ def test_energy_ends_as_heat(rig: Any) -> None:
     assert end.wheelsets.brake_heat.sum() > 0.98 * heat
 
 
-def test_lighter_braking_takes_longer(rig: Any) -> None:
+def test_lighter_braking_takes_longer(rig):
     distances = [rig.stop(DRY, f"brake.command={c} %").measures.braking_distance for c in (60, 80, 100)]
     assert distances[0] > distances[1] > distances[2]
 
 
-def test_measures_are_those_of_the_recording(rig: Any) -> None:
+def test_measures_are_those_of_the_recording(rig):
     """Taken from the trace at the controller's cycle with plain numpy."""
     overrides = ("rail.condition=wet", "rail.friction=0.08")
     stop = rig.stop(*overrides, every=20)

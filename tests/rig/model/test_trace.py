@@ -1,7 +1,5 @@
 """A recording's samples."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -10,14 +8,14 @@ from uictest.rig.model.trace import SLIDE_SPEED
 SLIDING = ("rail.condition=wet", "rail.friction=0.08", "initial_speed=60 km/h")
 
 
-def test_a_row_holds_every_channel(rig: Any) -> None:
+def test_a_row_holds_every_channel(rig):
     columns = rig.columns(*SLIDING, every=20)
     assert len(columns) == 30
     assert all(np.isfinite(column).all() for column in columns.values())
 
 
 @pytest.mark.parametrize("every", [1, 7, 20, 200])
-def test_samples_are_evenly_spaced_from_the_brake_command_on(rig: Any, every: int) -> None:
+def test_samples_are_evenly_spaced_from_the_brake_command_on(rig, every):
     """Each time is a multiple of the step and never a sum."""
     outcome = rig.stop(*SLIDING, every=every)
     times = outcome.trace.train["time"]
@@ -25,7 +23,7 @@ def test_samples_are_evenly_spaced_from_the_brake_command_on(rig: Any, every: in
     assert outcome.car.time - times[-1] < every * 5e-4
 
 
-def test_channels_agree_with_each_other(rig: Any) -> None:
+def test_channels_agree_with_each_other(rig):
     trace = rig.columns(*SLIDING, every=20)
     p = rig.parameters(*SLIDING)[0]
     moving = trace["speed"] > SLIDE_SPEED
@@ -40,7 +38,7 @@ def test_channels_agree_with_each_other(rig: Any) -> None:
     assert np.all(np.diff(trace["distance"][moving]) > 0.0)
 
 
-def test_the_magnets_say_what_the_command_says(rig: Any) -> None:
+def test_the_magnets_say_what_the_command_says(rig):
     """Neither fills, hold alone holds, both vent."""
     trace = rig.columns(*SLIDING, every=20)
     magnets = {0.0: (0.0, 0.0), 1.0: (1.0, 0.0), 2.0: (1.0, 1.0)}
@@ -51,7 +49,7 @@ def test_the_magnets_say_what_the_command_says(rig: Any) -> None:
         assert set(trace["vent_magnet"][commands == command]) == {vent}
 
 
-def test_first_sample_is_as_true_as_the_others(rig: Any) -> None:
+def test_first_sample_is_as_true_as_the_others(rig):
     """At the brake command the wheels roll on the rail that lies there, and the sensors see it."""
     first = {name: column[0] for name, column in rig.columns(*SLIDING, every=20).items()}
     assert first["time"] == first["distance"] == 0.0
@@ -60,7 +58,7 @@ def test_first_sample_is_as_true_as_the_others(rig: Any) -> None:
     np.testing.assert_allclose(first["measured_speed"], 60.0 / 3.6, rtol=5e-3)
 
 
-def test_each_controller_records_its_own_estimate(rig: Any) -> None:
+def test_each_controller_records_its_own_estimate(rig):
     """On a good rail both estimates follow the train."""
     for controller in ("threshold", "slip-band"):
         trace = rig.columns(f"controller={controller}", every=20)
@@ -70,7 +68,7 @@ def test_each_controller_records_its_own_estimate(rig: Any) -> None:
         )
 
 
-def test_naive_estimate_sinks_with_the_wheels_on_a_very_slippery_rail(rig: Any) -> None:
+def test_naive_estimate_sinks_with_the_wheels_on_a_very_slippery_rail(rig):
     """The slip-band controller loses the train's speed and its wheels lock; it is there to show that."""
     slippery = ("rail.condition=wet", "rail.friction=0.03", "controller=slip-band")
     trace = rig.columns(*slippery, every=20)
@@ -79,7 +77,7 @@ def test_naive_estimate_sinks_with_the_wheels_on_a_very_slippery_rail(rig: Any) 
     assert np.all(trace["wheel_speed"][after] == 0.0)
 
 
-def test_threshold_controller_keeps_the_wheels_turning_on_a_very_slippery_rail(rig: Any) -> None:
+def test_threshold_controller_keeps_the_wheels_turning_on_a_very_slippery_rail(rig):
     """It loses sight of the speed as well, but finds it again."""
     slippery = ("rail.condition=wet", "rail.friction=0.03")
     threshold = rig.stop(*slippery, every=20).wheelset_measures.longest_lock

@@ -1,8 +1,5 @@
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +8,6 @@ from studies.experiments import compensation_domain
 from studies.experiments.compensation_domain import worst_by_cell
 from studies.model_errors import JudgedConditions, ReplayErrors, SettingErrors, judged_cases, replay_errors
 from studies.quantity import OwnBand, SourceBand
-from studies.stop_runner import StopRunner
 from studies.study import STUDIES, run_study
 from uictest.plans.scenario import COMPENSATION_SETTINGS
 
@@ -20,11 +16,11 @@ QUANTITIES = {quantity.key: quantity for quantity in STUDIES["compensation-domai
 
 
 @pytest.fixture(scope="module")
-def replays(stop_runner: StopRunner) -> list[ReplayErrors]:
+def replays(stop_runner):
     return replay_errors(stop_runner, judged_cases(stop_runner, FEW), FEW.wheelsets)
 
 
-def test_the_papers_own_method_has_the_papers_band_and_ours_has_one_of_ours() -> None:
+def test_the_papers_own_method_has_the_papers_band_and_ours_has_one_of_ours():
     banded = {key: each.band for key, each in QUANTITIES.items() if each.band is not None}
     assert {key for key, band in banded.items() if isinstance(band, SourceBand)} == {
         *(
@@ -40,21 +36,19 @@ def test_the_papers_own_method_has_the_papers_band_and_ours_has_one_of_ours() ->
     }
 
 
-def test_where_it_was_not_trained_our_compensation_keeps_the_bounds(replays: list[ReplayErrors]) -> None:
+def test_where_it_was_not_trained_our_compensation_keeps_the_bounds(replays):
     errors = [each.errors["thermal"] for each in replays]
     assert max(each.pressure_error for each in errors) < 2.0
     assert max(each.force_error for each in errors) < 8.0
 
 
-def test_hysteresis_does_not_change_the_pressure_but_the_force(replays: list[ReplayErrors]) -> None:
+def test_hysteresis_does_not_change_the_pressure_but_the_force(replays):
     for each in replays:
         assert each.errors["hysteresis"].pressure_error == each.errors["none"].pressure_error
         assert each.errors["hysteresis"].force_error < each.errors["none"].force_error
 
 
-def test_every_replay_has_a_row_for_every_setting(
-    stop_runner: StopRunner, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_every_replay_has_a_row_for_every_setting(stop_runner, monkeypatch):
     monkeypatch.setattr(compensation_domain, "judged_conditions", lambda: FEW)
     findings = run_study(STUDIES["compensation-domain"], stop_runner).findings
     table = findings.tables["errors"]
@@ -78,10 +72,10 @@ def test_every_replay_has_a_row_for_every_setting(
     assert [findings.values["pressure_error_venting_thermal_r"].value] == errors
 
 
-def test_a_cell_of_the_map_holds_the_worst_of_its_wheelsets() -> None:
-    def replay(friction: float, position: str, error: float) -> ReplayErrors:
+def test_a_cell_of_the_map_holds_the_worst_of_its_wheelsets():
+    def replay(friction, position, error):
         rail, brake = SimpleNamespace(friction=friction), SimpleNamespace(position=position)
-        case: Any = SimpleNamespace(scenario=SimpleNamespace(rail=rail, brake=brake))
+        case = SimpleNamespace(scenario=SimpleNamespace(rail=rail, brake=brake))
         return ReplayErrors(case, 1, True, {"full": SettingErrors(error, error, 0.0)})
 
     made_up = [replay(0.08, "P", 3.0), replay(0.08, "P", 2.0), replay(0.08, "R", 1.0), replay(0.1, "P", 4.0)]

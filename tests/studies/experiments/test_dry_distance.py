@@ -1,7 +1,3 @@
-from __future__ import annotations
-
-from typing import Any
-
 import pytest
 
 from studies.experiments import dry_distance
@@ -14,20 +10,19 @@ from studies.experiments.dry_distance import (
     dry_stops,
     worst_stop,
 )
-from studies.stop_runner import StopRunner
 from studies.study import STUDIES, run_study
 from uictest.plans.scenario import COMPENSATION_SETTINGS
 
 
 @pytest.fixture
-def stops(stop_runner: StopRunner, monkeypatch: pytest.MonkeyPatch) -> list[DryStop]:
+def stops(stop_runner, monkeypatch):
     monkeypatch.setattr(dry_distance, "SPEEDS", ("120 km/h",))
     monkeypatch.setattr(dry_distance, "COMMANDS", ("100 %",))
     monkeypatch.setattr(dry_distance, "SEEDS", range(1))
     return dry_stops(stop_runner)
 
 
-def test_the_distance_depends_on_the_hysteresis_where_nothing_slides(stops: list[DryStop]) -> None:
+def test_the_distance_depends_on_the_hysteresis_where_nothing_slides(stops):
     assert [stop.rig for stop in stops] == list(RIGS)
     assert stops[0].difference == 0.0
     differences = {stop.rig: stop.difference for stop in stops}
@@ -35,25 +30,25 @@ def test_the_distance_depends_on_the_hysteresis_where_nothing_slides(stops: list
         assert (abs(differences[name]) < 1.0) is setting.hysteresis
 
 
-def test_no_wheelset_slides_in_any_stop(stop_runner: StopRunner) -> None:
+def test_no_wheelset_slides_in_any_stop(stop_runner):
     cases = stop_runner.cases("dry-120", {"initial_speed": SPEEDS, "brake.command": COMMANDS})
     for repeats in stop_runner.repeated(cases, [0]):
         assert [each["valve_actuations"] for each in repeats.stops[0].wheelsets] == [0] * 4
 
 
-def test_the_worst_stop_keeps_its_sign() -> None:
-    nothing: Any = None
+def test_the_worst_stop_keeps_its_sign():
+    nothing = None
     made_up = [DryStop(nothing, "full", distance, 100.0) for distance in (100.1, 99.0)]
     worst = worst_stop([*made_up, DryStop(nothing, "none", 90.0, 100.0)], "full")
     assert worst.difference == pytest.approx(-1.0)
 
 
-def test_every_setting_with_hysteresis_has_a_band() -> None:
+def test_every_setting_with_hysteresis_has_a_band():
     banded = {each.key for each in STUDIES["dry-distance"].quantities if each.band is not None}
     assert banded == {name for name, setting in COMPENSATION_SETTINGS.items() if setting.hysteresis}
 
 
-def test_the_band_is_of_fast_and_strong_stops_and_others_differ_more(stop_runner: StopRunner) -> None:
+def test_the_band_is_of_fast_and_strong_stops_and_others_differ_more(stop_runner):
     """Within 0.2 % of four calipers: not `full` from 30 km/h, not `thermal` at 30 % command."""
     values = run_study(STUDIES["dry-distance"], stop_runner).findings.values
     for setting in ("full", "thermal"):

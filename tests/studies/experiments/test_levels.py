@@ -1,7 +1,4 @@
-from __future__ import annotations
-
 import math
-from typing import Any
 
 import pytest
 
@@ -10,14 +7,14 @@ from uictest.rig.identification import HysteresisResult
 from uictest.rig.identification.lines import FittedLine
 
 
-def loop(level: str, **slopes: float) -> Loop:
+def loop(level, **slopes):
     """A loop of which nothing is known but the slopes of some phases, in kN/bar."""
     lines = {phase: FittedLine(slope * 1e-2, -1500.0) for phase, slope in slopes.items()}
-    nothing: Any = None
+    nothing = None
     return Loop(level, nothing, HysteresisResult(lines, lines, FittedLine(0.0, 0.0), {}, 9e3, 0.0, 0.0, 1e4))
 
 
-def test_the_phase_that_changes_most_decides() -> None:
+def test_the_phase_that_changes_most_decides():
     loops = [
         loop("80 %", bc_squeezing=4.0, bc_releasing=5.0),
         loop("100 %", bc_squeezing=4.1, bc_releasing=5.0),
@@ -25,16 +22,16 @@ def test_the_phase_that_changes_most_decides() -> None:
     assert slope_spread(loops) == pytest.approx(0.1 / 4.05)
 
 
-def test_a_phase_of_a_single_stop_is_compared_with_nothing() -> None:
+def test_a_phase_of_a_single_stop_is_compared_with_nothing():
     loops = [loop("80 %", bc_squeezing=4.0), loop("100 %", bc_squeezing=4.0, wsp_squeezing=9.0)]
     assert slope_spread(loops) == 0.0
 
 
-def test_nothing_in_common_is_no_agreement() -> None:
+def test_nothing_in_common_is_no_agreement():
     assert math.isnan(slope_spread([loop("80 %", bc_squeezing=4.0), loop("100 %", bc_releasing=4.0)]))
 
 
-def test_every_phase_of_every_stop_has_its_row() -> None:
+def test_every_phase_of_every_stop_has_its_row():
     table = slopes_table([loop("80 %", bc_squeezing=4.0), loop("100 %")], "command")
     assert table["command"] == ["80 %"] * 4 + ["100 %"] * 4
     assert table["slope_kn_per_bar"][0] == pytest.approx(4.0)

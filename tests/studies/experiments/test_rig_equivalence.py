@@ -1,35 +1,29 @@
 """The comparison of rigs on made-up stops."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from typing import Any
-
 import pytest
 
 from studies.experiments.rig_equivalence import RIGS, TRAIN, differences_at, overall
 from studies.neighbourhood import FOUR_CALIPER, SETTINGS, Point, mean_counts
-from uictest import CaseResult
 
 
 @pytest.fixture
-def point(stop: Callable[..., CaseResult]) -> Point:
+def point(stop):
     """A point at which the rig with four calipers scatters by a metre, and `none` runs 5 m shorter."""
     four = [stop(11, 11, 11, 11, braking_distance_m=distance) for distance in (199.0, 200.0, 201.0)]
-    stops: dict[str, Any] = dict.fromkeys(SETTINGS, four)
+    stops = dict.fromkeys(SETTINGS, four)
     stops["none"] = [stop(11, 21, 20, 22, braking_distance_m=195.0)] * 3
-    nothing: Any = None
+    nothing = None
     return Point("0.146", "100 %", nothing, {**stops, FOUR_CALIPER: four})
 
 
-def test_a_rig_against_itself_shows_its_scatter(point: Point) -> None:
+def test_a_rig_against_itself_shows_its_scatter(point):
     found = list(differences_at(point))
     for rig in ("full", FOUR_CALIPER):
         reading = overall(found, "braking_distance", rig)
         assert (reading.low, reading.value, reading.high) == (-1.0, 0.0, 1.0)
 
 
-def test_differences_are_computed_for_the_train_and_for_each_wheelset(point: Point) -> None:
+def test_differences_are_computed_for_the_train_and_for_each_wheelset(point):
     found = list(differences_at(point))
     assert overall(found, "braking_distance", "none").value == -5.0
     vents = {
@@ -40,5 +34,5 @@ def test_differences_are_computed_for_the_train_and_for_each_wheelset(point: Poi
     assert {each.rig for each in found} == set(RIGS)
 
 
-def test_actuations_are_those_of_the_modules_that_may_lack_a_caliper(point: Point) -> None:
+def test_actuations_are_those_of_the_modules_that_may_lack_a_caliper(point):
     assert mean_counts(point.stops["none"]).tolist() == [21.0] * 3

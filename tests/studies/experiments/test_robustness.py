@@ -1,13 +1,8 @@
-from __future__ import annotations
-
 import math
-from collections.abc import Callable
-from typing import Any
 
 import pytest
 
 from studies.experiments.robustness import (
-    SweptFriction,
     _in_order,
     _ratio,
     _values_of_sweep,
@@ -15,15 +10,14 @@ from studies.experiments.robustness import (
     swept_friction,
 )
 from studies.neighbourhood import Point
-from uictest import CaseResult
 
 
 @pytest.fixture
-def sweep(stop: Callable[..., CaseResult]) -> list[SweptFriction]:
+def sweep(stop):
     """One friction, two seeds: the paper's counts, then a stop in which both models act like none."""
     four, none = [stop(11, 11, 11, 11)] * 2, [stop(11, 21, 21, 21)] * 2
     modelled = [stop(11, 11, 11, 11), stop(11, 21, 21, 21)]
-    nothing: Any = None
+    nothing = None
     stops = {"none": none, "full": modelled, "thermal": modelled, "four-caliper": four}
     return [swept_friction(Point("0.161", "100 %", nothing, stops))]
 
@@ -38,15 +32,15 @@ def sweep(stop: Callable[..., CaseResult]) -> list[SweptFriction]:
         (0.0, 0.0, 9.0, False),
     ],
 )
-def test_the_order_of_caliper_full_and_none(caliper: float, full: float, none: float, expected: bool) -> None:
+def test_the_order_of_caliper_full_and_none(caliper, full, none, expected):
     assert _in_order({"four-caliper": caliper, "full": full, "none": none}) is expected
 
 
-def test_a_caliper_that_never_cycles_gives_no_ratio() -> None:
+def test_a_caliper_that_never_cycles_gives_no_ratio():
     assert math.isnan(_ratio(0.0, 0.0))
 
 
-def test_a_swept_friction_is_judged_stop_by_stop(sweep: list[SweptFriction]) -> None:
+def test_a_swept_friction_is_judged_stop_by_stop(sweep):
     (swept,) = sweep
     assert swept.in_order["full"].tolist() == [True, False]
     assert swept.in_bands.tolist() == [True, False]
@@ -55,7 +49,7 @@ def test_a_swept_friction_is_judged_stop_by_stop(sweep: list[SweptFriction]) -> 
     assert values["sweep_in_bands"].value == 1.0
 
 
-def test_the_sweep_is_drawn_with_the_counts_of_the_paper(sweep: list[SweptFriction]) -> None:
+def test_the_sweep_is_drawn_with_the_counts_of_the_paper(sweep):
     figure = pytest.importorskip("matplotlib.figure").Figure()
     draw_sweep(sweep, figure)
     texts = {text.get_text() for text in figure.axes[0].texts}

@@ -1,14 +1,11 @@
 """The stops that assumptions lead to: dry ones follow from mechanics, without sliding."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import pytest
 
 from studies.field.assumptions import DRY, Assumptions
 from studies.field.field_rig import FieldRig, field_stop
-from studies.stop_runner import StopRunner
 from uictest import rig
 
 SPEED = 80.0 / 3.6
@@ -17,30 +14,28 @@ SLIDING = Assumptions("dry first", 0.15, 95.0, "ep-disc", 0.8)
 
 
 @pytest.fixture(scope="session")
-def field_rig(stop_runner: StopRunner) -> FieldRig:
+def field_rig(stop_runner):
     return FieldRig(stop_runner)
 
 
-def _run(field_rig: FieldRig, assumptions: Assumptions) -> tuple[float, float]:
+def _run(field_rig, assumptions):
     figures = field_rig.stops([assumptions])[0].figures
     return figures["braking_time"], figures["braking_distance"]
 
 
-def test_the_library_brake_on_a_constant_rail_is_the_slide_test_of_the_studies(
-    field_rig: FieldRig, stop_runner: StopRunner
-) -> None:
+def test_the_library_brake_on_a_constant_rail_is_the_slide_test_of_the_studies(field_rig, stop_runner):
     slide_test = stop_runner.cases("slide-80")[0]
     assumed = replace(DRY_STOP, friction=0.1651)
     assert field_rig.stops([assumed]) == [field_stop(rig.simulate(slide_test), {})]
 
 
-def test_nothing_slides_on_dry_track_and_stops_behind_it_do(field_rig: FieldRig) -> None:
+def test_nothing_slides_on_dry_track_and_stops_behind_it_do(field_rig):
     dry, sliding = field_rig.stops([DRY_STOP, SLIDING])
     assert dry.actuations == (0, 0, 0, 0)
     assert min(sliding.actuations) > 5
 
 
-def test_a_lead_within_the_dead_time_only_moves_the_clock(field_rig: FieldRig) -> None:
+def test_a_lead_within_the_dead_time_only_moves_the_clock(field_rig):
     """Nothing but the running resistance acts before the pressure rises."""
     (time, distance), (early, shorter) = (
         _run(field_rig, replace(DRY_STOP, lead=lead)) for lead in (0.0, 0.08)
@@ -49,13 +44,13 @@ def test_a_lead_within_the_dead_time_only_moves_the_clock(field_rig: FieldRig) -
     assert distance - shorter == pytest.approx(0.08 * SPEED, abs=0.05)
 
 
-def test_after_a_long_lead_only_braking_at_full_force_is_left(field_rig: FieldRig) -> None:
+def test_after_a_long_lead_only_braking_at_full_force_is_left(field_rig):
     """Of an even deceleration, distance is half of speed times time."""
     time, distance = _run(field_rig, replace(DRY_STOP, lead=3.0))
     assert distance == pytest.approx(0.5 * SPEED * time, rel=0.01)
 
 
-def test_a_slower_build_up_costs_half_its_time_on_dry_track(field_rig: FieldRig) -> None:
+def test_a_slower_build_up_costs_half_its_time_on_dry_track(field_rig):
     """The force rises linearly: the stop is as long as if half of the build-up were dead time."""
     (time, distance), (later, longer) = (
         _run(field_rig, replace(DRY_STOP, fill_time=fill)) for fill in (0.8, 4.0)
@@ -64,34 +59,34 @@ def test_a_slower_build_up_costs_half_its_time_on_dry_track(field_rig: FieldRig)
     assert longer - distance == pytest.approx(1.6 * SPEED, rel=0.1)
 
 
-def test_the_least_deceleration_is_not_that_of_the_build_up(field_rig: FieldRig) -> None:
+def test_the_least_deceleration_is_not_that_of_the_build_up(field_rig):
     fast, slow = field_rig.stops([DRY_STOP, replace(DRY_STOP, fill_time=4.0)])
     assert slow.figures["minimum_deceleration"] > fast.figures["minimum_deceleration"]
     for stop in (fast, slow):
         assert stop.figures["minimum_deceleration"] > 0.9 * stop.figures["maximum_deceleration"]
 
 
-def test_stronger_pads_brake_harder_in_proportion(field_rig: FieldRig) -> None:
+def test_stronger_pads_brake_harder_in_proportion(field_rig):
     normal, strong = field_rig.stops([DRY_STOP, replace(DRY_STOP, pad_factor=1.2)])
     ratio = strong.figures["maximum_deceleration"] / normal.figures["maximum_deceleration"]
     assert ratio == pytest.approx(1.2, rel=0.03)
 
 
-def test_cleaning_shortens_the_stop_and_spares_the_valves(field_rig: FieldRig) -> None:
+def test_cleaning_shortens_the_stop_and_spares_the_valves(field_rig):
     cleaned = replace(SLIDING, friction=0.10, cleaning_energy=5300.0, carry_over=0.5)
     without, with_cleaning = field_rig.stops([replace(cleaned, cleaning_energy=None), cleaned])
     assert with_cleaning.figures["braking_distance"] < without.figures["braking_distance"] - 5.0
     assert sum(with_cleaning.actuations) < sum(without.actuations)
 
 
-def test_the_distributor_has_the_longer_dead_time(field_rig: FieldRig) -> None:
+def test_the_distributor_has_the_longer_dead_time(field_rig):
     ep_disc, distributor = (
         _run(field_rig, replace(DRY_STOP, brake=brake)) for brake in ("ep-disc", "distributor")
     )
     assert distributor[0] - ep_disc[0] == pytest.approx(0.3, abs=0.02)
 
 
-def test_stops_in_lanes_have_the_bits_of_stops_alone(field_rig: FieldRig, stop_runner: StopRunner) -> None:
+def test_stops_in_lanes_have_the_bits_of_stops_alone(field_rig, stop_runner):
     """Rails with one point and with several, side by side."""
     step = "{interpolation: steps, points: [{position: 0 m, friction: 0.3}, {position: 90 m, friction: 0.1}]}"
     cases = [
@@ -104,5 +99,5 @@ def test_stops_in_lanes_have_the_bits_of_stops_alone(field_rig: FieldRig, stop_r
         assert stop.wheelset_measures.tobytes() == alone.wheelset_measures.tobytes()
 
 
-def test_no_stops_in_lanes_are_none(field_rig: FieldRig) -> None:
+def test_no_stops_in_lanes_are_none(field_rig):
     assert field_rig.in_lanes([]) == []

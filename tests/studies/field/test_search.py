@@ -1,5 +1,3 @@
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import fields, replace
 
@@ -12,7 +10,6 @@ from studies.field.assumptions import (
     REAL_TRAIN,
     SHAPES,
     Assumptions,
-    Family,
     FieldStop,
 )
 from studies.field.field_rig import FieldRig
@@ -30,32 +27,31 @@ from studies.field.search import (
     search,
 )
 from studies.field.tables import notes, simplest
-from studies.stop_runner import StopRunner
 
 PLAIN = Assumptions("constant", 0.17, 0.0, "ep-disc", 0.8)
 BY_NAME = {family.name: family for family in FAMILIES}
 
 
 @pytest.fixture(scope="session")
-def field_rig(stop_runner: StopRunner) -> FieldRig:
+def field_rig(stop_runner):
     return FieldRig(stop_runner)
 
 
-def test_families_pair_every_brake_with_both_rails() -> None:
+def test_families_pair_every_brake_with_both_rails():
     brakes = {"ep-disc", "distributor", "build-up-free"}
     assert BY_NAME.keys() >= brakes | {f"{brake}-cleaned" for brake in brakes}
     assert all(family.cleans == family.name.endswith("-cleaned") for family in FAMILIES)
     assert all(family.cleans == ("cleaning_energy" in family.ranges) for family in FAMILIES)
 
 
-def test_a_free_build_up_reaches_from_one_brake_of_the_library_past_the_other(field_rig: FieldRig) -> None:
+def test_a_free_build_up_reaches_from_one_brake_of_the_library_past_the_other(field_rig):
     build_up = BY_NAME["build-up-free"].ranges["fill_time"]
     assert build_up.low == field_rig.build_up("ep-disc")
     assert build_up.low < field_rig.build_up("distributor") < build_up.high
 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
-def test_assumptions_fill_the_ranges_of_their_family_evenly(family: Family, field_rig: FieldRig) -> None:
+def test_assumptions_fill_the_ranges_of_their_family_evenly(family, field_rig):
     assumed = list(evenly_spread(family, field_rig))
     assert len(set(assumed)) == len(assumed) == 2**family.evenly
     shapes = Counter(each.shape for each in assumed)
@@ -69,7 +65,7 @@ def test_assumptions_fill_the_ranges_of_their_family_evenly(family: Family, fiel
 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
-def test_what_a_family_does_not_vary_is_the_library_s(family: Family, field_rig: FieldRig) -> None:
+def test_what_a_family_does_not_vary_is_the_library_s(family, field_rig):
     for each in evenly_spread(family, field_rig):
         assert each.brake == family.brake
         assert (each.cleaning_energy is None) == (not family.cleans)
@@ -79,7 +75,7 @@ def test_what_a_family_does_not_vary_is_the_library_s(family: Family, field_rig:
             assert each.pad_factor == 1.0
 
 
-def test_neighbours_stay_near_and_within_the_ranges() -> None:
+def test_neighbours_stay_near_and_within_the_ranges():
     family = BY_NAME["ep-disc"]
     corner = Assumptions("dry first", 0.05, 190.0, "ep-disc", 0.8, pad_factor=1.15)
     stop = FieldStop(dict(REAL_TRAIN), (0, 0, 0, 0), 0.0)
@@ -98,9 +94,7 @@ def test_neighbours_stay_near_and_within_the_ranges() -> None:
         ("library", Assumptions("dry last", 0.131, 117.0, "ep-disc", 0.8)),
     ],
 )
-def test_a_train_that_the_rig_itself_made_is_found_again(
-    name: str, truth: Assumptions, field_rig: FieldRig, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_train_that_the_rig_itself_made_is_found_again(name, truth, field_rig, monkeypatch):
     """The search knows four figures of a stop, none of which was tried."""
     train = field_rig.stops([truth])[0]
     monkeypatch.setattr(module, "REAL_TRAIN", train.figures)
@@ -114,20 +108,18 @@ def test_a_train_that_the_rig_itself_made_is_found_again(
     assert found.assumptions.place == pytest.approx(truth.place, abs=15.0)
 
 
-def _stop(misfit: float) -> FieldStop:
+def _stop(misfit):
     return FieldStop({**REAL_TRAIN, "braking_distance": 197.0 + 4.0 * misfit}, (12, 12, 11, 11), 0.4)
 
 
-def test_a_variation_changes_a_field_and_says_what_it_needs_besides() -> None:
+def test_a_variation_changes_a_field_and_says_what_it_needs_besides():
     names = {each.name for each in fields(Assumptions)}
     for variation in VARIATIONS:
         assert {variation.assumption, *variation.together} <= names
         assert len(set(variation.values)) == len(variation.values)
 
 
-def test_one_assumption_that_the_rig_s_own_train_had_is_found(
-    field_rig: FieldRig, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_one_assumption_that_the_rig_s_own_train_had_is_found(field_rig, monkeypatch):
     """A train with stronger pads: they make the plainest stop agree, a longer build-up does not."""
     truth = replace(plainest(field_rig), friction=0.1775, pad_factor=1.25)
     monkeypatch.setattr(module, "REAL_TRAIN", field_rig.stops([truth])[0].figures)
@@ -141,7 +133,7 @@ def test_one_assumption_that_the_rig_s_own_train_had_is_found(
     assert slower.agreeing == []
 
 
-def test_the_simplest_is_the_first_family_that_agrees_else_the_closest() -> None:
+def test_the_simplest_is_the_first_family_that_agrees_else_the_closest():
     library, ep_disc, *_ = FAMILIES
     far, near, nearest = (
         Trial(family, PLAIN, _stop(misfit), 0)
@@ -151,7 +143,7 @@ def test_the_simplest_is_the_first_family_that_agrees_else_the_closest() -> None
     assert simplest([far, Trial(ep_disc, PLAIN, _stop(1.5), 0)]).stop.misfit == pytest.approx(1.5)
 
 
-def test_notes_say_what_agrees_and_at_which_value() -> None:
+def test_notes_say_what_agrees_and_at_which_value():
     trial = Trial(FAMILIES[0], PLAIN, _stop(2.0), 0)
     pads = Variation("pads", "pad_factor", (1.1, 1.2, 1.3))
     points = [

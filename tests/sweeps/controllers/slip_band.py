@@ -1,10 +1,10 @@
 """The built-in controller slip-band as a class; with the parameter fails_at it fails in that cycle."""
 
-from uictest.controllers import Config, Inputs, Outputs
+from uictest.controllers import Outputs
 
 
 class SlipBand:
-    def __init__(self, config: Config) -> None:
+    def __init__(self, config):
         self.config = config
         given = config.parameters
         self.fall = given.get("reference_deceleration", 1.8) * config.cycle_time
@@ -12,10 +12,10 @@ class SlipBand:
         self.lower, self.upper = given.get("lower_slide", 0.08), given.get("upper_slide", 0.2)
         self.fails_at = given.get("fails_at", -1)
 
-    def reset(self) -> None:
+    def reset(self):
         self.reference = self.config.initial_speed
 
-    def step(self, inputs: Inputs) -> Outputs:
+    def step(self, inputs):
         if inputs.cycle == self.fails_at:
             raise ValueError("told to")
         self.reference = max(self.reference - self.fall, *inputs.wheel_speed)

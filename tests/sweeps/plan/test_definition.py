@@ -217,7 +217,7 @@ def test_an_axis_has_one_error_at_its_place(load, text, column, expected):
 
 
 def test_only_the_first_rejected_value_is_read_as_a_scenario(load, monkeypatch):
-    read: list[object] = []
+    read = []
     original = BaseCase.scenario_with
     monkeypatch.setattr(BaseCase, "scenario_with", lambda *given: read.append(given) or original(*given))
     with pytest.raises(ScenarioErrors):

@@ -41,8 +41,7 @@ def test_a_choice_gives_places():
     assert places.tolist() == [0.0, 1.0, 2.0, 2.0]
 
 
-Normal = tuple[float, float, float, float]
-TAILS: list[Normal] = [
+TAILS = [
     (0.2, 0.01, 0.9, 0.95),
     (32, 0.5, 36.1, 40),
     (0, 1, 0, 3),

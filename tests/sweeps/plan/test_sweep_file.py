@@ -1,13 +1,12 @@
 """A sweep is a scenario that says under `vary` what varies; what 0.2 wrote comes out the same."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from uictest.plans.scenario import ScenarioErrors, load
-from uictest.plans.sweeps import Plan, load_sweep
+from uictest.plans.sweeps import load_sweep
 
 from ..conftest import HEAD, SCENARIO, vary
 
@@ -23,7 +22,6 @@ sample: {size: 3, seed: 5, parameters: {brake.system.disc.pad_friction: {uniform
 quantiles: {measure: braking_distance, levels: [50 %]}
 """
 OLD_HEAD = "schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\n"
-Write = Callable[..., Plan]
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -185,7 +184,7 @@ class Watched:
 
 
 def keys_read(function, scenario):
-    read: set[str] = set()
+    read = set()
     function(Watched(scenario, "", read))
     return read
 
@@ -211,8 +210,8 @@ def test_judging_reads_nothing_but_what_it_says(case):
 
     record, own, rail, *_ = assemble(case)
     measures, wheelsets = formula(np.array([record]), own[None], rail[None])
-    read: set[str] = set()
-    watched: Any = Watched(case.scenario, "", read)
+    read = set()
+    watched = Watched(case.scenario, "", read)
     for stopped in (1.0, 0.0):
         measures["stopped"] = stopped
         evaluate(replace(case, scenario=watched), measures[0], wheelsets[0], explain=False)

@@ -47,13 +47,13 @@ def test_chunks_that_share_a_queue_give_the_bytes_of_each_alone(load, made_up):
 def test_threads_take_queues_of_chunks_that_come_out_in_order(load, made_up, jobs, queues):
     plan = load("sample: {size: 1000, parameters: {brake.command: {uniform: [60 %, 100 %]}}}\n")
     selection, runner = CaseSelection(plan), made_up(plan)
-    sizes: list[int] = []
+    sizes = []
 
     def simulate(parameters, own, rail):
         sizes.append(len(parameters))
         return formula(parameters, own, rail)
 
-    written: list[int] = []
+    written = []
     run_on_threads(
         replace(runner, simulate=simulate),
         selection,

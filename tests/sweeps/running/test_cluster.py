@@ -46,7 +46,7 @@ def test_chunks_are_the_same_and_a_dead_worker_is_survived(load, cluster):
 
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"))
     here = chunk_runner(selection.plan, rig.run_block)
-    found: dict[int, bytes] = {}
+    found = {}
 
     def write_chunk(number, content):
         found[number] = content
@@ -63,7 +63,7 @@ def test_only_missing_chunks_are_run(load, cluster):
     from uictest.running.chunked.cluster import run_on_cluster
 
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"), np.arange(40))
-    found: list[int] = []
+    found = []
     run_on_cluster(selection, [2], cluster.scheduler_address, lambda number, content: found.append(number))
     assert found == [2]
 
@@ -82,8 +82,8 @@ def test_waiting_for_workers_is_reported_once(load):
     from uictest.running.chunked.cluster import run_on_cluster
 
     selection = CaseSelection(load(TEXT, "initial_speed=15 km/h"))
-    found: list[int] = []
-    told: list[None] = []
+    found = []
+    told = []
     with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None) as empty:
         address = empty.scheduler_address
 

@@ -9,7 +9,7 @@ import pytest
 
 from uictest.analysis.summaries import full_cases
 from uictest.analysis.summaries.domain import OUTSIDE, DomainTally
-from uictest.analysis.validation import Domain, Validation, ValidationReference, conditions_of, domains_of
+from uictest.analysis.validation import Validation, ValidationReference, conditions_of, domains_of
 from uictest.plans.scenario import load as load_scenarios
 from uictest.report import domain_notes
 from uictest.running.campaign import parts_of_cases
@@ -29,7 +29,7 @@ def rows_of(plan, indices):
 
 def reference(*stops):
     """Return a validation of which every stop is `stop.yaml` with some changes; alike ones make a domain."""
-    domains: tuple[Domain, ...] = domains_of(
+    domains = domains_of(
         [conditions_of(parts_of_cases([case])[case.id])]
         for changes in stops
         for case in load_scenarios([Path("stop.yaml")], changes)

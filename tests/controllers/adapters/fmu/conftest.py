@@ -1,17 +1,13 @@
 """FMUs of any form: one library in C, described as a test wants it."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import re
 import shutil
 import subprocess
 import zipfile
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import fmpy
 import numpy as np
@@ -23,7 +19,6 @@ from uictest.controllers import (
     OUTPUTS_AT,
     Config,
     ControllerError,
-    ControllerInstance,
     ControllerProgram,
     open_controller,
 )
@@ -31,13 +26,12 @@ from uictest.controllers.adapters.instance import STEP
 
 HERE = Path(__file__).parent
 HEADERS = Path(fmpy.__file__).parent / "c-code"
-Variables = dict[str, tuple[Any, ...]]
 CYCLE_TIME = 0.01
 REAL = {2: "Real", 3: "Float64"}
 PARAMETERS = ("fault", "at", "threshold", "late")
 
 
-def numbered(name: str, first: int, causality: str, kind: str) -> Variables:
+def numbered(name, first, causality, kind):
     """Four variables, one for each wheelset; a name without %d is one array of four."""
     if "%d" not in name:
         return {name: (100 + first, causality, kind, 4)}
@@ -47,11 +41,11 @@ def numbered(name: str, first: int, causality: str, kind: str) -> Variables:
 class FmuMaker:
     """Writes FMUs that all have one library."""
 
-    def __init__(self, libraries: dict[int, bytes], folder: Path) -> None:
+    def __init__(self, libraries, folder):
         self.libraries = libraries
         self.folder = folder
 
-    def __call__(self, fmi: int = 2, listed: Variables | None = None, **changes: str) -> Path:
+    def __call__(self, fmi=2, listed=None, **changes):
         """Write an FMU; ``changes`` are version, token, kind, about, interface, experiment, platform."""
         platform = changes.get("platform", fmpy.platform if fmi == 2 else fmpy.platform_tuple)
         path = self.folder / f"any{len(list(self.folder.iterdir()))}.fmu"
@@ -62,15 +56,8 @@ class FmuMaker:
 
     @staticmethod
     def variables(
-        fmi: int = 2,
-        *,
-        speed: str = "wheel_speed_%d",
-        hold: str = "hold_%d",
-        vent: str = "vent_%d",
-        real: str = "",
-        magnet: str = "Boolean",
-        **more: tuple[Any, ...],
-    ) -> Variables:
+        fmi=2, *, speed="wheel_speed_%d", hold="hold_%d", vent="vent_%d", real="", magnet="Boolean", **more
+    ):
         """The variables of an FMU: name -> value reference, causality, type, size of an array."""
         real = real or REAL[fmi]
         return {
@@ -82,7 +69,7 @@ class FmuMaker:
         }
 
 
-def described(fmi: int, listed: Variables, **changes: str) -> str:
+def described(fmi, listed, **changes):
     """The model description of an FMU."""
     token = "guid" if fmi == 2 else "instantiationToken"
     version, value = changes.get("version", f"{fmi}.0"), changes.get("token", "right")
@@ -96,7 +83,7 @@ def described(fmi: int, listed: Variables, **changes: str) -> str:
     )
 
 
-def entry(fmi: int, name: str, reference: int, causality: str, kind: str, size: int = 1) -> str:
+def entry(fmi, name, reference, causality, kind, size=1):
     """One variable of a model description."""
     variability = {"parameter": "fixed", "independent": "continuous"}.get(causality, "discrete")
     common = f'name="{name}" valueReference="{reference}" causality="{causality}" variability="{variability}"'
@@ -107,7 +94,7 @@ def entry(fmi: int, name: str, reference: int, causality: str, kind: str, size: 
 
 
 @pytest.fixture(scope="session")
-def fmu_libraries(tmp_path_factory: pytest.TempPathFactory) -> dict[int, bytes]:
+def fmu_libraries(tmp_path_factory):
     """The library of any_fmu.c for each version of FMI."""
     compiler = shutil.which(os.environ.get("CC", "gcc"))
     if compiler is None:
@@ -116,7 +103,7 @@ def fmu_libraries(tmp_path_factory: pytest.TempPathFactory) -> dict[int, bytes]:
     return {fmi: _library(compiler, folder, fmi) for fmi in (2, 3)}
 
 
-def _library(compiler: str, folder: Path, fmi: int) -> bytes:
+def _library(compiler, folder, fmi):
     source = HERE / "any_fmu.c"
     command = [compiler, "-O1", "-fPIC", "-shared", f"-DFMI={fmi}", f"-I{HEADERS}"]
     preprocessed = subprocess.run([*command, "-E", source], check=True, capture_output=True, text=True).stdout
@@ -131,28 +118,28 @@ def _library(compiler: str, folder: Path, fmi: int) -> bytes:
 
 
 @pytest.fixture
-def make_fmu(fmu_libraries: dict[int, bytes], tmp_path: Path) -> FmuMaker:
+def make_fmu(fmu_libraries, tmp_path):
     """Write an FMU that is described as the test wants it."""
     return FmuMaker(fmu_libraries, tmp_path)
 
 
-def opened_program(path: Path, sha256: str, **options: Any) -> ControllerInstance:
+def opened_program(path, sha256, **options):
     parameters, cycle_time = options.pop("parameters", {}), options.pop("cycle_time", CYCLE_TIME)
     program = ControllerProgram("fmu", str(path), sha256, options=options)
     return open_controller(program, Config(4, cycle_time, 20.0, (0.46,) * 4, parameters))
 
 
 @pytest.fixture
-def open_program() -> Callable[..., ControllerInstance]:
+def open_program():
     """Open an FMU that was read with a SHA-256."""
     return opened_program
 
 
 @pytest.fixture
-def open_fmu() -> Callable[..., ControllerInstance]:
+def open_fmu():
     """Open an FMU with parameters and names of its variables."""
 
-    def opened(path: Path, parameters: dict[str, Any] | None = None, **names: str) -> ControllerInstance:
+    def opened(path, parameters=None, **names):
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
         return opened_program(path, digest, parameters=parameters or {}, variables=names)
 
@@ -160,11 +147,11 @@ def open_fmu() -> Callable[..., ControllerInstance]:
 
 
 @pytest.fixture
-def ask() -> Callable[..., Any]:
+def ask():
     """Ask a controller for its answer to four speeds; a failure is a ControllerError."""
 
-    def asked(instance: ControllerInstance, *speeds: float, cycle: int = 0) -> Any:
-        exchange: Any = np.zeros(1, EXCHANGE)[0]
+    def asked(instance, *speeds, cycle=0):
+        exchange = np.zeros(1, EXCHANGE)[0]
         exchange["cycle"], exchange["time"], exchange["wheel_speed"] = cycle, cycle * CYCLE_TIME, speeds
         exchange["speed_valid"] = 1
         address = exchange.__array_interface__["data"][0]
@@ -176,10 +163,10 @@ def ask() -> Callable[..., Any]:
 
 
 @pytest.fixture
-def started(open_fmu: Callable[..., ControllerInstance], ask: Callable[..., Any]) -> Callable[..., Any]:
+def started(open_fmu, ask):
     """Open an FMU and reset it; what is returned asks it."""
 
-    def begun(path: Path, parameters: dict[str, Any] | None = None, **names: str) -> Callable[..., Any]:
+    def begun(path, parameters=None, **names):
         instance = open_fmu(path, parameters, **names)
         instance.reset()
         return partial(ask, instance)

@@ -1,24 +1,18 @@
 """Controllers as FMUs: variables of any name and type, FMUs that cannot be run, FMUs that fail."""
 
-from __future__ import annotations
-
 import gc
 import tempfile
 import threading
 import zipfile
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import fmpy
 import pytest
 
-from uictest.controllers import ControllerError, ControllerInstance
+from uictest.controllers import ControllerError
 
 MakeFmu = Any
-OpenFmu = Callable[..., ControllerInstance]
-Ask = Callable[..., Any]
-Started = Callable[..., Ask]
 
 
 VENTS_TWO_AND_FOUR = ([0, 1, 0, 1], [0, 1, 0, 1])
@@ -26,23 +20,23 @@ SPEEDS = (20.0, 9.0, 20.0, 9.0)
 
 
 @pytest.fixture(params=[2, 3], ids=["FMI 2.0", "FMI 3.0"])
-def fmi(request: pytest.FixtureRequest) -> int:
+def fmi(request):
     return int(request.param)
 
 
 @pytest.fixture(autouse=True)
-def temporary_folder(monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def temporary_folder(monkeypatch, tmp_path_factory):
     """Where FMUs are unpacked."""
     folder = tmp_path_factory.mktemp("unpacked")
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
     return folder
 
 
-def magnets(answer: Any) -> tuple[list[int], list[int]]:
+def magnets(answer):
     return answer["hold"].tolist(), answer["vent"].tolist()
 
 
-def refused(open_fmu: OpenFmu, path: Path, *arguments: Any, **names: Any) -> str:
+def refused(open_fmu, path, *arguments, **names):
     """The message without the name of the file."""
     with pytest.raises(ControllerError) as error:
         open_fmu(path, *arguments, **names)
@@ -50,15 +44,13 @@ def refused(open_fmu: OpenFmu, path: Path, *arguments: Any, **names: Any) -> str
     return str(error.value).removeprefix(f"{path.name} ")
 
 
-def test_a_step_answers_the_inputs_of_the_same_cycle(make_fmu: MakeFmu, started: Started, fmi: int) -> None:
+def test_a_step_answers_the_inputs_of_the_same_cycle(make_fmu, started, fmi):
     ask = started(make_fmu(fmi), {"threshold": 10.0})
     assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
     assert magnets(ask(20.0, 20.0, 20.0, 20.0, cycle=1)) == ([0] * 4, [0] * 4)
 
 
-def test_an_fmu_that_answers_a_cycle_late_is_left_as_it_is(
-    make_fmu: MakeFmu, started: Started, fmi: int
-) -> None:
+def test_an_fmu_that_answers_a_cycle_late_is_left_as_it_is(make_fmu, started, fmi):
     ask = started(make_fmu(fmi), {"threshold": 10.0, "late": 1})
     assert magnets(ask(*SPEEDS)) == ([0] * 4, [0] * 4)
     assert magnets(ask(20.0, 20.0, 20.0, 20.0, cycle=1)) == VENTS_TWO_AND_FOUR
@@ -70,9 +62,7 @@ TYPES += [(3, "Float64", kind) for kind in ("Int32", "UInt32", "Int64", "UInt64"
 
 
 @pytest.mark.parametrize(("fmi", "real", "magnet"), TYPES)
-def test_magnets_and_speeds_may_have_any_type_that_holds_them(
-    make_fmu: MakeFmu, started: Started, fmi: int, real: str, magnet: str
-) -> None:
+def test_magnets_and_speeds_may_have_any_type_that_holds_them(make_fmu, started, fmi, real, magnet):
     ask = started(make_fmu(fmi, make_fmu.variables(fmi, real=real, magnet=magnet)), {"threshold": 10})
     assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
 
@@ -86,14 +76,14 @@ def test_magnets_and_speeds_may_have_any_type_that_holds_them(
     ],
 )
 def test_variables_have_our_names_or_those_of_the_scenario_and_may_be_arrays(
-    make_fmu: MakeFmu, started: Started, speed: str, hold: str, names: dict[str, str]
-) -> None:
+    make_fmu, started, speed, hold, names
+):
     listed = make_fmu.variables(3, speed=speed, hold=hold)
     ask = started(make_fmu(3, listed), {"threshold": 10.0}, **names)
     assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
 
 
-def test_a_tool_may_count_wheelsets_from_0(make_fmu: MakeFmu, started: Started, fmi: int) -> None:
+def test_a_tool_may_count_wheelsets_from_0(make_fmu, started, fmi):
     listed = make_fmu.variables(fmi)
     for place in range(4):
         listed[f"v{place}"] = listed.pop(f"wheel_speed_{place + 1}")
@@ -101,13 +91,11 @@ def test_a_tool_may_count_wheelsets_from_0(make_fmu: MakeFmu, started: Started, 
     assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
 
 
-def test_everything_else_that_a_controller_is_given_is_set_where_there_is_a_variable(
-    make_fmu: MakeFmu, started: Started, fmi: int
-) -> None:
+def test_everything_else_that_a_controller_is_given_is_set_where_there_is_a_variable(make_fmu, started, fmi):
     """Each output shows the place of one input: they have the same value reference."""
     real = {2: "Real", 3: "Float64"}[fmi]
     places = {"time": (13, real), "brake_demand": (12, real), "initial_speed": (15, real)}
-    shown: dict[str, float] = {}
+    shown = {}
     for name, (place, kind) in places.items():
         causality = "parameter" if name == "initial_speed" else "input"
         given = {name: (place, causality, kind), "seen": (place, "output", kind)}
@@ -116,16 +104,14 @@ def test_everything_else_that_a_controller_is_given_is_set_where_there_is_a_vari
     assert shown == {"time": 0.03, "brake_demand": 0.0, "initial_speed": 20.0}
 
 
-def test_a_diagnosis_with_a_sign_is_its_32_bits(make_fmu: MakeFmu, started: Started) -> None:
+def test_a_diagnosis_with_a_sign_is_its_32_bits(make_fmu, started):
     """The place of `late` is shown as the diagnosis."""
     listed = make_fmu.variables(2, diagnosis=(34, "output", "Integer"))
     ask = started(make_fmu(2, listed), {"late": -2})
     assert int(ask(*SPEEDS)["diagnosis"]) == 0xFFFFFFFE
 
 
-def test_reset_returns_to_the_start_values_and_the_parameters(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int
-) -> None:
+def test_reset_returns_to_the_start_values_and_the_parameters(make_fmu, open_fmu, ask, fmi):
     path = make_fmu(fmi)
     instance = open_fmu(path, {"threshold": 10.0, "late": 1})
     for _ in range(2):
@@ -140,20 +126,20 @@ def test_reset_returns_to_the_start_values_and_the_parameters(
 
 
 def test_an_fmu_is_loaded_once_per_thread_and_two_at_once_are_apart(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, ask: Ask, fmi: int, temporary_folder: Path
-) -> None:
+    make_fmu, open_fmu, ask, fmi, temporary_folder
+):
     """Each copy of the library counts its instances; a copy lies in a folder of its own."""
     kind = {2: "Integer", 3: "UInt32"}[fmi]
     path = make_fmu(fmi, make_fmu.variables(fmi, diagnosis=(30, "output", kind)))
-    counts: list[int] = []
-    folders: list[int] = []
+    counts = []
+    folders = []
 
-    def use(instance: ControllerInstance) -> None:
+    def use(instance):
         instance.reset()
         counts.append(int(ask(instance, *SPEEDS)["diagnosis"]))
         folders.append(len(list(temporary_folder.iterdir())))
 
-    def use_it_again_and_again() -> None:
+    def use_it_again_and_again():
         for _ in range(3):
             instance = open_fmu(path)
             use(instance)
@@ -171,7 +157,7 @@ def test_an_fmu_is_loaded_once_per_thread_and_two_at_once_are_apart(
     assert folders == [1, 1, 1, 2, 2, 2, 2, 2]
 
 
-def test_the_version_is_that_of_the_model_description(make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int) -> None:
+def test_the_version_is_that_of_the_model_description(make_fmu, open_fmu, fmi):
     assert open_fmu(make_fmu(fmi, about='version="2.4.1"')).version == "2.4.1"
     assert open_fmu(make_fmu(fmi)).version == ""
 
@@ -187,13 +173,8 @@ FAULTS = {
 
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_step_that_fails_says_what_the_fmu_says_and_the_next_stop_goes_on(
-    make_fmu: MakeFmu,
-    open_fmu: OpenFmu,
-    ask: Ask,
-    fmi: int,
-    fault: str,
-    capfd: pytest.CaptureFixture[str],
-) -> None:
+    make_fmu, open_fmu, ask, fmi, fault, capfd
+):
     real = {2: "Real", 3: "Float64"}[fmi]
     number, message = FAULTS[fault]
     path = make_fmu(fmi, make_fmu.variables(fmi, magnet=real, diagnosis=(30, "output", real)))
@@ -210,21 +191,19 @@ def test_a_step_that_fails_says_what_the_fmu_says_and_the_next_stop_goes_on(
     assert capfd.readouterr().out == ""
 
 
-def test_an_fmu_that_ends_the_simulation_ends_the_stop(make_fmu: MakeFmu, started: Started) -> None:
+def test_an_fmu_that_ends_the_simulation_ends_the_stop(make_fmu, started):
     ask = started(make_fmu(3), {"fault": 5, "at": 0})
     with pytest.raises(ControllerError, match=r"^the FMU asks to end the simulation$"):
         ask(*SPEEDS)
 
 
-def test_an_fmu_that_does_not_start_says_why(make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int) -> None:
+def test_an_fmu_that_does_not_start_says_why(make_fmu, open_fmu, fmi):
     instance = open_fmu(make_fmu(fmi), {"fault": 8})
     with pytest.raises(ControllerError, match=r"^fmi\dExitInitializationMode returned error: no start( 7)?$"):
         instance.reset()
 
 
-def test_an_fmu_without_the_variables_that_are_needed_is_refused(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int
-) -> None:
+def test_an_fmu_without_the_variables_that_are_needed_is_refused(make_fmu, open_fmu, fmi):
     path = make_fmu(fmi, make_fmu.variables(fmi, speed="axle_speed_%d"))
     assert refused(open_fmu, path) == (
         "has no input wheel_speed_1; its inputs: axle_speed_1, axle_speed_2, axle_speed_3, axle_speed_4;"
@@ -254,9 +233,7 @@ NAMES = [
 
 
 @pytest.mark.parametrize(("names", "message"), NAMES)
-def test_names_that_do_not_fit_are_refused(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, names: dict[str, str], message: str
-) -> None:
+def test_names_that_do_not_fit_are_refused(make_fmu, open_fmu, fmi, names, message):
     assert refused(open_fmu, make_fmu(fmi), **names).startswith(message)
 
 
@@ -276,18 +253,14 @@ def test_names_that_do_not_fit_are_refused(
         ({"threshold": [1.0, 2.0]}, "has one value in parameter threshold, found 2"),
     ],
 )
-def test_parameters_that_do_not_fit_are_refused(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, parameters: dict[str, Any], message: str
-) -> None:
+def test_parameters_that_do_not_fit_are_refused(make_fmu, open_fmu, fmi, parameters, message):
     whole, real = {2: ("Integer", "Real"), 3: ("Int32", "Float64")}[fmi]
     listed = make_fmu.variables(fmi, steps=(40, "parameter", whole), on=(41, "parameter", "Boolean"))
     found = refused(open_fmu, make_fmu(fmi, listed), parameters)
     assert found.startswith(message.format(whole=whole, real=real))
 
 
-def test_parameters_may_be_texts_truth_values_whole_numbers_and_arrays(
-    make_fmu: MakeFmu, started: Started, fmi: int
-) -> None:
+def test_parameters_may_be_texts_truth_values_whole_numbers_and_arrays(make_fmu, started, fmi):
     whole = {2: "Integer", 3: "Int32"}[fmi]
     listed = make_fmu.variables(
         fmi,
@@ -301,9 +274,7 @@ def test_parameters_may_be_texts_truth_values_whole_numbers_and_arrays(
     assert magnets(ask(*SPEEDS)) == VENTS_TWO_AND_FOUR
 
 
-def test_files_that_are_no_fmu_for_here_are_refused(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, tmp_path: Path, fmi: int, temporary_folder: Path
-) -> None:
+def test_files_that_are_no_fmu_for_here_are_refused(make_fmu, open_fmu, tmp_path, fmi, temporary_folder):
     text, empty = tmp_path / "text.fmu", tmp_path / "empty.fmu"
     text.write_text("no archive")
     with zipfile.ZipFile(empty, "w") as archive:
@@ -325,9 +296,7 @@ def test_files_that_are_no_fmu_for_here_are_refused(
     assert list(temporary_folder.iterdir()) == []
 
 
-def test_a_library_that_cannot_be_loaded_is_refused(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, temporary_folder: Path, tmp_path: Path
-) -> None:
+def test_a_library_that_cannot_be_loaded_is_refused(make_fmu, open_fmu, fmi, temporary_folder, tmp_path):
     before = Path.cwd()
     make_fmu.libraries = {fmi: b"no library"}
     message = refused(open_fmu, make_fmu(fmi))
@@ -337,7 +306,7 @@ def test_a_library_that_cannot_be_loaded_is_refused(
     assert list(temporary_folder.iterdir()) == []
 
 
-def test_an_fmu_of_another_step_is_refused(make_fmu: MakeFmu, open_fmu: OpenFmu) -> None:
+def test_an_fmu_of_another_step_is_refused(make_fmu, open_fmu):
     experiment = '<DefaultExperiment stepSize="{}"/>'
     message = "makes steps of 0.003 s: cycle_time is 0.01 s, expected a multiple of it"
     assert refused(open_fmu, make_fmu(2, experiment=experiment.format("0.003"))) == message
@@ -349,17 +318,13 @@ def test_an_fmu_of_another_step_is_refused(make_fmu: MakeFmu, open_fmu: OpenFmu)
     open_fmu(make_fmu(2, experiment=experiment.format("0.003"), interface=variable))
 
 
-def test_a_file_that_changes_after_it_was_read_is_not_loaded(
-    make_fmu: MakeFmu, open_program: Callable[..., ControllerInstance]
-) -> None:
+def test_a_file_that_changes_after_it_was_read_is_not_loaded(make_fmu, open_program):
     path = make_fmu(2)
     with pytest.raises(ControllerError, match=rf"^{path.name} has changed since the scenario was read$"):
         open_program(path, "0" * 64)
 
 
-def test_a_missing_extra_is_named(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_missing_extra_is_named(make_fmu, open_fmu, monkeypatch):
     path = make_fmu(2)
     monkeypatch.setattr("uictest.controllers.adapters.fmu.find_spec", lambda name: None)
     with pytest.raises(
@@ -369,9 +334,7 @@ def test_a_missing_extra_is_named(
 
 
 @pytest.mark.parametrize("size", ["0", "-0.01", "nan", "inf", "soon"])
-def test_a_step_size_that_is_none_is_refused(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, size: str
-) -> None:
+def test_a_step_size_that_is_none_is_refused(make_fmu, open_fmu, fmi, size):
     stated = {"experiment": f'<DefaultExperiment stepSize="{size}"/>'}
     if fmi == 3:
         stated = {"interface": f'fixedInternalStepSize="{size}"'}
@@ -379,9 +342,7 @@ def test_a_step_size_that_is_none_is_refused(
 
 
 @pytest.mark.parametrize("reference", [-1, 2**32])
-def test_a_value_reference_that_no_fmu_can_have_is_refused(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, reference: int
-) -> None:
+def test_a_value_reference_that_no_fmu_can_have_is_refused(make_fmu, open_fmu, fmi, reference):
     listed = make_fmu.variables(fmi)
     listed["hold_1"] = (reference, *listed["hold_1"][1:])
     message = refused(open_fmu, make_fmu(fmi, listed))
@@ -389,9 +350,7 @@ def test_a_value_reference_that_no_fmu_can_have_is_refused(
 
 
 @pytest.mark.parametrize("identifier", ["../../evil", "a/b", "", "1a", "a b", "\u00e4", "any\n"])
-def test_a_library_is_loaded_from_the_fmu_alone(
-    make_fmu: MakeFmu, open_fmu: OpenFmu, fmi: int, identifier: str, temporary_folder: Path
-) -> None:
+def test_a_library_is_loaded_from_the_fmu_alone(make_fmu, open_fmu, fmi, identifier, temporary_folder):
     path = make_fmu(fmi)
     with zipfile.ZipFile(path) as archive:
         content = {name: archive.read(name) for name in archive.namelist()}

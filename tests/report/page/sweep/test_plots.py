@@ -1,7 +1,5 @@
 """The plots of a sweep: every line, bar, band and interval lies where its numbers are, and says them."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import replace
