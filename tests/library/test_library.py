@@ -31,6 +31,7 @@ def test_every_number_has_a_described_source(reference: str) -> None:
 def test_every_source_is_used_and_explained(reference: str) -> None:
     part = load_part(reference)
     used = {number.quantity.source for number in numbers(part)}
+    used |= {end.source for number in numbers(part) for end in number.quantity.range or ()}
     for criterion in getattr(part, "criteria", ()):
         used |= {criterion.source, *(reading.source for reading in criterion.readings)}
         used |= {criterion.reading_source} if criterion.readings else set()
@@ -164,6 +165,28 @@ def test_all_numbers_of_controllers_are_chosen() -> None:
     for name in library.names("controllers"):
         marks = {source.mark for source in load_part(f"controllers/{name}").sources.values()}
         assert marks == {"chosen"}
+
+
+WITHOUT_RANGE = {
+    *("calipers_per_wheelset", "pads_per_caliper", "teeth", "missing_teeth"),  # they can be counted
+    *("range", "reference", "eccentricity"),  # of an instrument or a curve; a momentary reading has none
+    *("speed", "force", "temperature", "factor"),  # a point of a curve, which would bend if it moved alone
+}
+"""Last words of the keys of chosen numbers that state no plausible range."""
+
+
+@pytest.mark.parametrize(
+    "reference",
+    [
+        each
+        for each in REFERENCES
+        if each.startswith(("vehicles/", "brakes/", "calipers/", "pads/", "rails/", "sensors/"))
+    ],
+)
+def test_every_chosen_number_of_the_rig_states_a_plausible_range(reference: str) -> None:
+    chosen = [each for each in numbers(load_part(reference)) if each.source.mark == "chosen"]
+    without = [each.key for each in chosen if each.quantity.range is None]
+    assert [key for key in without if key.rpartition(".")[2] not in WITHOUT_RANGE] == []
 
 
 def test_an_unknown_part_is_refused_with_the_nearest() -> None:

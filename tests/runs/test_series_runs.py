@@ -6,14 +6,15 @@ import pytest
 
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import series as judging_series
+from uictest.plans.series import PlannedStop
 from uictest.running import campaign
-from uictest.runs.batch import run_series, speed_kmh
+from uictest.runs.batch import run_series
 
 
 @pytest.fixture
 def judged(monkeypatch):
     """Series without stops, which are met or not as they say."""
-    monkeypatch.setattr(judging_series, "judge_series", lambda planned, cases: planned)
+    monkeypatch.setattr(judging_series, "judge_results", lambda planned, results: planned)
 
 
 def ran(met, maxfail=None, interrupted=None):
@@ -44,5 +45,5 @@ def test_a_series_that_is_interrupted_is_not_judged_and_none_follows():
 
 @pytest.mark.parametrize("speed", [30, 62.5, 80, 120, 155.25, 180, 350])
 def test_the_speed_of_a_stop_has_the_digits_that_its_scenario_states(speed):
-    stop = SimpleNamespace(speed=speed * KILOMETRE_PER_HOUR)
-    assert speed_kmh(stop) == speed
+    case = SimpleNamespace(scenario=SimpleNamespace(initial_speed=speed * KILOMETRE_PER_HOUR))
+    assert PlannedStop("wet", case).speed_kmh == speed

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import Final
 
 from uictest.core.document import Lines
@@ -11,6 +12,7 @@ from uictest.core.units import in_unit
 from uictest.judging import evaluation
 from uictest.judging.series import SeriesResult, SeriesVerdict
 from uictest.report.escaping import printable
+from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.series.series_sentences import bypassed_is_better, interval, of_dry_stop, percent
 from uictest.report.verdict_sentences import counted, limits, number, quantity, value_and_limits
 
@@ -43,7 +45,7 @@ class CloseCall:
 def close_calls(
     results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult] = ()
 ) -> list[CloseCall]:
-    """Return what is close or not certain: of series first, then what turns, then the narrowest margins.
+    """Return what is close or not certain: what is not firm, of series, what turns, the narrowest margins.
 
     A criterion by which a case or series is not as expected is no such thing.
     """
@@ -60,7 +62,15 @@ def close_calls(
                 text = _narrow(verdict, share)
                 narrow.append((share, CloseCall(result.id, verdict.id, "narrow", text)))
     of_series = [call for each in series for call in _of_series(each)]
-    return [*of_series, *turning, *(call for _, call in sorted(narrow, key=lambda each: each[0]))]
+    not_firm = [
+        *(CloseCall(each.id, "", "turns", text) for each in results for text in _not_firm(each.firmness)),
+        *(
+            CloseCall(each.id, "", "turns", text, True)
+            for each in series
+            for text in _not_firm(each.firmness)
+        ),
+    ]
+    return [*not_firm, *of_series, *turning, *(call for _, call in sorted(narrow, key=lambda each: each[0]))]
 
 
 def close_lines(results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult] = ()) -> Lines:
@@ -69,6 +79,13 @@ def close_lines(results: Sequence[evaluation.CaseResult], series: Sequence[Serie
     rest = len(calls) - MOST_CLOSE
     more = [f"{rest} more, in the tables of cases and series"] if rest > 0 else []
     return Lines([*map(str, calls[:MOST_CLOSE]), *more], title=TITLE)
+
+
+def _not_firm(firmness: evaluation.Firmness | None) -> list[str]:
+    """Return the sentence of an outcome that hangs on numbers that nobody measured; none of others."""
+    if firmness is None or firmness.outcome.status == "firm":
+        return []
+    return list(islice(firmness_sentences(firmness), 1))
 
 
 def _of_series(result: SeriesResult) -> Iterator[CloseCall]:

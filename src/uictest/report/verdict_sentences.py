@@ -10,6 +10,7 @@ from uictest.core.measures import MEASURES
 from uictest.judging import evaluation
 from uictest.report.causes import cause_sentences
 from uictest.report.escaping import printable
+from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.repeat_wording import repeat_sentences
 
 DIFFERS: Final = "differs"
@@ -117,8 +118,10 @@ def explanation(result: evaluation.CaseResult, instants: Mapping[str, str] | Non
     if own_outcome != result.outcome:  # as over the stops of a repeated case
         verdicts = list(_deciding(result))
     names = [verdict.id for verdict in verdicts if verdict.status in ("fail", "inconclusive")]
-    outcome = outcome_sentence(result.outcome, result.expect, names, unsettled=bool(result.unsettled))
+    is_unsettled = bool(result.unsettled) or result.lacks_firmness
+    outcome = outcome_sentence(result.outcome, result.expect, names, unsettled=is_unsettled)
     unsettled = [line for line in unsettled_sentences(result.unsettled) if line not in deciding.values()]
+    unsettled += firmness_sentences(result.firmness) if result.lacks_firmness else ()
     known = instants or {}
     lines = [
         f"{line} (taken at {at})" if (at := known.get(name)) else line for name, line in deciding.items()

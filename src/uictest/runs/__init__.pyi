@@ -4,7 +4,6 @@ from .batch import (
     Keep as Keep,
     all_cases as all_cases,
     batch_of as batch_of,
-    cases_of as cases_of,
     run_batch as run_batch,
 )
 from .drawing import with_traces as with_traces

@@ -9,11 +9,11 @@ from pathlib import Path
 from uictest import report, rig
 from uictest.analysis import comparison, validation
 from uictest.core import recording
-from uictest.core.units import in_unit
 from uictest.judging import evaluation, series as judging_series
 from uictest.plans import scenario, series as series_plans
 from uictest.running import campaign
 from uictest.runs.drawing import TraceCollection
+from uictest.runs.firmness import firmness_run, stops_of_case, stops_of_series
 from uictest.runs.observer import Observer
 from uictest.runs.scenario_files import read_reference
 
@@ -159,7 +159,7 @@ def run_batch(
         recorded=batch.judge is not None,
     )
 
-    def run(cases: Sequence[scenario.Case], note: Note, maxfail: int | None) -> campaign.BatchResult:
+    def run(cases: Sequence[scenario.Case], note: Note, own: campaign.RunSettings) -> campaign.BatchResult:
         def hand_on(case_run: campaign.CaseRun) -> None:
             drawing.add(case_run)
             result = case_run.result
@@ -169,16 +169,17 @@ def run_batch(
 
         if batch.judge is not None:
             return campaign.judge_cases(cases, batch.judge, settings, hand_on)
-        own = replace(settings, recording=drawing.recording, maxfail=maxfail)
-        return simulate_cases(cases, own, observer, hand_on)
+        return simulate_cases(cases, replace(own, recording=drawing.recording), observer, hand_on)
 
-    done = run(batch.cases, observer.case, settings.maxfail)
+    done = run(batch.cases, observer.case, settings)
     missed = sum(not result.met for result in done.results)
     judged = SeriesBatch(interrupted=done.interrupted)
     if not done.interrupted:
         judged = run_series(
             batch.series,
-            lambda cases: run(cases, observer.case_of_series, None),
+            # A series is firm as a whole: of its cases it is not asked.
+            lambda cases: run(cases, observer.case_of_series, replace(settings, maxfail=None, firm=False)),
+            lambda each, result: _with_firmness(each, result, settings, observer),
             maxfail=None if settings.maxfail is None else settings.maxfail - missed,
             show=observer.series,
         )
@@ -202,12 +203,36 @@ def simulate_cases(
         return campaign.BatchResult()
     if settings.in_process and any(case.scenario.controller.program for case in cases):
         observer.foreign_in_process()
+    asked = {case.id: case for case in cases if settings.firm or case.scenario.firm}
     with observer.compiling():
         rig.load_stop()
-    stops = sum(case.scenario.repeat for case in cases)
+        if asked:
+            rig.load_block([case.scenario.controller.program for case in asked.values()])
+    varied = sum(map(stops_of_case, asked.values()))
+    stops = sum(case.scenario.repeat for case in cases) + varied
     unit = unit or ("stops" if stops > len(cases) else "cases")
-    with observer.simulating(stops, unit=unit) as advance:
+    with observer.simulating(stops, unit=unit) as advance, firmness_run(settings, varied, advance) as firm:
+        if asked:
+            settings = replace(
+                settings, firmness=lambda name: firm.of_case(asked[name]) if name in asked else None
+            )
         return campaign.run_cases(cases, settings, on_result=on_result, on_stop=lambda: advance(1))
+
+
+def _with_firmness(
+    planned: series_plans.Series,
+    result: judging_series.SeriesResult,
+    settings: campaign.RunSettings,
+    observer: Observer,
+) -> judging_series.SeriesResult:
+    """Return the result of a series, with how firm it is where that is asked and it was judged."""
+    if not (settings.firm or planned.file.firm) or result.outcome in campaign.NOT_JUDGED:
+        return result
+    stops = stops_of_series(planned)
+    with observer.compiling():
+        rig.load_block([case.scenario.controller.program for case in planned.cases])
+    with observer.simulating(stops, unit="stops") as advance, firmness_run(settings, stops, advance) as firm:
+        return replace(result, firmness=firm.of_series(planned))
 
 
 @dataclass(slots=True)
@@ -221,11 +246,16 @@ class SeriesBatch:
 def run_series(
     planned: Sequence[series_plans.Series],
     run: Callable[[Sequence[scenario.Case]], campaign.BatchResult],
+    complete: Callable[
+        [series_plans.Series, judging_series.SeriesResult], judging_series.SeriesResult
+    ] = lambda planned, result: result,
     *,
     maxfail: int | None,
     show: Callable[[judging_series.SeriesResult], None],
 ) -> SeriesBatch:
     """Run and judge series; after `maxfail` that are not as expected no further one is run.
+
+    `complete` adds to a result what it takes further stops to say.
 
     A series whose stops an interrupt cut short is not judged.
     """
@@ -237,22 +267,11 @@ def run_series(
         if done.interrupted:
             batch.interrupted = True
             break
-        result = judging_series.judge_series(each, cases_of(each, done.results))
-        batch.results.append(result)
+        batch.results.append(judging_series.judge_results(each, done.results))
+        try:
+            result = batch.results[-1] = complete(each, batch.results[-1])
+        except KeyboardInterrupt:
+            batch.interrupted = True
+            break
         show(result)
     return batch
-
-
-def cases_of(
-    planned: series_plans.Series, results: Sequence[evaluation.CaseResult]
-) -> list[judging_series.SeriesCase]:
-    """Return the results of the cases of a series, with what each is for and its nominal speed."""
-    return [
-        judging_series.SeriesCase(stop.role, speed_kmh(stop), result, stop.rail)
-        for stop, result in zip(planned.stops, results, strict=True)
-    ]
-
-
-def speed_kmh(stop: series_plans.PlannedStop) -> float:
-    """Return the nominal initial speed of a stop in km/h, without the digits that conversion adds."""
-    return round(in_unit(stop.speed, "km/h"), 6)

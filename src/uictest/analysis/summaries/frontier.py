@@ -12,7 +12,6 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.units import KINDS
 from uictest.plans.scenario import Setting, value_label
 from uictest.plans.scenario.yaml import (
     DecimalQuantity,
@@ -26,7 +25,7 @@ from uictest.plans.scenario.yaml import (
     quantity_text,
     rounded_decimal,
 )
-from uictest.plans.sweeps import ListedGroup, ParameterValue, Plan, content_of, is_free
+from uictest.plans.sweeps import ListedGroup, ParameterValue, Plan, content_of, is_free, kind_of
 from uictest.report import Flip, FrontierScan, WrittenValue
 from uictest.running.campaign import map_on_threads
 from uictest.running.chunked import ChunkRunner, chunk_runner
@@ -131,7 +130,7 @@ class FrontierSearch:
         example = self._group.rows[0][0].content
         place = Place(Document("--frontier", Path(), text))
         setting = Setting(self.key, Entry(place, Scalar(text, text, place)), 1)
-        return ParameterValue(text, content_of(text, _kind_of(example, self.unit)), value_label(setting))
+        return ParameterValue(text, content_of(text, kind_of(example, self.unit)), value_label(setting))
 
     def _scan(self, number: int, row: Verdicts, brackets: Sequence[_Bracket]) -> FrontierScan:
         flips = tuple(
@@ -168,14 +167,6 @@ def _is_continuous(plan: Plan, key: str, content: Any) -> bool:
         return True
     is_number = isinstance(content, float | int) and not isinstance(content, bool)
     return is_number and is_free(plan.base.scenario, key)
-
-
-def _kind_of(example: Any, unit: str) -> str:
-    """Return a kind of quantity in which the unit means the same as for the example, empty for a number."""
-    if not isinstance(example, Quantity):
-        return ""
-    kinds = (kind for kind in KINDS.values() if kind.canonical == example.unit)
-    return next(kind.name for kind in kinds if (unit in kind.units if unit else kind.bare))
 
 
 def _note(row: Verdicts, flips: int) -> str:

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from uictest import report, runs
+from uictest import report
 from uictest.api.pytest_plugin.cases import Changes, RigItem, numbers_in, simulated, with_reasons_first
 from uictest.judging import series
 from uictest.plans import series as series_plans
@@ -71,7 +71,7 @@ class SeriesRun:
     def result(self) -> series.SeriesResult:
         """The series, judged."""
         results = [run.result for run in simulated(self.config, self.planned.cases)]
-        return series.judge_series(self.planned, runs.cases_of(self.planned, results))
+        return series.judge_results(self.planned, results)
 
 
 class SeriesItem(RigItem):

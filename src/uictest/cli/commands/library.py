@@ -40,9 +40,9 @@ def show_part(
 ) -> ExitCode:
     """Show every number of a part with unit, mark (stated, published, identified or chosen) and source.
 
-    For a part that extends another, also the values that differ. Below the numbers: the sources, the
-    publications that they cite, and how identified numbers were identified. For a channel map: the names that
-    each channel may have in a file.
+    And its plausible range, where it states one; for a part that extends another, also the values that
+    differ. Below the numbers: the sources, the publications that they cite, and how identified numbers were
+    identified. For a channel map: the names that each channel may have in a file.
     """
     if reference.endswith((".yaml", ".yml")):
         _show_file(Path(reference))
@@ -81,6 +81,7 @@ def _show_numbers(part: yaml.Part) -> None:
     if removed := original.keys() - {number.key for number in shown}:
         data(f"removed: {', '.join(sorted(removed))}")
     used = {number.quantity.source for number in shown}
+    used |= {end.source for number in shown for end in number.quantity.range or ()}
     sources = [(name, each.text) for name, each in part.sources.items() if name in used]
     cited = [
         each
@@ -94,11 +95,21 @@ def _show_numbers(part: yaml.Part) -> None:
 
 
 def _row(number: scenario.SourcedNumber) -> tuple[str, ...]:
-    """Return key, number, mark and the name of the source; no name if it is the same as the mark."""
+    """Return key, number, mark, name of the source and range; no name if it is the same as the mark."""
+    quantity = number.quantity
     if number.source is None:
-        return (number.key, number.quantity.text, scenario.mark_of(number.quantity, {}), "")
-    mark, name = number.source.mark, number.quantity.source
-    return (number.key, number.quantity.text, mark, "" if name == mark else name)
+        return (number.key, quantity.text, scenario.mark_of(quantity, {}), "", "")
+    mark, name = number.source.mark, quantity.source
+    return (number.key, quantity.text, mark, "" if name == mark else name, _range(quantity))
+
+
+def _range(quantity: yaml.Quantity) -> str:
+    """Return the plausible range of a number, with the name of its source where that is another one."""
+    if quantity.range is None:
+        return ""
+    low, high = quantity.range
+    source = "" if low.source == quantity.source else f" ({low.source})"
+    return f"plausible: {low.text} .. {high.text}{source}"
 
 
 def _difference(

@@ -70,6 +70,7 @@ def run(
     tolerance: options.ToleranceTexts = None,
     validated: options.Validated = None,
     strict: options.Strict = False,
+    firm: options.Firm = False,
     durations: Durations = None,
     in_process: options.InProcess = False,
     real_time: options.RealTime = False,
@@ -104,6 +105,7 @@ def run(
         in_process=in_process,
         real_time=real_time,
         strict=strict,
+        firm=firm,
     )
     batch = runs.batch_of(
         *(selected, of_series, context.obj.arguments, seed, settings),

@@ -17,6 +17,13 @@ from .effective_parts import (
     program_in as program_in,
     program_of as program_of,
 )
+from .firmness import (
+    Firmness as Firmness,
+    FirmnessStatus as FirmnessStatus,
+    NumberEffect as NumberEffect,
+    Turn as Turn,
+    VerdictFirmness as VerdictFirmness,
+)
 from .json_values import (
     Expectation as Expectation,
     Number as Number,

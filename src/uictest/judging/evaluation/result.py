@@ -21,6 +21,7 @@ from pydantic import (
 
 from uictest.controllers import ResponseTimes
 from uictest.core import document
+from uictest.judging.evaluation.firmness import Firmness
 from uictest.judging.evaluation.json_values import (
     CaseMeasures,
     CaseWheelsetMeasures,
@@ -76,8 +77,9 @@ class CaseResult:
     `test_case` is its id in a test management tool. `noise_key` names the noise of the sensors that a
     simulated stop met, together with its seed, see :mod:`uictest.rig.single_stop`. `domain_of_validity` says
     whether the case lies where the model was validated; None where nobody asked. `strict` says that the case
-    is not met either where one of its verdicts is not settled. The document has these eight, and `repeats`,
-    only where there is something in them. `duration` (seconds of wall clock) is for
+    is not met either where one of its verdicts is not settled. `firmness` says whether numbers that nobody
+    measured turn its verdicts, where that was asked. The document has these nine, and `repeats`, only where
+    there is something in them. `duration` (seconds of wall clock) is for
     progress and JUnit only, never part of the document: a result must not depend on the machine.
 
     A case that repeats its stop has its stops in `repeats`: `measures` and `wheelsets` are then medians over
@@ -103,6 +105,7 @@ class CaseResult:
     repeats: WrittenRepeats | None = None
     domain_of_validity: DomainOfValidity | None = None
     strict: bool = False
+    firmness: Firmness | None = None
     duration: Annotated[float, Field(exclude=True)] = field(default=0.0, compare=False)
 
     @property
@@ -117,8 +120,15 @@ class CaseResult:
 
     @property
     def met(self) -> bool:
-        """Whether the outcome is the expected one and, if `strict`, every verdict is settled."""
-        return self.as_expected and not self.unsettled
+        """Whether the outcome is the expected one and, if `strict`, every verdict settled and it is firm."""
+        return self.as_expected and not self.unsettled and not self.lacks_firmness
+
+    @property
+    def lacks_firmness(self) -> bool:
+        """Whether, with `strict`, it was asked how firm the outcome is, and it is not shown to be."""
+        if self.firmness is None or not self.strict:
+            return False
+        return self.firmness.outcome.status != "firm"
 
     @property
     def drawn_stop(self) -> CaseResult:
@@ -194,7 +204,7 @@ def narrowest_margin(result: CaseResult) -> tuple[float | None, str]:
 
 _OF_SOME: Final = (
     *("response_times", "controller_version", "case_sha256"),
-    *("requirements", "test_case", "noise_key", "repeats", "domain_of_validity", "strict"),
+    *("requirements", "test_case", "noise_key", "repeats", "domain_of_validity", "strict", "firmness"),
 )
 """Fields that the form of a result or a verdict has only where there is something in them."""
 

@@ -7,6 +7,7 @@ from .document import (
     series_results_of as series_results_of,
 )
 from .judgement import (
+    judge_results as judge_results,
     judge_series as judge_series,
 )
 from .result import (

@@ -15,7 +15,7 @@ _EARLIER_SCHEMA: Final = "uictest/series-result/1"
 """What 0.2 wrote beside the same fields."""
 _FIELDS: Final = frozenset({"parts", "cases", "series"})
 _WrittenSeries = Annotated[
-    SeriesResult, evaluation.absent_if_empty("requirements", "test_case", "bypassed_k_wet")
+    SeriesResult, evaluation.absent_if_empty("requirements", "test_case", "bypassed_k_wet", "firmness")
 ]
 _SERIES: Final = TypeAdapter(list[_WrittenSeries], config=ConfigDict(extra="forbid", defer_build=True))
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from uictest.core.series_measures import SERIES_MEASURES, Rail, SeriesValue, SpeedStops
 from uictest.core.units import KILOMETRE_PER_HOUR, in_unit
 from uictest.judging import evaluation
-from uictest.judging.evaluation import Outcome
+from uictest.judging.evaluation import CaseResult, Outcome
 from uictest.judging.series.counting import (
     SeriesStop,
     applies,
@@ -71,6 +71,15 @@ def judge_series(series: Series, cases: Sequence[SeriesCase]) -> SeriesResult:
         test_case=series.file.test_case or "",
         bypassed_k_wet=observed.bypassed_k_wet,
     )
+
+
+def judge_results(series: Series, results: Sequence[CaseResult]) -> SeriesResult:
+    """Return the result of a series all of whose stops have been run; `results` are in their order."""
+    cases = [
+        SeriesCase(stop.role, stop.speed_kmh, result, stop.rail)
+        for stop, result in zip(series.stops, results, strict=True)
+    ]
+    return judge_series(series, cases)
 
 
 def _require_known(series: Series, cases: Sequence[SeriesCase]) -> None:

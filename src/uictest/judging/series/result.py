@@ -25,6 +25,7 @@ from uictest.core.series_measures import Estimate, Rail, SeriesValue
 from uictest.judging.evaluation import (
     CaseResult,
     Expectation,
+    Firmness,
     Outcome,
     Verdict,
     absent_if_empty,
@@ -190,8 +191,9 @@ class SeriesResult:
     of wet stops that must count; both are shares of 1. `speed_tolerance_kmh` is that of the initial speed.
     `measures` are those of the whole series. `requirements` are the ids of those that the series verifies as
     a whole; its criteria may verify others. `test_case` is its id in a test management tool. `bypassed_k_wet`
-    is K_wet of the same wet stops with the WSP bypassed, where K_wet is judged. The document has these three
-    only where there is something in them.
+    is K_wet of the same wet stops with the WSP bypassed, where K_wet is judged; `firmness` says whether
+    numbers that nobody measured turn the verdicts, where that was asked. The document has these four only
+    where there is something in them.
     """
 
     id: str
@@ -212,6 +214,7 @@ class SeriesResult:
     requirements: tuple[str, ...] = ()
     test_case: str = ""
     bypassed_k_wet: WrittenValue | None = None
+    firmness: Firmness | None = None
 
     @property
     def wet_stops(self) -> StopCounts:
@@ -234,5 +237,12 @@ class SeriesResult:
 
     @property
     def met(self) -> bool:
-        """Whether the outcome is the expected one and, if cases are `strict`, every verdict is settled."""
-        return self.as_expected and not self.unsettled
+        """Whether it is as expected and, if its cases are `strict`, firm and settled in every verdict."""
+        return self.as_expected and not self.unsettled and not self.lacks_firmness
+
+    @property
+    def lacks_firmness(self) -> bool:
+        """Whether, if its cases are `strict`, it was asked how firm it is, and it is not shown to be."""
+        if self.firmness is None or not any(each.case.strict for each in self.cases):
+            return False
+        return self.firmness.outcome.status != "firm"

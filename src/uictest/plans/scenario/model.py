@@ -80,6 +80,11 @@ class Scenario(TestFile):
     seed: int = field("Seed of the sensors' noise.", default=0, ge=0, le=2**32 - 1, strict=True)
     repeat: Repeat = 1
     outcome_of_repeats: OutcomeOfRepeats = "all"
+    firm: bool = field(
+        "Whether `uictest run` finds out how firm the verdicts are, as with --firm.",
+        default=False,
+        strict=True,
+    )
     simulation: Simulation = field("Step and longest duration.", default=Simulation())
     matrix: dict[str, Any] | None = optional(
         "Lists of values by dotted key; every combination is a case, first key slowest."

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BeforeValidator, Field
 
 from uictest.core.series_measures import Rail
+from uictest.core.units import in_unit
 from uictest.plans.scenario import (
     Case,
     Criteria,
@@ -89,6 +90,11 @@ class SeriesFile(TestFile):
     expect: Literal["pass", "fail", "invalid", "skipped"] = field(
         "The expected outcome; fail is for series that must not pass.", default="pass"
     )
+    firm: bool = field(
+        "Whether `uictest run` finds out how firm the verdicts are, as with --firm.",
+        default=False,
+        strict=True,
+    )
     matrix: dict[str, Any] | None = optional(
         "Lists of values by dotted key; every combination is a series of its own."
     )
@@ -164,6 +170,11 @@ class PlannedStop:
     def speed(self) -> float:
         """The nominal initial speed, m/s."""
         return float(self.case.scenario.initial_speed)
+
+    @property
+    def speed_kmh(self) -> float:
+        """The same in km/h, without the digits that conversion adds."""
+        return round(in_unit(self.speed, "km/h"), 6)
 
 
 @dataclass(frozen=True, slots=True)

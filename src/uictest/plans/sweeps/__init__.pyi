@@ -3,9 +3,17 @@ from .base_case import (
     SURVEY_STEP as SURVEY_STEP,
     inconsistencies as inconsistencies,
     is_free as is_free,
+    value_at as value_at,
     with_values as with_values,
 )
-from .column import Column as Column, ParameterValue as ParameterValue, content_of as content_of
+from .column import (
+    Column as Column,
+    ParameterValue as ParameterValue,
+    content_of as content_of,
+    drawn_column as drawn_column,
+    kind_of as kind_of,
+    listed_column as listed_column,
+)
 from .definition import (
     load_sweep as load_sweep,
 )
@@ -25,3 +33,5 @@ from .plan import (
     saltelli_sample as saltelli_sample,
     scenarios_with_each as scenarios_with_each,
 )
+from .ranges import RangedNumber as RangedNumber, ranged_numbers as ranged_numbers
+from .sampling import sobol_blocks as sobol_blocks

@@ -129,5 +129,13 @@ def content_of(text: str, kind: str) -> Any:
     return parse_quantity(text, kind) if kind else scalar_value(text)
 
 
+def kind_of(example: Any, unit: str) -> str:
+    """Return a kind of quantity in which the unit means the same as for the example, empty for a number."""
+    if not isinstance(example, Quantity):
+        return ""
+    kinds = (kind for kind in KINDS.values() if kind.canonical == example.unit)
+    return next(kind.name for kind in kinds if (unit in kind.units if unit else kind.bare))
+
+
 def _is_number(content: Any) -> bool:
     return isinstance(content, float | int) and not isinstance(content, bool)

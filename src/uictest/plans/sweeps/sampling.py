@@ -70,6 +70,24 @@ def _sobol_run(dimensions: int, seed: int, first: int, count: int) -> Points:
     return drawn
 
 
+def sobol_blocks(blocks: int, size: int, dimensions: int, seed: int) -> Points:
+    """Return blocks of Sobol' points, each scrambled for itself, one after the other.
+
+    Each block is an estimate of its own, so that the spread over the blocks shows the error of their mean.
+
+    Args:
+        blocks: number of blocks.
+        size: points of a block, a power of two.
+        dimensions: of the unit cube.
+        seed: of the scrambling; block k has seed + k.
+
+    Returns:
+        Shape (blocks * size, dimensions).
+
+    """
+    return np.concatenate([_sobol_run(dimensions, seed + k, 0, size) for k in range(blocks)])
+
+
 @lru_cache(maxsize=1)
 def _latin_hypercube(size: int, dimensions: int, seed: int) -> Points:
     """Return the whole design, which has every stratum of every parameter once."""

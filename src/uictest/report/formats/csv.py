@@ -10,6 +10,7 @@ from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.content import RunContent
+from uictest.report.firmness_sentences import firmness_rows
 from uictest.report.formats import ReportFormat
 from uictest.report.part_wording import changes_of, controller_of
 from uictest.report.repeat_wording import (
@@ -89,15 +90,23 @@ def requirements_table(results: Sequence[evaluation.CaseResult], series: Sequenc
     return Data.of(list(requirement_rows(verified_requirements(results, series))))
 
 
+def firmness_data(results: Sequence[evaluation.CaseResult], series: Sequence[SeriesResult]) -> Data:
+    """Return one row per number and criterion of each case or series of which it was asked how firm it is."""
+    judged: list[evaluation.CaseResult | SeriesResult] = [*results, *series]
+    asked = [(each.id, each.firmness) for each in judged if each.firmness is not None]
+    return Data.of([row for name, firmness in asked for row in firmness_rows(name, firmness)])
+
+
 def run_tables(content: RunContent) -> Mapping[str, Data]:
     """Return the tables of a run by the names of their files, without `.csv`.
 
-    Without repeated cases, requirements or series, the tables of these are missing.
+    Without repeated cases, requirements, firmness or series, the tables of these are missing.
     """
     results = content.results
     optional = {
         "repeats": repeats_table(results),
         "requirements": requirements_table(results, content.series),
+        "firmness": firmness_data(results, content.series),
     }
     return {
         "summary": summary_table(results, content.uictest_version),

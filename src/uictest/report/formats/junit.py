@@ -17,6 +17,7 @@ from uictest.report.difference import (
     case_word,
     difference_sentences,
 )
+from uictest.report.firmness_sentences import firmness_property, firmness_sentences
 from uictest.report.formats import ReportFormat
 from uictest.report.junit import WITH_TEST_PROPERTIES, junit_text, suite_properties, test_properties
 from uictest.report.part_wording import changes_line, controller_of, controllers_text, domain_sentences
@@ -87,6 +88,7 @@ def _testcase(
 ) -> Testcase:
     status = _status(result, differs=bool(differences))
     remarks = [*real_time_sentences(result), *domain_sentences(result), *changes_line(result)]
+    remarks += firmness_sentences(result.firmness)
     is_of_baseline = status != "passed" and case_word(result, differences) == DIFFERS
     if status != "passed":
         controllers = controllers_text([result], uictest_version)
@@ -102,7 +104,10 @@ def _testcase(
         remarks,
         "baseline" if is_of_baseline else "",
         result.duration,
-        test_properties(result.test_case, requirements_of(result)) if with_properties else {},
+        {
+            **(test_properties(result.test_case, requirements_of(result)) if with_properties else {}),
+            **firmness_property(result.firmness),
+        },
     )
 
 

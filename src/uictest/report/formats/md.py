@@ -18,6 +18,7 @@ from uictest.report.difference import (
     not_compared_sentences,
     worst_of_wheelsets,
 )
+from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.formats import ReportFormat
 from uictest.report.github import LIMIT, append_to_step_summary
 from uictest.report.part_wording import domain_notices
@@ -35,6 +36,7 @@ def run_summary(content: RunContent) -> Document:
         close_lines(content.results, content.series),
         *series_views.series_sections(content.series),
         *_baseline(content),
+        _firmness(content),
         _requirements(content),
         cases_table(content),
         Table(_READINGS, list(_readings(content.results)), more="more are in `criteria.csv`.", most=_MOST),
@@ -68,6 +70,14 @@ def _baseline(content: RunContent) -> list[Table | Lines]:
     lines = [baseline_summary(content.baseline), *not_compared_sentences(content.baseline)]
     worst = worst_of_wheelsets(content.baseline.all_differences)
     return [Lines(lines), differences_table(worst, most=_MOST)]
+
+
+def _firmness(content: RunContent) -> Lines:
+    """Return how firm the cases and series are of which it was asked."""
+    asked = [(each.id, each.firmness) for each in content.results]
+    asked += [(each.id, each.firmness) for each in content.series]
+    lines = [f"{name}: {line}" for name, firmness in asked for line in firmness_sentences(firmness)]
+    return Lines(lines, "Firm or not firm" if lines else "")
 
 
 _REQUIREMENTS: Final[tuple[Column[VerifiedRequirement], ...]] = (

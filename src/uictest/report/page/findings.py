@@ -132,7 +132,7 @@ def close_of(content: RunContent, margins: Mapping[str, Margins]) -> list[Close]
     return [
         Close(call, fragment(series_anchor(call.of)), "")
         if call.of_series
-        else Close(call, fragment(case_anchor(call.of)), taken[call.of, call.criterion])
+        else Close(call, fragment(case_anchor(call.of)), taken.get((call.of, call.criterion), ""))
         for call in close_calls(content.results, content.series)
     ]
 

@@ -19,6 +19,7 @@ from markupsafe import Markup
 from uictest.core import user_cache
 from uictest.report.difference import side_text
 from uictest.report.escaping import printable
+from uictest.report.firmness_sentences import firmness_sentences, firmness_table
 from uictest.report.part_wording import (
     base_word,
     changed_parameters,
@@ -118,6 +119,7 @@ _WORDS: Final[tuple[Callable[..., Any], ...]] = (
     *(base_word, changed_parameters, domain_notices, domain_sentences, part_sentences, slide_speed),
     *(counted, counted_in, failing_first, listed, number, reading_sentences, reading_sources, tone),
     *(any_repeated, side_text, stops_text, without_rig_that_holds),
+    *(firmness_sentences, firmness_table),
 )
 """What every template can put results into words by."""
 

@@ -11,6 +11,7 @@ from uictest.core import statistics
 from uictest.core.series_measures import SERIES_MEASURES, Estimate, Method
 from uictest.judging.series import SeriesResult, SeriesVerdict
 from uictest.report.escaping import printable
+from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.github import annotation
 from uictest.report.verdict_sentences import (
     CASE_WORDS,
@@ -161,7 +162,9 @@ def series_explanation(result: SeriesResult) -> list[str]:
     deciding = [each for each in result.criteria if each.verdict.status in ("fail", "inconclusive")]
     names = [each.verdict.id for each in deciding]
     return [
-        outcome_sentence(result.outcome, result.expect, names, unsettled=bool(result.unsettled)),
+        outcome_sentence(
+            *(result.outcome, result.expect, names), unsettled=bool(result.unsettled) or result.lacks_firmness
+        ),
         *([printable(result.reason)] if result.reason and not deciding else []),
         *(series_verdict_sentence(each, result.confidence) for each in deciding),
         *unsettled_of_series(result),
@@ -173,7 +176,8 @@ def series_explanation(result: SeriesResult) -> list[str]:
 def unsettled_of_series(result: SeriesResult) -> list[str]:
     """Return which verdicts of a strict series and of its cases are not settled, and why."""
     pairs = [(printable(name), each) for name, each in result.unsettled]
-    return [f"{name}: {line}" for name, each in pairs for line in unsettled_sentences([each])]
+    lines = [f"{name}: {line}" for name, each in pairs for line in unsettled_sentences([each])]
+    return [*lines, *(firmness_sentences(result.firmness) if result.lacks_firmness else ())]
 
 
 SHOWN_MEASURES = ("k_wet", "stopping_distance_extension", "passing_share")

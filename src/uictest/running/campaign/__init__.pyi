@@ -1,4 +1,5 @@
 from .batch import (
+    NOT_JUDGED as NOT_JUDGED,
     BatchResult as BatchResult,
     PartsOfCases as PartsOfCases,
     RunSettings as RunSettings,

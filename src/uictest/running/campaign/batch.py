@@ -9,7 +9,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from itertools import islice
 from types import TracebackType
-from typing import Generic, TypeVar
+from typing import Final, Generic, TypeVar
 
 from uictest import controllers, rig
 from uictest.core import recording
@@ -111,6 +111,8 @@ def replay(
             yield case, stop.recording
 
 
+NOT_JUDGED: Final = ("error", "skipped")
+"""Outcomes that no verdict stands behind."""
 PartsOfCases = Mapping[str, Mapping[str, "evaluation.EffectivePart"]]
 """Case id -> role -> part."""
 
@@ -148,7 +150,10 @@ class RunSettings:
             depend on `jobs`.
         in_process: whether controllers from outside run in this process, which they can then crash.
         real_time: whether their cycles are paced by the clock; all must be programs at a socket.
-        strict: whether a case is met only if all of its verdicts are settled, too.
+        strict: whether a case is met only if all of its verdicts are settled, too, and it is firm where that
+            was asked.
+        firm: whether it is asked how firm all verdicts are; else of the scenarios that say `firm`.
+        firmness: returns how firm the verdicts of the case of an id are, None where that was not asked.
         parts: effective parts by case id.
         domains: whether cases, by id, lie in the domain of a validation; of those for which it was asked.
 
@@ -160,6 +165,8 @@ class RunSettings:
     in_process: bool = False
     real_time: bool = False
     strict: bool = False
+    firm: bool = False
+    firmness: Callable[[str], evaluation.Firmness | None] | None = None
     parts: PartsOfCases = field(default_factory=dict)
     domains: Mapping[str, evaluation.DomainOfValidity] = field(default_factory=dict)
 
@@ -206,12 +213,14 @@ def run_cases(
         on_stop: called in this thread, once per stop.
     """
     settings = settings or RunSettings()
-    batch = BatchResult()
+    batch, own = BatchResult(), settings
 
     def report(case_run: CaseRun) -> None:
-        case_run = replace(case_run, result=settings.completed(case_run.result))
-        batch.results.append(case_run.result)
-        on_result(case_run)
+        batch.results.append(own.completed(case_run.result))
+        if own.firmness is not None and case_run.result.outcome not in NOT_JUDGED:
+            result = batch.results[-1]
+            batch.results[-1] = replace(result, firmness=own.firmness(result.id))
+        on_result(replace(case_run, result=batch.results[-1]))
 
     with rig.Workers() as workers:
         run: rig.RunInputs = rig.run_in_process if settings.in_process else workers.run
@@ -230,6 +239,7 @@ def run_cases(
                         break
         except KeyboardInterrupt:
             batch.interrupted = True
+            own = replace(own, firmness=None)
             # Before the child processes end: their stops would come out as errors.
             for case_run in _assembled(stop_runs.finished(), assembly, on_stop):
                 report(case_run)

@@ -33,3 +33,4 @@ from .table import (
     text_column as text_column,
     wheelset_columns as wheelset_columns,
 )
+from .varied_case import VariedCase as VariedCase

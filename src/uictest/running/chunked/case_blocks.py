@@ -81,8 +81,10 @@ class CaseBlock:
 class BlockAssembler:
     """Converts cases of a plan to records, with the same bits as :func:`uictest.rig.assemble`."""
 
-    def __init__(self, plan: Plan) -> None:
+    def __init__(self, plan: Plan, *, noise_of_base: bool = False) -> None:
+        """Take a plan, and whether all of its cases meet the noise that the base case meets."""
         self._plan = plan
+        self._noise_of_base = noise_of_base
         base = bench.identified(plan.base)
         self._identifies = bool(related_keys(plan.keys, bench.IDENTIFIED_KEYS)) and (
             base is not plan.base or "rig.compensation_model" in plan.keys
@@ -122,7 +124,8 @@ class BlockAssembler:
         if self._identifies:
             self._identify(variants, parameters, rejections)
         rail = _stacked(list(self._rail.results(variants)), indices.size, rejections)
-        parameters["noise_key"] = noise_keys(parameters, wheelsets, rail)
+        if not self._noise_of_base:  # else it is that of the base's record
+            parameters["noise_key"] = noise_keys(parameters, wheelsets, rail)
         programs = self._programs.per_case(variants)
         return CaseBlock(
             *(indices, ids, settings, parameters, wheelsets, rail),

@@ -243,7 +243,7 @@ DESCRIPTIVE: Final = frozenset(
         *("schema_id", "id", "name", "title", "description", "tags", "extends"),
         *("sources", "source", "clause", "scope", "provenance"),
         *("requirements", "test_case", "validated", "declared_parameters", "free_parameters"),
-        *("matrix", "zip", "include", "exclude", "expect", "repeat", "outcome_of_repeats"),
+        *("matrix", "zip", "include", "exclude", "expect", "repeat", "outcome_of_repeats", "firm"),
     }
 )
 """Fields that a stop cannot depend on: names, sources, expectations, repeats and references to results.

@@ -136,12 +136,16 @@ class Part(Model):
         """Yield every number whose source is not described."""
         known = {SCENARIO_SOURCE, DEFAULT_SOURCE, *self.sources}
         for key, quantity in quantities_in(self):
-            if quantity.source not in known:
-                yield Inconsistency(
-                    (*key, "source"),
-                    f"unknown source {quoted(quantity.source)}",
-                    suggestion(quantity.source, self.sources) or "describe it under 'sources'",
-                )
+            named = {"source": quantity.source}
+            if quantity.range is not None:
+                named["range_source"] = quantity.range[0].source
+            for name, source in named.items():
+                if source not in known:
+                    yield Inconsistency(
+                        (*key, name),
+                        f"unknown source {quoted(source)}",
+                        suggestion(source, self.sources) or "describe it under 'sources'",
+                    )
 
     @classmethod
     def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:

@@ -35,25 +35,35 @@ class Quantity(float):
     """A float in its canonical SI unit.
 
     ``text`` is the value as written, ``unit`` the canonical unit, ``source`` a key of the part's ``sources``
-    or ``"scenario"`` or ``"default"``.
+    or ``"scenario"`` or ``"default"``. ``range`` holds the ends of its plausible range where one is stated;
+    their source is that of the range.
     """
 
-    __slots__ = ("source", "text", "unit")
+    __slots__ = ("range", "source", "text", "unit")
 
     text: str
     unit: str
     source: str
+    range: tuple[Quantity, Quantity] | None
 
-    def __new__(cls, value: float, text: str, unit: str, source: str = SCENARIO_SOURCE) -> Self:
+    def __new__(
+        cls,
+        value: float,
+        text: str,
+        unit: str,
+        source: str = SCENARIO_SOURCE,
+        range: tuple[Quantity, Quantity] | None = None,  # noqa: A002 - the key of a file
+    ) -> Self:
         """A quantity of ``value`` in the canonical ``unit``, written as ``text``."""
         quantity = super().__new__(cls, value)
         quantity.text = text
         quantity.unit = unit
         quantity.source = source
+        quantity.range = range
         return quantity
 
-    def __getnewargs__(self) -> tuple[float, str, str, str]:  # type: ignore[override]
-        return float(self), self.text, self.unit, self.source
+    def __getnewargs__(self) -> tuple[Any, ...]:
+        return float(self), self.text, self.unit, self.source, self.range
 
 
 def total(numbers: Iterable[float]) -> float:

@@ -18,10 +18,12 @@ from uictest.plans.scenario.yaml.quantities import (
     QuantityError,
     described,
     example,
+    parse_decimal_quantity,
     parse_quantity,
 )
 from uictest.plans.scenario.yaml.tree import quoted
 
+_MARKED_KEYS: Final = frozenset({"value", "source", "range", "range_source"})
 QUANTITY_KEYWORD: Final = "x-quantity"
 """Keyword that stands for the definition of a kind while a JSON Schema is put together."""
 
@@ -55,14 +57,36 @@ class QuantityField:
         raise QuantityError(f"expected {described(self.kind)}", f"write {example(self.kind)}")
 
     def _read_marked(self, value: dict[str, object]) -> Quantity:
-        source = value.get("source")
-        if set(value) != {"value", "source"} or not isinstance(source, str):
+        source = value.get("source", SCENARIO_SOURCE if "range" in value else None)
+        of_range = value.get("range_source", source)
+        if not (
+            {"value"} <= set(value) <= _MARKED_KEYS and isinstance(source, str) and isinstance(of_range, str)
+        ):
             raise QuantityError(
                 f"expected {described(self.kind)}, found a mapping",
-                f"write {example(self.kind)}, or a mapping of 'value' and 'source'",
+                f"write {example(self.kind)}, or a mapping of 'value' and 'source'; 'range' may follow",
             )
         bare = self._read(value["value"])
-        return Quantity(float(bare), bare.text, bare.unit, source)
+        ends = self._read_range(value["range"], bare, of_range) if "range" in value else None
+        return Quantity(float(bare), bare.text, bare.unit, source, ends)
+
+    def _read_range(self, ends: object, value: Quantity, source: str) -> tuple[Quantity, Quantity]:
+        """The plausible range of a value: two bounds that hold it, in its unit."""
+        if not isinstance(ends, list | tuple) or len(ends) != 2:
+            raise QuantityError("a range has two ends", f"write [{example(self.kind)}, and a larger one]")
+        low, high = (self._within(self._read(end)) for end in ends)
+        if _symbol(low) != _symbol(value) or _symbol(high) != _symbol(value):
+            raise QuantityError(
+                f"the range [{low.text}, {high.text}] is in another unit than {value.text}",
+                f"write both ends in {_symbol(value) or 'bare numbers'}",
+            )
+        if not low <= value <= high or low == high:
+            raise QuantityError(
+                f"the range [{low.text}, {high.text}] does not hold {value.text}",
+                "write its lower end first",
+            )
+        first, last = (Quantity(float(end), end.text, end.unit, source) for end in (low, high))
+        return first, last
 
     def _adopt(self, value: Quantity) -> Quantity:
         if value.unit != self.kind.canonical:
@@ -108,14 +132,27 @@ class QuantityField:
     def value_or_marked(self) -> dict[str, Any]:
         """JSON Schema of the value alone, or of a mapping of value and source."""
         value = self._value_schema()
+        source = {"type": "string", "description": "A key of the part's `sources`."}
         marked = {
             "type": "object",
-            "description": "A value with its source.",
+            "description": "A value with its source and, if it has one, its plausible range.",
             "properties": {
                 "value": {**value, "description": "The value itself."},
-                "source": {"type": "string", "description": "A key of the part's `sources`."},
+                "source": source,
+                "range": {
+                    "type": "array",
+                    "description": "Lowest and highest plausible value, in the unit of the value.",
+                    "items": value,
+                    "minItems": 2,
+                    "maxItems": 2,
+                },
+                "range_source": {
+                    **source,
+                    "description": "Source of the range, if it is not that of the value.",
+                },
             },
-            "required": ["value", "source"],
+            "required": ["value"],
+            "anyOf": [{"required": ["source"]}, {"required": ["range"]}],
             "additionalProperties": False,
         }
         return {"anyOf": [value, marked]}
@@ -136,11 +173,23 @@ class QuantityField:
         return {keyword: float(bound) for keyword, bound in named.items() if bound is not None}
 
 
-def written(quantity: Quantity) -> str | dict[str, str]:
+def written(quantity: Quantity) -> str | dict[str, Any]:
     """The quantity as a file would write it; reads back as the same quantity."""
-    if quantity.source in (SCENARIO_SOURCE, DEFAULT_SOURCE):
+    form: dict[str, Any] = {"value": quantity.text}
+    if quantity.source not in (SCENARIO_SOURCE, DEFAULT_SOURCE):
+        form["source"] = quantity.source
+    elif quantity.range is None:
         return quantity.text
-    return {"value": quantity.text, "source": quantity.source}
+    if quantity.range is not None:
+        form["range"] = [end.text for end in quantity.range]
+        if (source := quantity.range[0].source) != quantity.source:
+            form["range_source"] = source
+    return form
+
+
+def _symbol(quantity: Quantity) -> str:
+    """The unit as written, empty for a bare number."""
+    return parse_decimal_quantity(quantity.text).unit
 
 
 def of_kind(name: str, span: str = "..") -> QuantityField:

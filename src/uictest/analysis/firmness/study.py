@@ -1,0 +1,274 @@
+"""Whether verdicts hang on numbers with a plausible range: at its ends, in draws of all, where they turn."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from statistics import median
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.analysis.firmness.scan import Scan
+from uictest.judging.evaluation import (
+    Firmness,
+    FirmnessStatus,
+    NumberEffect,
+    Turn,
+    Verdict,
+    VerdictFirmness,
+    relative_margin,
+)
+from uictest.plans.sweeps import Column, RangedNumber, sobol_blocks
+
+OUTCOME: Final = ""
+"""In place of the id of a criterion: the outcome."""
+FIRM_SHARE: Final = 0.997
+"""Share of draws, with 95 % confidence, in which a firm verdict stands at least; chosen."""
+_DOUBT: Final = 0.05
+_DECIDED: Final = ("pass", "fail")
+_HALVINGS: Final = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Effort:
+    """How many stops are run.
+
+    Args:
+        blocks: of draws of all numbers together, each scrambled for itself.
+        block: draws of a block, a power of two.
+        seeds: under which the nominal stop, and those of a search for a turning value, are run.
+        seeds_at_ends: under which a stop with one number at an end of its range is run.
+
+    """
+
+    blocks: int = 8
+    block: int = 128
+    seeds: int = 16
+    seeds_at_ends: int = 4
+
+    def stops(self, numbers: int) -> int:
+        """Return how many stops are run before any turning value is searched."""
+        return self.seeds + 2 * numbers * self.seeds_at_ends + self.blocks * self.block
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """The outcome of one stop, or one series, with some values of the numbers, and its verdicts by criterion.
+
+    `margins` are shares of the limits, of the criteria that have one.
+    """
+
+    outcome: str
+    statuses: Mapping[str, str] = field(default_factory=dict)
+    margins: Mapping[str, float] = field(default_factory=dict)
+
+    def status(self, criterion: str) -> str:
+        """Return the status of a criterion, or the outcome."""
+        return self.outcome if criterion == OUTCOME else self.statuses.get(criterion, "error")
+
+
+def drawn(outcome: str, verdicts: Iterable[Verdict]) -> Drawn:
+    """Return an outcome and verdicts, without those of checks of the rig."""
+    judged = [verdict for verdict in verdicts if verdict.layer != "rig"]
+    margins = {each.id: share for each in judged if (share := relative_margin(each)) is not None}
+    return Drawn(outcome, {each.id: each.status for each in judged}, margins)
+
+
+JudgeDraws = Callable[[Sequence[Column], Sequence[int]], Sequence[Drawn]]
+"""Runs stops: for each number its values in all stops; for each stop its seed, from 0 for the nominal one."""
+_Place = tuple[int, int]
+"""A number, by its place in the list, and an end of its range: lowest 0, highest 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Stops:
+    """The verdicts of all stops: nominal under each seed, with one number at an end, and of the draws."""
+
+    nominal: Sequence[Drawn]
+    ends: Mapping[_Place, Sequence[Drawn]]
+    joint: Sequence[Drawn]
+
+    def usual(self, criterion: str) -> str:
+        """Return what a verdict is at the nominal values, under most seeds."""
+        return _usual(self.nominal, criterion)
+
+    def changed_at(self, place: _Place) -> str:
+        """Return the first criterion that is not what it is at the nominal values; empty for none."""
+        changed = (each for each in self.nominal[0].statuses if self.standing(place, each) < 1.0)
+        return next(changed, OUTCOME)
+
+    def standing(self, place: _Place, criterion: str) -> float:
+        """Return the share of the stops at an end in which a verdict is what it is at the nominal values."""
+        return _standing(self.ends[place], criterion, self.usual(criterion))
+
+
+@dataclass(frozen=True)
+class FirmnessStudy:
+    """Finds out how firm the verdicts of a case or a series are.
+
+    Args:
+        numbers: with a range.
+        judge: runs stops.
+        validity: ids of the criteria that say whether a stop is a test.
+        effort: how many stops.
+
+    """
+
+    numbers: Sequence[RangedNumber]
+    judge: JudgeDraws
+    validity: frozenset[str] = frozenset()
+    effort: Effort = field(default_factory=Effort)
+
+    def run(self, *, on_four_calipers: bool = False) -> Firmness:
+        """Run all stops and return what they show. Arguments as for :class:`Firmness`."""
+        count, effort = len(self.numbers), self.effort
+        places = [(number, end) for number in range(count) for end in (0, 1)]
+        at_ends = self._one_by_one([(number, float(end)) for number, end in places], effort.seeds_at_ends)
+        points = sobol_blocks(effort.blocks, effort.block, count, seed=0) if count else np.empty((0, 0))
+        stops = _Stops(
+            self._drawn(np.full((effort.seeds, count), np.nan), range(effort.seeds)),
+            dict(zip(places, at_ends, strict=True)),
+            self._drawn(points, [0] * len(points)),
+        )
+        criteria = [each for each in stops.nominal[0].statuses if stops.usual(each) in _DECIDED]
+        of_outcome, *of_criteria = (self._firmness(each, stops) for each in (OUTCOME, *criteria))
+        return Firmness(
+            of_outcome,
+            tuple(of_criteria),
+            tuple(self._effect(number, stops, criteria) for number in range(count)),
+            len(stops.joint),
+            dict(Counter(each.outcome for each in stops.joint)),
+            effort.seeds,
+            on_four_calipers,
+        )
+
+    def _drawn(self, places: NDArray[np.float64], seeds: Iterable[int]) -> Sequence[Drawn]:
+        """Run stops whose numbers lie at places of their ranges, NaN for the nominal value."""
+        if not len(places):
+            return ()
+        return self.judge([each.at(places[:, k]) for k, each in enumerate(self.numbers)], [*seeds])
+
+    def _one_by_one(self, settings: Sequence[tuple[int, float]], seeds: int) -> list[Sequence[Drawn]]:
+        """Return for each number and place of it the stops in which all others are nominal, one per seed."""
+        places = np.full((len(settings) * seeds, len(self.numbers)), np.nan)
+        for row, (number, place) in enumerate(settings):
+            places[row * seeds : (row + 1) * seeds, number] = place
+        stops = self._drawn(places, [*range(seeds)] * len(settings))
+        return [stops[first : first + seeds] for first in range(0, len(stops), seeds)]
+
+    def _firmness(self, criterion: str, stops: _Stops) -> VerdictFirmness:
+        nominal = stops.usual(criterion)
+        of_validity = criterion in self.validity or (criterion == OUTCOME and nominal == "invalid")
+
+        def stands(drawn: Drawn) -> bool | None:
+            if drawn.outcome == "error" or (drawn.outcome == "invalid" and not of_validity):
+                return None  # no test: what is required of one does not count
+            return drawn.status(criterion) == nominal
+
+        joint = [stands(each) for each in stops.joint]
+        size = self.effort.block
+        shares = [_share(joint[first : first + size]) for first in range(0, len(joint), size)]
+        known = [share for share in shares if share is not None]
+        counted, turned = len(joint) - joint.count(None), joint.count(False)
+        noisy = any(each.status(criterion) != nominal for each in stops.nominal)
+        turning = [place for place, drawn in stops.ends.items() if False in map(stands, drawn)]
+        at_least = _DOUBT ** (1.0 / counted) if counted and not turned else None
+        return VerdictFirmness(
+            *(criterion, nominal, _status(noisy, bool(turning or turned), at_least), counted, turned),
+            *(_share(joint), at_least, min(known, default=None), max(known, default=None)),
+            _median(each.margins.get(criterion) for each in stops.nominal),
+            () if noisy else tuple(self._turns(criterion, turning, stops)),
+        )
+
+    def _turns(self, criterion: str, turning: Sequence[_Place], stops: _Stops) -> Iterator[Turn]:
+        """Yield where each number turns a verdict; the outcome turns with a criterion that changes there."""
+        deciding = {place: criterion or stops.changed_at(place) for place in turning}
+        scans = self._scanned(deciding, stops)
+        for place in turning:
+            ranged, end = self.numbers[place[0]], place[1]
+            scan = scans[place]
+            turns_at, stands_to, turned_from = scan.values
+            # Rounded to where it was seen: what stands towards the nominal value, what is turned to the end.
+            value, first_turned = (
+                "" if each is None else ranged.rounded_text(each, up=bool(end))
+                for each in (turns_at, turned_from)
+            )
+            yield Turn(
+                *(ranged.key, "above" if end else "below", deciding[place]),
+                _changed_to(stops.ends[place], criterion, stops.usual(criterion)),
+                *(value, ranged.rounded_text(stands_to, up=not end), first_turned, ranged.ends[end].text),
+            )
+
+    def _scanned(self, deciding: Mapping[_Place, str], stops: _Stops) -> dict[_Place, Scan]:
+        """Scan each number from its nominal value to an end, all numbers together, then halve.
+
+        `deciding` names the criterion that is looked at in each scan.
+        """
+        scans = {
+            (number, end): Scan({self.numbers[number].nominal_place: 1.0}, float(end))
+            for number, end in deciding
+        }
+        self._extend(scans, {place: scan.grid() for place, scan in scans.items()}, deciding, stops)
+        for _ in range(_HALVINGS):
+            middles = {place: [scan.middle] for place, scan in scans.items() if scan.middle is not None}
+            self._extend(scans, middles, deciding, stops)
+        return scans
+
+    def _extend(
+        self,
+        scans: Mapping[_Place, Scan],
+        points: Mapping[_Place, Sequence[float]],
+        deciding: Mapping[_Place, str],
+        stops: _Stops,
+    ) -> None:
+        flat = [(place, point) for place, of_place in points.items() for point in of_place]
+        drawn = self._one_by_one([(place[0], point) for place, point in flat], self.effort.seeds)
+        for (place, point), of_point in zip(flat, drawn, strict=True):
+            criterion = deciding[place]
+            scans[place].standing[point] = _standing(of_point, criterion, stops.usual(criterion))
+
+    def _effect(self, number: int, stops: _Stops, criteria: Sequence[str]) -> NumberEffect:
+        ranged = self.numbers[number]
+        margins = {
+            each: (
+                _median(drawn.margins.get(each) for drawn in stops.ends[number, 0]),
+                _median(drawn.margins.get(each) for drawn in stops.ends[number, 1]),
+            )
+            for each in criteria
+        }
+        low, high = (end.text for end in ranged.ends)
+        return NumberEffect(ranged.key, ranged.value.text, low, high, ranged.mark, ranged.reason, margins)
+
+
+def _status(noisy: bool, turns: bool, at_least: float | None) -> FirmnessStatus:
+    if noisy:
+        return "noise"
+    if turns:
+        return "turns"
+    return "firm" if at_least is not None and at_least >= FIRM_SHARE else "not_shown"
+
+
+def _usual(drawn: Sequence[Drawn], criterion: str) -> str:
+    """Return the most frequent status; of equally frequent ones the first."""
+    return Counter(each.status(criterion) for each in drawn).most_common(1)[0][0]
+
+
+def _changed_to(drawn: Sequence[Drawn], criterion: str, nominal: str) -> str:
+    """Return the most frequent of the statuses that are not the nominal one."""
+    return _usual([each for each in drawn if each.status(criterion) != nominal], criterion)
+
+
+def _standing(drawn: Sequence[Drawn], criterion: str, nominal: str) -> float:
+    return sum(each.status(criterion) == nominal for each in drawn) / len(drawn)
+
+
+def _share(stands: Sequence[bool | None]) -> float | None:
+    counted = [each for each in stands if each is not None]
+    return sum(counted) / len(counted) if counted else None
+
+
+def _median(values: Iterable[float | None]) -> float | None:
+    return median(known) if (known := [each for each in values if each is not None]) else None

@@ -1,0 +1,140 @@
+"""Whether a verdict hangs on numbers that nobody measured: the share of draws in which it stands."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, Literal
+
+from pydantic import PlainSerializer
+
+from uictest.judging.evaluation.json_values import OptionalNumber, json_form
+
+FirmnessStatus = Literal["firm", "turns", "noise", "not_shown"]
+"""firm: no value at an end of its range, and no draw of all of them, turns the verdict. turns: one does.
+noise: it turns over the seeds of the sensors' noise at the nominal values, too. not_shown: nothing turned it,
+in too few draws that count."""
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """A number that turns a verdict alone, while all others have their nominal values.
+
+    Args:
+        key: where it stands in the scenario.
+        side: of its nominal value on which the verdict turns.
+        criterion: id of the criterion that turns.
+        to: its status there.
+        value: beyond which it turns under most seeds, as a scenario has it; empty where there is no such
+            value: it turns in several places, or under few seeds only.
+        stands_to: the last value found, from the nominal one, at which it stands under every seed.
+        turned_from: the first value found from which on it is turned under every seed; empty where there is
+            none.
+        end: the end of the range on this side.
+
+    """
+
+    key: str
+    side: Literal["below", "above"]
+    criterion: str
+    to: str
+    value: str
+    stands_to: str
+    turned_from: str
+    end: str
+
+
+@dataclass(frozen=True, slots=True)
+class VerdictFirmness:
+    """How firm one verdict is.
+
+    Args:
+        criterion: its id; empty for the outcome.
+        nominal: what it is at the nominal values, under most seeds.
+        status: see :data:`FirmnessStatus`.
+        counted: draws of all numbers together that count: the stop could be run, and was a valid test.
+        turned: those of them in which the verdict is another.
+        share: of counted draws in which it stands; None without any.
+        share_at_least: bound of that share with 95 % confidence where no draw turned it: 0.05^(1/counted), as
+            if the draws were independent; else None.
+        lowest_block: lowest share in one of the blocks of draws.
+        highest_block: highest share in one of them.
+        margin: median over the seeds at nominal values, as a share of the limit; None where it has none.
+        turned_by: the numbers that turn it alone.
+
+    """
+
+    criterion: str
+    nominal: str
+    status: FirmnessStatus
+    counted: int
+    turned: int
+    share: OptionalNumber
+    share_at_least: OptionalNumber
+    lowest_block: OptionalNumber
+    highest_block: OptionalNumber
+    margin: OptionalNumber
+    turned_by: tuple[Turn, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class NumberEffect:
+    """A number with a plausible range, and what it does to the margins.
+
+    Args:
+        key: where it stands in the scenario.
+        value: nominal, as written.
+        lowest: end of its range, as written.
+        highest: the other end.
+        mark: of the value: stated, published, identified, chosen, or user.
+        reason: why its range is what it is.
+        margins: criterion -> its margin at the lowest and at the highest value, as a share of the limit:
+            medians over some seeds; None where a stop has none.
+
+    """
+
+    key: str
+    value: str
+    lowest: str
+    highest: str
+    mark: str
+    reason: str
+    margins: Annotated[Mapping[str, tuple[OptionalNumber, OptionalNumber]], PlainSerializer(json_form)] = (
+        field(default_factory=dict)
+    )
+
+    def effect(self, criterion: str, nominal: float | None) -> float:
+        """Return the largest change of a criterion's margin at an end; 0 where it is not known."""
+        ends = [each for each in self.margins.get(criterion, ()) if each is not None]
+        return max((abs(each - nominal) for each in ends), default=0.0) if nominal is not None else 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Firmness:
+    """How firm the outcome of a case or a series is, and each of its verdicts.
+
+    Args:
+        outcome: that of the outcome itself.
+        criteria: those of the verdicts.
+        numbers: all that were varied.
+        draws: number of draws of all numbers together.
+        outcomes: of these draws: outcome -> how many; `error` counts the draws whose values do not fit
+            together.
+        seeds: of the sensors' noise, under which the nominal stop was run.
+        on_four_calipers: whether all of these stops were run on the rig with four calipers: numbers of the
+            caliper, its tank or the valves vary, for which the compensation was not identified.
+
+    """
+
+    outcome: VerdictFirmness
+    criteria: tuple[VerdictFirmness, ...]
+    numbers: tuple[NumberEffect, ...]
+    draws: int
+    outcomes: Mapping[str, int]
+    seeds: int
+    on_four_calipers: bool
+
+    @property
+    def infeasible(self) -> int:
+        """Draws whose values do not fit together."""
+        return self.outcomes.get("error", 0)

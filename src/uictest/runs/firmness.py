@@ -1,0 +1,182 @@
+"""How firm the verdicts of cases and series are: their stops, run with other values of ranged numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from uictest import controllers, rig
+from uictest.analysis.firmness import Drawn, Effort, FirmnessStudy, drawn
+from uictest.judging import series as judging_series
+from uictest.judging.evaluation import CaseResult, Firmness, RepeatedStop, Repeats
+from uictest.plans import scenario, series as series_plans, sweeps
+from uictest.plans.sweeps import Column, RangedNumber
+from uictest.running import campaign, chunked
+
+_TOGETHER: Final = 128
+"""Draws of a series whose stops are in memory at a time; chosen."""
+EFFORT: Final = Effort()
+"""How many stops the commands run of each case."""
+_Identity = tuple[str, str, str, str]
+"""Key, value and range of a number: cases of a series that state the same ones share its draws."""
+_Columns = Mapping[_Identity, Column]
+
+
+@dataclass(frozen=True)
+class FirmnessRun:
+    """Finds out how firm verdicts are.
+
+    Args:
+        jobs: number of threads.
+        advance: is called with how many more stops are finished.
+        run_block: simulates stops with controllers from outside.
+        effort: how many stops.
+
+    """
+
+    jobs: int
+    advance: Callable[[int], None] = lambda count: None
+    run_block: chunked.RunBlock = rig.run_block
+    effort: Effort = EFFORT
+
+    def of_case(self, case: scenario.Case) -> Firmness:
+        """Return how firm the verdicts of a case are; of a repeated one, those of its stops one by one."""
+        stops = _VariedStops.of(campaign.Stop(case).alone, self)
+
+        def judge(columns: Sequence[Column], seeds: Sequence[int]) -> list[Drawn]:
+            results = stops.results(dict(zip(stops.numbers, columns, strict=True)), seeds)
+            return [drawn(each.outcome, each.criteria) for [each] in results]
+
+        return self._study(stops.numbers, judge, case.scenario.judged_by, stops.on_four_calipers)
+
+    def of_series(self, planned: series_plans.Series) -> Firmness:
+        """Return how firm the verdicts of a series are; a number that several of its cases have is one."""
+        cases = [_VariedStops.of(case, self) for case in planned.cases]
+        numbers = {identity: number for case in cases for identity, number in case.numbers.items()}
+
+        def judge(columns: Sequence[Column], seeds: Sequence[int]) -> list[Drawn]:
+            verdicts: list[Drawn] = []
+            for first in range(0, len(seeds), _TOGETHER):
+                rows = np.arange(first, min(first + _TOGETHER, len(seeds)))
+                taken = {key: column.take(rows) for key, column in zip(numbers, columns, strict=True)}
+                of_cases = [each.results(taken, seeds[first : first + rows.size]) for each in cases]
+                verdicts += [_judged(planned, each) for each in zip(*of_cases, strict=True)]
+            return verdicts
+
+        four = any(each.on_four_calipers for each in cases)
+        return self._study(numbers, judge, planned.file.criteria, four)
+
+    def _study(
+        self,
+        numbers: Mapping[_Identity, RangedNumber],
+        judge: Callable[[Sequence[Column], Sequence[int]], list[Drawn]],
+        profiles: Sequence[scenario.Criteria],
+        on_four_calipers: bool,
+    ) -> Firmness:
+        validity = frozenset(
+            criterion.id
+            for profile in profiles
+            for criterion in profile.criteria
+            if criterion.layer == "validity"
+        )
+        study = FirmnessStudy(list(numbers.values()), judge, validity, self.effort)
+        return study.run(on_four_calipers=on_four_calipers)
+
+
+@dataclass(frozen=True)
+class _VariedStops:
+    """The stops of a case, with other values of its ranged numbers.
+
+    Numbers of the caliper, its tank or the valves are among these as a rule, and a compensation stands in
+    only for the rig that it was identified for. So all stops are run with a caliper in every module.
+    """
+
+    varied: chunked.VariedCase
+    numbers: Mapping[_Identity, RangedNumber]
+    run: FirmnessRun
+    on_four_calipers: bool
+
+    @classmethod
+    def of(cls, case: scenario.Case, run: FirmnessRun) -> _VariedStops:
+        numbers = {_identity(each): each for each in sweeps.ranged_numbers(case.scenario)}
+        built = case.scenario.rig
+        moved = built.topology != "four-caliper"
+        four = built.model_copy(update={"topology": "four-caliper"})
+        changed = replace(case, scenario=case.scenario.model_copy(update={"rig": four}))
+        keys = [each.key for each in numbers.values()]
+        return cls(chunked.VariedCase(changed, keys, run.jobs, run.run_block), numbers, run, moved)
+
+    def results(self, columns: _Columns, seeds: Sequence[int]) -> list[list[CaseResult]]:
+        """Return for each row of the columns the results of the stops, one for each repeat of the case.
+
+        A seed counts from that of the case, in steps of its repeats.
+        """
+        resolved = self.varied.case.scenario
+        repeat = resolved.repeat
+        rows = np.repeat(np.arange(len(seeds)), repeat)
+        numbers = [resolved.seed + seed * repeat + k for seed in seeds for k in range(repeat)]
+        settings = {number.key: columns[key].take(rows) for key, number in self.numbers.items()}
+        settings["seed"] = sweeps.listed_column([sweeps.ParameterValue(str(k), k) for k in numbers])
+        results = self.varied.results(settings, self.run.advance)
+        return [results[first : first + repeat] for first in range(0, len(results), repeat)]
+
+
+def _identity(number: RangedNumber) -> _Identity:
+    low, high = number.ends
+    return number.key, number.value.text, low.text, high.text
+
+
+def _judged(planned: series_plans.Series, stops: Sequence[Sequence[CaseResult]]) -> Drawn:
+    """Return the verdicts of a series on the stops of its cases."""
+    results = [_repeated(case, of_case) for case, of_case in zip(planned.cases, stops, strict=True)]
+    result = judging_series.judge_results(planned, results)
+    return drawn(result.outcome, (each.verdict for each in result.criteria))
+
+
+def _repeated(case: scenario.Case, stops: Sequence[CaseResult]) -> CaseResult:
+    """Return a case that holds some stops, for a series, which looks at these alone."""
+    each = tuple(
+        RepeatedStop(k, stop.outcome, stop.reason, stop.criteria, stop.measures, stop.wheelsets)
+        for k, stop in enumerate(stops)
+    )
+    return replace(stops[0], id=case.id, repeats=Repeats("all", each))
+
+
+def stops_of_case(case: scenario.Case) -> int:
+    """Return how many stops are run of a case before turning values are searched."""
+    return EFFORT.stops(len(sweeps.ranged_numbers(case.scenario)))
+
+
+def stops_of_series(planned: series_plans.Series) -> int:
+    """Return how many stops are run of a series before turning values are searched."""
+    numbers = {_identity(each) for case in planned.cases for each in sweeps.ranged_numbers(case.scenario)}
+    return EFFORT.stops(len(numbers)) * sum(case.scenario.repeat for case in planned.cases)
+
+
+@contextmanager
+def firmness_run(
+    settings: campaign.RunSettings, most: int, advance: Callable[[int], None]
+) -> Iterator[FirmnessRun]:
+    """Lend what finds out how firm verdicts are.
+
+    `advance` hears of finished stops up to `most`: how many more a search takes is not known before.
+    """
+    left = most
+
+    def count(finished: int) -> None:
+        nonlocal left
+        counted = min(finished, left)
+        left -= counted
+        advance(counted)
+
+    with rig.Workers() as workers:
+        run_block = rig.run_block if settings.in_process else workers.run_block
+        try:
+            yield FirmnessRun(settings.jobs, count, run_block, EFFORT)
+        except KeyboardInterrupt:
+            controllers.interrupt_turns()
+            raise

@@ -1,0 +1,87 @@
+"""`uictest run --firm`: what every report says of it, on a short stop with few draws."""
+
+import csv
+import json
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from uictest.analysis.firmness import Effort
+from uictest.runs import firmness
+
+STOP = "rail: {condition: wet, friction: 0.06}\ncriteria: uictest-stop\n"
+TURNED = """\
+rail: {condition: dry}
+criteria:
+  name: own
+  criteria:
+    - {id: short, layer: requirement, measure: braking_distance, upper: 36 m}
+brake:
+  system:
+    extends: ep-disc
+    disc: {pad_friction: {value: 0.38, range: [0.30, 0.42]}}
+"""
+
+
+@pytest.fixture(autouse=True)
+def _few(monkeypatch):
+    monkeypatch.setattr(firmness, "EFFORT", Effort(blocks=2, block=4, seeds=4, seeds_at_ends=1))
+
+
+def run(call, path, *arguments, code=0):
+    answer = call("run", path, "--report", "csv,html,md", *arguments, code=code)
+    document = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+    return answer, document["cases"]
+
+
+def test_every_report_says_how_firm_a_case_is(call, scenario):
+    answer, [case] = run(call, scenario("stop", STOP), "--firm")
+    found = case["firmness"]
+    assert found["outcome"]["status"] == "not_shown"  # nothing turns it, in eight draws
+    assert (found["draws"], found["seeds"], found["on_four_calipers"]) == (8, 4, True)
+    sentence = "pass is not shown to be firm: it stands in all of 8 draws"
+    assert f"firmness stop {sentence}" in answer.out
+    run_folder = Path("reports/latest")
+    assert sentence in (run_folder / "summary.md").read_text("utf-8")
+    assert sentence in (run_folder / "index.html").read_text("utf-8")
+    xml = ElementTree.parse(run_folder / "junit.xml")
+    [named] = [each for each in xml.iter("property") if each.get("name") == "firmness"]
+    assert named.get("value") == "not_shown"
+    with (run_folder / "firmness.csv").open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    assert {row["key"] for row in rows} == {each["key"] for each in found["numbers"]}
+    assert all(row["reason"] for row in rows)
+
+
+def test_a_number_that_turns_a_verdict_is_named_with_its_value_and_misses_strict(call, scenario):
+    path = scenario("stop", TURNED)
+    answer, [case] = run(call, path, "--firm")
+    turns = {each["key"]: each for each in case["firmness"]["outcome"]["turned_by"]}
+    turn = turns["brake.system.disc.pad_friction"]
+    assert (turn["side"], turn["criterion"], turn["to"]) == ("below", "short", "fail")
+    assert 0.30 < float(turn["turned_from"]) <= float(turn["value"]) <= float(turn["stands_to"]) < 0.38
+    key = "brake.system.disc.pad_friction"
+    for value, code in ((turn["end"], 1), (turn["stands_to"], 0)):
+        assert call("run", path, "--set", f"{key}={value}", "--set", "rig.topology=four-caliper").code == code
+    assert f"turned by brake.system.disc.pad_friction below {turn['value']}" in answer.out
+    assert run(call, path, "--strict")[0].code == 0
+    answer, _ = run(call, path, "--firm", "--strict", code=1)
+    assert answer.out.startswith("unsettled stop")
+    assert "reason=pass, unsettled. Expected: pass" in answer.out or "not firm" in answer.out
+
+
+def test_a_scenario_asks_for_it_and_a_report_is_written_again_with_it(call, scenario):
+    _, [case] = run(call, scenario("stop", f"{STOP}firm: true\n"))
+    assert case["firmness"]["draws"] == 8
+    before = Path("reports/latest/firmness.csv").read_bytes()
+    assert call("report", "reports/latest", "--format", "csv,html", "-o", "again").code == 0
+    assert Path("again/firmness.csv").read_bytes() == before
+    assert "not shown to be firm" in Path("again/index.html").read_text("utf-8")
+
+
+def test_nothing_is_said_where_it_was_not_asked(call, scenario):
+    answer, [case] = run(call, scenario("stop", STOP))
+    assert "firmness" not in case
+    assert "firm" not in answer.out
+    assert not Path("reports/latest/firmness.csv").exists()

@@ -1,0 +1,151 @@
+"""How firm a verdict is, on toys with known answers: a limit on a function of numbers, with noise by seed."""
+
+import numpy as np
+import pytest
+
+from uictest.analysis.firmness import Drawn, Effort, FirmnessStudy
+from uictest.plans.scenario.yaml import Quantity, parse_quantity
+from uictest.plans.sweeps import RangedNumber
+
+SMALL = Effort(blocks=4, block=64, seeds=16, seeds_at_ends=4)
+
+
+def number(key, value, low, high):
+    """A force with a range."""
+    ends = parse_quantity(low, "force"), parse_quantity(high, "force")
+    nominal = parse_quantity(value, "force")
+    return RangedNumber(key, Quantity(float(nominal), value, "N", "chosen", ends), "chosen", "for the test")
+
+
+# The square of side 10 around 0; the ends differ by less than a factor of two, so that draws are even.
+A, B = number("a", "100 N", "95 N", "105 N"), number("b", "100 N", "95 N", "105 N")
+
+
+def study(numbers, margin, *, effort=SMALL, noise=0.0, validity=None, feasible=lambda *values: True):
+    """Study a stop whose one requirement holds while `margin` of the numbers is not negative.
+
+    `validity` is the margin of a criterion of validity.
+    """
+
+    def judge(columns, seeds):
+        if not columns:
+            return [one((), seed) for seed in seeds]
+        rows = zip(*((column.numbers - 100.0).tolist() for column in columns), strict=True)
+        return [one(values, seed) for values, seed in zip(rows, seeds, strict=True)]
+
+    def one(values, seed):
+        if not feasible(*values):
+            return Drawn("error")
+        drawn = np.random.default_rng(seed).uniform(-noise, noise)
+        margins = {"limit": margin(*values) + drawn}
+        if validity is not None:
+            margins = {"counts": validity(*values), **margins}
+        statuses = {name: "pass" if value >= 0.0 else "fail" for name, value in margins.items()}
+        invalid = statuses.get("counts") == "fail"
+        return Drawn("invalid" if invalid else statuses["limit"], statuses, margins)
+
+    return FirmnessStudy(numbers, judge, frozenset({"counts"}), effort).run()
+
+
+def test_what_no_number_touches_is_firm_if_the_draws_suffice():
+    full = study([A, B], lambda a, b: 1.0, effort=Effort(8, 128, 16, 4)).outcome
+    assert (full.status, full.counted, full.turned, full.share, full.turned_by) == ("firm", 1024, 0, 1.0, ())
+    # Of n independent draws none turned: a larger share of turning ones than 1 - 0.05^(1/n) is ruled out.
+    assert full.share_at_least == pytest.approx(0.05 ** (1 / 1024))
+    few = study([A, B], lambda a, b: 1.0).outcome
+    assert few.status == "not_shown"
+    assert few.share_at_least == pytest.approx(0.05 ** (1 / 256))
+
+
+def test_a_monotone_number_turns_it_at_its_limit():
+    firmness = study([A, B], lambda a, b: 0.3 * (2.0 - a))
+    [turn] = firmness.outcome.turned_by
+    assert (turn.key, turn.side, turn.criterion, turn.to, turn.end) == (
+        "a",
+        "above",
+        "limit",
+        "fail",
+        "105 N",
+    )
+    assert float(turn.value.removesuffix(" N")) == pytest.approx(102.0, abs=0.1)
+    # Three tenths of the range lie beyond 102 N.
+    assert firmness.outcome.share == pytest.approx(0.7, abs=0.03)
+    assert firmness.outcome.lowest_block <= firmness.outcome.share <= firmness.outcome.highest_block
+    assert firmness.outcome.status == "turns"
+
+
+def test_each_value_said_of_a_turn_is_one_that_was_tried():
+    [turn] = study([A], lambda a: 2.0 - a, noise=1.0).outcome.turned_by
+    stands_to, value, turned_from = (
+        float(text.removesuffix(" N")) for text in (turn.stands_to, turn.value, turn.turned_from)
+    )
+    assert 101.0 - 0.7 <= stands_to <= value <= turned_from <= 103.0 + 0.7
+
+
+def test_an_interaction_turns_in_draws_and_by_no_number_alone():
+    firmness = study([A, B], lambda a, b: 7.0 - a - b)
+    assert firmness.outcome.turned_by == ()
+    assert firmness.outcome.turned > 0
+    assert firmness.outcome.status == "turns"
+    # The corner a + b > 7 of the square is a triangle with legs of 3.
+    assert firmness.outcome.share == pytest.approx(1.0 - 0.5 * 9.0 / 100.0, abs=0.02)
+
+
+def test_what_turns_twice_on_the_way_to_an_end_has_no_turning_value():
+    [turn] = study([A], lambda a: min(abs(a - 2.0) - 0.8, 4.5 - a)).outcome.turned_by
+    assert (turn.key, turn.value) == ("a", "")
+
+
+def test_what_turns_within_and_not_at_the_ends_turns_in_draws():
+    firmness = study([A], lambda a: abs(a - 2.0) - 0.5)
+    assert firmness.outcome.turned_by == ()
+    assert firmness.outcome.status == "turns"
+    assert firmness.outcome.share == pytest.approx(0.9, abs=0.02)
+
+
+def test_a_verdict_that_turns_over_the_seeds_is_noise_whatever_the_numbers_do():
+    outcome = study([A], lambda a: 0.1, noise=1.0).outcome
+    assert outcome.status == "noise"
+    assert outcome.turned_by == ()
+
+
+def test_draws_that_are_no_test_do_not_count_but_turn_the_criterion_of_validity():
+    firmness = study([A, B], lambda a, b: 1.0, validity=lambda a, b: 3.0 - b)
+    outcome, counts, limit = firmness.outcome, *firmness.criteria
+    assert firmness.outcomes["invalid"] == firmness.draws - outcome.counted > 0
+    assert (outcome.turned, limit.turned, limit.turned_by) == (0, 0, ())
+    [turn] = counts.turned_by
+    assert (turn.key, turn.side, turn.to) == ("b", "above", "fail")
+    assert counts.counted == firmness.draws
+
+
+def test_values_that_do_not_fit_together_are_counted_apart():
+    firmness = study([A, B], lambda a, b: 1.0, feasible=lambda a, b: a + b < 5.0)
+    assert firmness.infeasible == firmness.draws - firmness.outcome.counted > 0
+    assert firmness.outcome.turned == 0
+
+
+def test_a_stop_that_is_no_test_is_firm_in_being_none():
+    outcome = study([A], lambda a: 1.0, validity=lambda a: -1.0, effort=Effort(8, 128, 16, 4)).outcome
+    assert (outcome.nominal, outcome.status, outcome.counted) == ("invalid", "firm", 1024)
+
+
+def test_margins_at_the_ends_are_medians_over_the_seeds():
+    firmness = study([A, B], lambda a, b: 10.0 - a, noise=0.5)
+    effect_a, effect_b = firmness.numbers
+    low, high = effect_a.margins["limit"]
+    assert (low, high) == (pytest.approx(15.0, abs=0.5), pytest.approx(5.0, abs=0.5))
+    nominal = firmness.criteria[0].margin
+    assert effect_a.effect("limit", nominal) > 4.0 > effect_b.effect("limit", nominal)
+
+
+@pytest.mark.parametrize("limit", np.linspace(-4.5, 4.5, 7))
+def test_firm_is_never_said_where_the_sample_contradicts_it(limit):
+    outcome = study([A, B], lambda a, b: (limit - a) * (1.0 if limit >= 0.0 else -1.0)).outcome
+    assert outcome.turned > 0
+    assert outcome.status != "firm"
+
+
+def test_without_numbers_nothing_is_shown():
+    firmness = study([], lambda: 1.0)
+    assert (firmness.outcome.status, firmness.draws) == ("not_shown", 0)

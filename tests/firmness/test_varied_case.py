@@ -1,0 +1,101 @@
+"""A case with other values of its numbers: the bits of a scenario that states them, the noise of the case."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uictest.analysis.firmness import Effort
+from uictest.plans.scenario import load
+from uictest.plans.scenario.yaml import parse_quantity
+from uictest.plans.sweeps import ParameterValue, listed_column, ranged_numbers
+from uictest.running.campaign import run_cases
+from uictest.running.chunked import VariedCase
+from uictest.runs.firmness import FirmnessRun
+
+VENT = "brake.system.wsp_valve.vent_conductance"
+RADIUS = "vehicle.wheelset.radius"
+SLIP = Path(__file__).parents[2] / "scenarios" / "slip-120.yaml"
+SMALL = Effort(blocks=2, block=4, seeds=2, seeds_at_ends=1)
+
+
+def short_stop(*changes):
+    """Return a short sliding stop on the rig with four calipers."""
+    stated = ("initial_speed=15 km/h", "rig.topology=four-caliper", "rail.friction=0.06", *changes)
+    [case] = load([SLIP], [*stated, "criteria=uictest-stop"])
+    return case
+
+
+@pytest.fixture(scope="module")
+def numbers():
+    return {each.key: each for each in ranged_numbers(short_stop().scenario)}
+
+
+def columns(numbers, count, **places):
+    """Return the nominal value of every number in some stops, but for those at a place of their range."""
+    values = {key: each.at(np.full(count, np.nan)) for key, each in numbers.items()}
+    values |= {key: numbers[key].at(np.full(count, place)) for key, place in places.items()}
+    return values | {"seed": listed_column([ParameterValue(str(k), k) for k in range(count)])}
+
+
+def measures(results):
+    # As text: a measure that was not reached is NaN, which equals nothing.
+    return [f"{each.outcome} {each.measures} {each.wheelsets}" for each in results]
+
+
+def test_nominal_values_give_the_stop_itself_under_each_seed(numbers):
+    varied = VariedCase(short_stop(), list(numbers), jobs=2)
+    cases = [short_stop(f"seed={seed}") for seed in range(3)]
+    stated = [run_cases([case]).results[0] for case in cases]
+    assert measures(varied.results(columns(numbers, 3))) == measures(stated)
+
+
+@pytest.mark.parametrize("place", [0.0, 0.37, 1.0])
+def test_a_drawn_value_gives_the_stop_of_a_scenario_that_states_its_text(numbers, place):
+    [text] = numbers[VENT].at(np.array([place])).texts
+    stated = run_cases([short_stop(f"{VENT}={text}")]).results
+    varied = VariedCase(short_stop(), list(numbers)).results(columns(numbers, 1, **{VENT: place}))
+    assert measures(varied) == measures(stated)
+
+
+def test_a_number_that_would_change_the_noise_meets_that_of_the_case(numbers):
+    varied = VariedCase(short_stop(), list(numbers))
+    assembler = varied._runner.assembler
+    settings = columns(numbers, 2, **{RADIUS: 0.0})
+    block = assembler.of_settings(np.arange(2), ["0", "1"], settings)
+    [nominal] = run_cases([short_stop()]).results
+    [other] = run_cases([short_stop(f"{RADIUS}=0.42 m")]).results
+    assert {f"{key:08x}" for key in block.parameters["noise_key"]} == {nominal.noise_key}
+    assert other.noise_key != nominal.noise_key
+
+
+def test_values_that_do_not_fit_together_are_errors_and_the_others_are_not():
+    case = short_stop("simulation.time_step=1 ms", "brake.system.wsp_valve.switching_delay=22 ms")
+    key = "simulation.maximum_duration"
+    durations = [ParameterValue(text, parse_quantity(text, "time")) for text in ("180 s", "1 s")]
+    settings = {key: listed_column(durations), "seed": listed_column([ParameterValue("0", 0)] * 2)}
+    possible, impossible = VariedCase(case, [key]).results(settings)
+    assert possible.outcome != "error"
+    assert (impossible.outcome, "maximum_duration" in impossible.reason) == ("error", True)
+
+
+def test_a_case_is_as_firm_however_many_threads_there_are():
+    case = short_stop()
+    one, two = (FirmnessRun(jobs, effort=SMALL).of_case(case) for jobs in (1, 2))
+    assert one == two
+    assert one.draws == 8
+    assert len(one.numbers) > 60
+    assert not one.on_four_calipers
+
+
+def test_numbers_of_a_part_that_the_scenario_replaces_are_not_varied(numbers):
+    assert "rail.condition.friction" not in numbers
+    assert "brake.system.positions.R.maximum_pressure" in numbers
+    assert "brake.system.positions.G.maximum_pressure" not in numbers
+    assert not any(key.startswith("controller") for key in numbers)
+
+
+def test_a_number_of_the_scenario_may_state_a_range_of_its_own():
+    case = short_stop("rail.gradient={value: 0 permille, range: [-2 permille, 3 permille]}")
+    [gradient] = [each for each in ranged_numbers(case.scenario) if each.key == "rail.gradient"]
+    assert (gradient.mark, gradient.nominal_place) == ("user", pytest.approx(0.4))
