@@ -5,10 +5,8 @@ from pathlib import Path
 import pytest
 
 from studies.stop_runner import StopRunner
-from studies.study import STUDIES, Study, StudyFindings, run_study
+from studies.study import Study, StudyFindings, run_study
 from studies.writing import table_text, write_comparison, write_figures, write_pages, write_tables
-
-QUICK = ("bench-loops", "four-phase-lines", "command-level", "slide-test", "valve-actuations", "appendix-b")
 
 
 def test_tables_lie_in_the_folder_of_their_study(made_up, tmp_path):
@@ -53,19 +51,6 @@ def test_a_figure_that_cannot_be_drawn_leaves_nothing_behind(made_up, tmp_path):
     with pytest.raises(ZeroDivisionError):
         write_figures(tmp_path, _drawn(made_up, fail))
     assert list(tmp_path.rglob("*")) == []
-
-
-@pytest.mark.parametrize("name", QUICK)
-def test_axes_name_their_units(name, result):
-    figure_module = pytest.importorskip("matplotlib.figure")
-    done = result(name)
-    assert done.study is STUDIES[name]
-    for drawing in done.findings.drawings.values():
-        figure = figure_module.Figure()
-        drawing(figure)
-        labels = {text for axes in figure.axes for text in (axes.get_xlabel(), axes.get_ylabel()) if text}
-        assert labels
-        assert all(", " in label or label.startswith("%") for label in labels)
 
 
 ARGUMENTS = ("made-up",)

@@ -48,8 +48,11 @@ def test_every_setting_with_hysteresis_has_a_band():
     assert banded == {name for name, setting in COMPENSATION_SETTINGS.items() if setting.hysteresis}
 
 
-def test_the_band_is_of_fast_and_strong_stops_and_others_differ_more(stop_runner):
+def test_the_band_is_of_fast_and_strong_stops_and_others_differ_more(stop_runner, monkeypatch):
     """Within 0.2 % of four calipers: not `full` from 30 km/h, not `thermal` at 30 % command."""
+    monkeypatch.setattr(dry_distance, "SPEEDS", ("30 km/h", "100 km/h"))
+    monkeypatch.setattr(dry_distance, "COMMANDS", ("30 %", "100 %"))
+    monkeypatch.setattr(dry_distance, "SEEDS", range(1))
     values = run_study(STUDIES["dry-distance"], stop_runner).findings.values
     for setting in ("full", "thermal"):
         assert abs(values[setting].value) < WITHIN < abs(values[f"{setting}_all"].value)
