@@ -48,18 +48,18 @@ def study(numbers, margin, *, effort=SMALL, noise=0.0, validity=None, feasible=l
 
 
 def test_what_no_number_touches_is_firm_if_the_draws_suffice():
-    full = study([A, B], lambda a, b: 1.0, effort=Effort(8, 128, 16, 4)).outcome
+    full = study([A, B], lambda a, b: 1.0, effort=Effort(8, 128, 16, 4))
     assert (full.status, full.counted, full.turned, full.share, full.turned_by) == ("firm", 1024, 0, 1.0, ())
     # Of n independent draws none turned: a larger share of turning ones than 1 - 0.05^(1/n) is ruled out.
     assert full.share_at_least == pytest.approx(0.05 ** (1 / 1024))
-    few = study([A, B], lambda a, b: 1.0).outcome
+    few = study([A, B], lambda a, b: 1.0)
     assert few.status == "not_shown"
     assert few.share_at_least == pytest.approx(0.05 ** (1 / 256))
 
 
 def test_a_monotone_number_turns_it_at_its_limit():
     firmness = study([A, B], lambda a, b: 0.3 * (2.0 - a))
-    [turn] = firmness.outcome.turned_by
+    [turn] = firmness.turned_by
     assert (turn.key, turn.side, turn.criterion, turn.to, turn.end) == (
         "a",
         "above",
@@ -69,13 +69,13 @@ def test_a_monotone_number_turns_it_at_its_limit():
     )
     assert float(turn.value.removesuffix(" N")) == pytest.approx(102.0, abs=0.1)
     # Three tenths of the range lie beyond 102 N.
-    assert firmness.outcome.share == pytest.approx(0.7, abs=0.03)
-    assert firmness.outcome.lowest_block <= firmness.outcome.share <= firmness.outcome.highest_block
-    assert firmness.outcome.status == "turns"
+    assert firmness.share == pytest.approx(0.7, abs=0.03)
+    assert firmness.lowest_block <= firmness.share <= firmness.highest_block
+    assert firmness.status == "turns"
 
 
 def test_each_value_said_of_a_turn_is_one_that_was_tried():
-    [turn] = study([A], lambda a: 2.0 - a, noise=1.0).outcome.turned_by
+    [turn] = study([A], lambda a: 2.0 - a, noise=1.0).turned_by
     stands_to, value, turned_from = (
         float(text.removesuffix(" N")) for text in (turn.stands_to, turn.value, turn.turned_from)
     )
@@ -84,34 +84,34 @@ def test_each_value_said_of_a_turn_is_one_that_was_tried():
 
 def test_an_interaction_turns_in_draws_and_by_no_number_alone():
     firmness = study([A, B], lambda a, b: 7.0 - a - b)
-    assert firmness.outcome.turned_by == ()
-    assert firmness.outcome.turned > 0
-    assert firmness.outcome.status == "turns"
+    assert firmness.turned_by == ()
+    assert firmness.turned > 0
+    assert firmness.status == "turns"
     # The corner a + b > 7 of the square is a triangle with legs of 3.
-    assert firmness.outcome.share == pytest.approx(1.0 - 0.5 * 9.0 / 100.0, abs=0.02)
+    assert firmness.share == pytest.approx(1.0 - 0.5 * 9.0 / 100.0, abs=0.02)
 
 
 def test_what_turns_twice_on_the_way_to_an_end_has_no_turning_value():
-    [turn] = study([A], lambda a: min(abs(a - 2.0) - 0.8, 4.5 - a)).outcome.turned_by
+    [turn] = study([A], lambda a: min(abs(a - 2.0) - 0.8, 4.5 - a)).turned_by
     assert (turn.key, turn.value) == ("a", "")
 
 
 def test_what_turns_within_and_not_at_the_ends_turns_in_draws():
     firmness = study([A], lambda a: abs(a - 2.0) - 0.5)
-    assert firmness.outcome.turned_by == ()
-    assert firmness.outcome.status == "turns"
-    assert firmness.outcome.share == pytest.approx(0.9, abs=0.02)
+    assert firmness.turned_by == ()
+    assert firmness.status == "turns"
+    assert firmness.share == pytest.approx(0.9, abs=0.02)
 
 
 def test_a_verdict_that_turns_over_the_seeds_is_noise_whatever_the_numbers_do():
-    outcome = study([A], lambda a: 0.1, noise=1.0).outcome
+    outcome = study([A], lambda a: 0.1, noise=1.0)
     assert outcome.status == "noise"
     assert outcome.turned_by == ()
 
 
 def test_draws_that_are_no_test_do_not_count_but_turn_the_criterion_of_validity():
     firmness = study([A, B], lambda a, b: 1.0, validity=lambda a, b: 3.0 - b)
-    outcome, counts, limit = firmness.outcome, *firmness.criteria
+    outcome, counts, limit = firmness, *firmness.criteria
     assert firmness.outcomes["invalid"] == firmness.draws - outcome.counted > 0
     assert (outcome.turned, limit.turned, limit.turned_by) == (0, 0, ())
     [turn] = counts.turned_by
@@ -121,12 +121,12 @@ def test_draws_that_are_no_test_do_not_count_but_turn_the_criterion_of_validity(
 
 def test_values_that_do_not_fit_together_are_counted_apart():
     firmness = study([A, B], lambda a, b: 1.0, feasible=lambda a, b: a + b < 5.0)
-    assert firmness.infeasible == firmness.draws - firmness.outcome.counted > 0
-    assert firmness.outcome.turned == 0
+    assert firmness.infeasible == firmness.draws - firmness.counted > 0
+    assert firmness.turned == 0
 
 
 def test_a_stop_that_is_no_test_is_firm_in_being_none():
-    outcome = study([A], lambda a: 1.0, validity=lambda a: -1.0, effort=Effort(8, 128, 16, 4)).outcome
+    outcome = study([A], lambda a: 1.0, validity=lambda a: -1.0, effort=Effort(8, 128, 16, 4))
     assert (outcome.nominal, outcome.status, outcome.counted) == ("invalid", "firm", 1024)
 
 
@@ -141,11 +141,11 @@ def test_margins_at_the_ends_are_medians_over_the_seeds():
 
 @pytest.mark.parametrize("limit", np.linspace(-4.5, 4.5, 7))
 def test_firm_is_never_said_where_the_sample_contradicts_it(limit):
-    outcome = study([A, B], lambda a, b: (limit - a) * (1.0 if limit >= 0.0 else -1.0)).outcome
+    outcome = study([A, B], lambda a, b: (limit - a) * (1.0 if limit >= 0.0 else -1.0))
     assert outcome.turned > 0
     assert outcome.status != "firm"
 
 
 def test_without_numbers_nothing_is_shown():
     firmness = study([], lambda: 1.0)
-    assert (firmness.outcome.status, firmness.draws) == ("not_shown", 0)
+    assert (firmness.status, firmness.draws) == ("not_shown", 0)

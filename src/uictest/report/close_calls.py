@@ -83,7 +83,7 @@ def close_lines(results: Sequence[evaluation.CaseResult], series: Sequence[Serie
 
 def _not_firm(firmness: evaluation.Firmness | None) -> list[str]:
     """Return the sentence of an outcome that hangs on numbers that nobody measured; none of others."""
-    if firmness is None or firmness.outcome.status == "firm":
+    if firmness is None or firmness.status == "firm":
         return []
     return list(islice(firmness_sentences(firmness), 1))
 

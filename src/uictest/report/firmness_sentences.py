@@ -25,7 +25,7 @@ def firmness_sentences(firmness: Firmness | None) -> Iterator[str]:
     """Yield how firm an outcome is, and which verdicts are not firm and by what they turn; else nothing."""
     if firmness is None:
         return
-    yield printable(f"{firmness.outcome.nominal} is {_status(firmness.outcome, firmness)}")
+    yield printable(f"{firmness.nominal} is {_status(firmness, firmness)}")
     for each in firmness.criteria:
         if each.turned or each.turned_by or each.status == "noise":
             told = [f"{each.criterion} {each.nominal} is {_status(each, firmness)}", *_turns(each)]
@@ -43,8 +43,8 @@ def firmness_property(firmness: Firmness | None) -> dict[str, str]:
     """Return the property of a testcase: `{"firmness": "turns: a.b above 6.1 kJ/m"}`; {} if not asked."""
     if firmness is None:
         return {}
-    turns = [f"{each.key} {each.side} {each.value or each.stands_to}" for each in firmness.outcome.turned_by]
-    return {"firmness": ": ".join(filter(None, (firmness.outcome.status, ", ".join(turns))))}
+    turns = [f"{each.key} {each.side} {each.value or each.stands_to}" for each in firmness.turned_by]
+    return {"firmness": ": ".join(filter(None, (firmness.status, ", ".join(turns))))}
 
 
 def _status(verdict: VerdictFirmness, firmness: Firmness) -> str:
@@ -89,7 +89,7 @@ def _remarks(firmness: Firmness) -> Iterator[str]:
     left_out = [
         f"{firmness.outcomes[outcome]} {words}"
         for outcome, words in (("invalid", "are no test"), ("error", "do not fit together"))
-        if firmness.outcomes.get(outcome) and firmness.outcome.nominal != outcome
+        if firmness.outcomes.get(outcome) and firmness.nominal != outcome
     ]
     if left_out:
         yield f"of {firmness.draws} draws {', '.join(left_out)}: they do not count"

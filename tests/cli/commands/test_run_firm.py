@@ -38,7 +38,7 @@ def run(call, path, *arguments, code=0):
 def test_every_report_says_how_firm_a_case_is(call, scenario):
     answer, [case] = run(call, scenario("stop", STOP), "--firm")
     found = case["firmness"]
-    assert found["outcome"]["status"] == "not_shown"  # nothing turns it, in eight draws
+    assert found["status"] == "not_shown"  # nothing turns it, in eight draws
     assert (found["draws"], found["seeds"], found["on_four_calipers"]) == (8, 4, True)
     sentence = "pass is not shown to be firm: it stands in all of 8 draws"
     assert f"firmness stop {sentence}" in answer.out
@@ -57,7 +57,7 @@ def test_every_report_says_how_firm_a_case_is(call, scenario):
 def test_a_number_that_turns_a_verdict_is_named_with_its_value_and_misses_strict(call, scenario):
     path = scenario("stop", TURNED)
     answer, [case] = run(call, path, "--firm")
-    turns = {each["key"]: each for each in case["firmness"]["outcome"]["turned_by"]}
+    turns = {each["key"]: each for each in case["firmness"]["turned_by"]}
     turn = turns["brake.system.disc.pad_friction"]
     assert (turn["side"], turn["criterion"], turn["to"]) == ("below", "short", "fail")
     assert 0.30 < float(turn["turned_from"]) <= float(turn["value"]) <= float(turn["stands_to"]) < 0.38

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from statistics import median
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -134,15 +134,16 @@ class FirmnessStudy:
             self._drawn(points, [0] * len(points)),
         )
         criteria = [each for each in stops.nominal[0].statuses if stops.usual(each) in _DECIDED]
-        of_outcome, *of_criteria = (self._firmness(each, stops) for each in (OUTCOME, *criteria))
+        outcomes = Counter(each.outcome for each in stops.joint)
         return Firmness(
-            of_outcome,
-            tuple(of_criteria),
-            tuple(self._effect(number, stops, criteria) for number in range(count)),
-            len(stops.joint),
-            dict(Counter(each.outcome for each in stops.joint)),
-            effort.seeds,
-            on_four_calipers,
+            **self._firmness(OUTCOME, stops),
+            criteria=tuple(VerdictFirmness(**self._firmness(each, stops)) for each in criteria),
+            numbers=tuple(self._effect(number, stops, criteria) for number in range(count)),
+            draws=len(stops.joint),
+            infeasible=outcomes["error"],
+            outcomes=dict(outcomes),
+            seeds=effort.seeds,
+            on_four_calipers=on_four_calipers,
         )
 
     def _drawn(self, places: NDArray[np.float64], seeds: Iterable[int]) -> Sequence[Drawn]:
@@ -159,7 +160,8 @@ class FirmnessStudy:
         stops = self._drawn(places, [*range(seeds)] * len(settings))
         return [stops[first : first + seeds] for first in range(0, len(stops), seeds)]
 
-    def _firmness(self, criterion: str, stops: _Stops) -> VerdictFirmness:
+    def _firmness(self, criterion: str, stops: _Stops) -> dict[str, Any]:
+        """Return the fields of :class:`VerdictFirmness` for a criterion, or the outcome."""
         nominal = stops.usual(criterion)
         of_validity = criterion in self.validity or (criterion == OUTCOME and nominal == "invalid")
 
@@ -176,12 +178,19 @@ class FirmnessStudy:
         noisy = any(each.status(criterion) != nominal for each in stops.nominal)
         turning = [place for place, drawn in stops.ends.items() if False in map(stands, drawn)]
         at_least = _DOUBT ** (1.0 / counted) if counted and not turned else None
-        return VerdictFirmness(
-            *(criterion, nominal, _status(noisy, bool(turning or turned), at_least), counted, turned),
-            *(_share(joint), at_least, min(known, default=None), max(known, default=None)),
-            _median(each.margins.get(criterion) for each in stops.nominal),
-            () if noisy else tuple(self._turns(criterion, turning, stops)),
-        )
+        return {
+            "criterion": criterion,
+            "nominal": nominal,
+            "status": _status(noisy, bool(turning or turned), at_least),
+            "counted": counted,
+            "turned": turned,
+            "share": _share(joint),
+            "share_at_least": at_least,
+            "lowest_block": min(known, default=None),
+            "highest_block": max(known, default=None),
+            "margin": _median(each.margins.get(criterion) for each in stops.nominal),
+            "turned_by": () if noisy else tuple(self._turns(criterion, turning, stops)),
+        }
 
     def _turns(self, criterion: str, turning: Sequence[_Place], stops: _Stops) -> Iterator[Turn]:
         """Yield where each number turns a verdict; the outcome turns with a criterion that changes there."""

@@ -23,6 +23,7 @@ from .firmness import (
     NumberEffect as NumberEffect,
     Turn as Turn,
     VerdictFirmness as VerdictFirmness,
+    WrittenFirmness as WrittenFirmness,
 )
 from .json_values import (
     Expectation as Expectation,

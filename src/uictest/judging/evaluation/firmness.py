@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import PlainSerializer
 
-from uictest.judging.evaluation.json_values import OptionalNumber, json_form
+from uictest.judging.evaluation.json_values import OptionalNumber, absent_if_empty, json_form
 
 FirmnessStatus = Literal["firm", "turns", "noise", "not_shown"]
 """firm: no value at an end of its range, and no draw of all of them, turns the verdict. turns: one does.
@@ -44,7 +44,7 @@ class Turn:
     end: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class VerdictFirmness:
     """How firm one verdict is.
 
@@ -64,7 +64,7 @@ class VerdictFirmness:
 
     """
 
-    criterion: str
+    criterion: str = ""
     nominal: str
     status: FirmnessStatus
     counted: int
@@ -109,32 +109,30 @@ class NumberEffect:
         return max((abs(each - nominal) for each in ends), default=0.0) if nominal is not None else 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class Firmness:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Firmness(VerdictFirmness):
     """How firm the outcome of a case or a series is, and each of its verdicts.
 
     Args:
-        outcome: that of the outcome itself.
-        criteria: those of the verdicts.
+        criteria: how firm the verdicts are.
         numbers: all that were varied.
         draws: number of draws of all numbers together.
-        outcomes: of these draws: outcome -> how many; `error` counts the draws whose values do not fit
-            together.
+        infeasible: draws whose values do not fit together.
+        outcomes: of all draws: outcome -> how many; `error` counts the infeasible ones.
         seeds: of the sensors' noise, under which the nominal stop was run.
         on_four_calipers: whether all of these stops were run on the rig with four calipers: numbers of the
             caliper, its tank or the valves vary, for which the compensation was not identified.
 
     """
 
-    outcome: VerdictFirmness
     criteria: tuple[VerdictFirmness, ...]
     numbers: tuple[NumberEffect, ...]
     draws: int
+    infeasible: int
     outcomes: Mapping[str, int]
     seeds: int
     on_four_calipers: bool
 
-    @property
-    def infeasible(self) -> int:
-        """Draws whose values do not fit together."""
-        return self.outcomes.get("error", 0)
+
+WrittenFirmness = Annotated[Firmness, absent_if_empty("criterion")]
+"""In JSON the outcome has no criterion."""

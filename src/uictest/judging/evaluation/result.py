@@ -21,7 +21,7 @@ from pydantic import (
 
 from uictest.controllers import ResponseTimes
 from uictest.core import document
-from uictest.judging.evaluation.firmness import Firmness
+from uictest.judging.evaluation.firmness import WrittenFirmness
 from uictest.judging.evaluation.json_values import (
     CaseMeasures,
     CaseWheelsetMeasures,
@@ -105,7 +105,7 @@ class CaseResult:
     repeats: WrittenRepeats | None = None
     domain_of_validity: DomainOfValidity | None = None
     strict: bool = False
-    firmness: Firmness | None = None
+    firmness: WrittenFirmness | None = None
     duration: Annotated[float, Field(exclude=True)] = field(default=0.0, compare=False)
 
     @property
@@ -128,7 +128,7 @@ class CaseResult:
         """Whether, with `strict`, it was asked how firm the outcome is, and it is not shown to be."""
         if self.firmness is None or not self.strict:
             return False
-        return self.firmness.outcome.status != "firm"
+        return self.firmness.status != "firm"
 
     @property
     def drawn_stop(self) -> CaseResult:

@@ -25,9 +25,9 @@ from uictest.core.series_measures import Estimate, Rail, SeriesValue
 from uictest.judging.evaluation import (
     CaseResult,
     Expectation,
-    Firmness,
     Outcome,
     Verdict,
+    WrittenFirmness,
     absent_if_empty,
     is_expected,
     json_form,
@@ -214,7 +214,7 @@ class SeriesResult:
     requirements: tuple[str, ...] = ()
     test_case: str = ""
     bypassed_k_wet: WrittenValue | None = None
-    firmness: Firmness | None = None
+    firmness: WrittenFirmness | None = None
 
     @property
     def wet_stops(self) -> StopCounts:
@@ -245,4 +245,4 @@ class SeriesResult:
         """Whether, if its cases are `strict`, it was asked how firm it is, and it is not shown to be."""
         if self.firmness is None or not any(each.case.strict for each in self.cases):
             return False
-        return self.firmness.outcome.status != "firm"
+        return self.firmness.status != "firm"

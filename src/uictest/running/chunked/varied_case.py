@@ -18,7 +18,7 @@ from uictest.running.chunked.case_blocks import BlockAssembler
 from uictest.running.chunked.chunk import ChunkRunner, RunBlock
 from uictest.running.chunked.scenario_function import ScenarioVariants
 
-_TOGETHER: Final = 64
+_TOGETHER: Final = 128
 """Stops that a thread simulates in one queue, where they are many; chosen."""
 
 
