@@ -27,8 +27,22 @@ def known(real=True):
     return assembled(np.log([0.3, 0.036, 0.0004]), np.array([0.2, 0.8, 0.1]), STEP)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-@pytest.mark.parametrize("real", [True, False])
+@pytest.fixture(scope="module")
+def short():
+    """What is found in a short record of the known response."""
+    time, tank = excitation(8.0)
+    return identify_cylinder(time, tank, known().output(tank))
+
+
+@pytest.fixture(scope="module")
+def overshooting():
+    """A system that overshoots by a tenth, its record, and what is found in it."""
+    time, tank = excitation(12.0)
+    truth = assembled(np.log([0.05, 0.02, 0.0004]), np.array([0.0, 1.0, 0.0]), STEP)
+    return truth, time, tank, identify_cylinder(time, tank, truth.output(tank))
+
+
+@pytest.mark.parametrize(("seed", "real"), [(1, True), (2, False)])
 def test_a_known_response_is_recovered_within_a_per_cent_up_to_20_hz(seed, real):
     time, tank = excitation()
     truth = known(real)
@@ -39,44 +53,37 @@ def test_a_known_response_is_recovered_within_a_per_cent_up_to_20_hz(seed, real)
     assert result.fit > 95.0
 
 
-def test_unity_gain_at_rest_and_stability_hold_by_parametrisation():
-    time, tank = excitation(8.0)
-    result = identify_cylinder(time, tank, known().output(tank)).transfer_function
+def test_unity_gain_at_rest_and_stability_hold_by_parametrisation(short):
+    result = short.transfer_function
     gain = sum(result.numerator) / (1.0 + sum(result.denominator))
     assert gain == pytest.approx(1.0, abs=1e-6)
     assert np.all(np.abs(result.poles) < 1.0)
     assert result.output(np.full(1000, 3e5)) == pytest.approx(3e5)
 
 
-def test_a_free_fit_follows_a_response_that_turns_back():
+def test_a_free_fit_follows_a_response_that_turns_back(overshooting):
     """What the bound of the shipped filter costs is seen beside it."""
-    time, tank = excitation(12.0)
-    truth = assembled(np.log([0.05, 0.02, 0.0004]), np.array([0.0, 1.0, 0.0]), STEP)
+    truth, time, tank, bounded = overshooting
     cylinder = truth.output(tank)
     free = fitted_freely(time, tank, cylinder)
-    bounded = identify_cylinder(time, tank, cylinder).transfer_function
-    errors = [np.abs(each.output(tank) - cylinder).max() for each in (free, bounded)]
+    errors = [np.abs(each.output(tank) - cylinder).max() for each in (free, bounded.transfer_function)]
     assert errors[0] < 0.01 * tank.max() < errors[1]
     assert sum(free.numerator) / (1.0 + sum(free.denominator)) == pytest.approx(1.0, abs=1e-6)
 
 
-def test_the_response_to_a_step_never_turns_back():
+def test_the_response_to_a_step_never_turns_back(overshooting):
     """The true system overshoots by a tenth: the hysteresis would keep that as force to standstill."""
-    time, tank = excitation(12.0)
-    truth = assembled(np.log([0.05, 0.02, 0.0004]), np.array([0.0, 1.0, 0.0]), STEP)
+    truth, _, _, result = overshooting
     step = np.concatenate([[0.0], np.ones(round(20.0 / STEP))])
     assert truth.output(step).max() > 1.1
-    result = identify_cylinder(time, tank, truth.output(tank))
     response = result.transfer_function.output(step)
     assert 0.99 < response.max() < 1.002
     assert np.all(np.maximum.accumulate(response) - response < 2e-3)
     assert result.largest_after < result.largest_before
 
 
-def test_the_model_is_better_than_none_on_what_was_held_out():
-    time, tank = excitation(8.0)
-    result = identify_cylinder(time, tank, known().output(tank))
-    assert result.largest_after < 0.01 * result.largest_before
+def test_the_model_is_better_than_none_on_what_was_held_out(short):
+    assert short.largest_after < 0.01 * short.largest_before
 
 
 @pytest.mark.parametrize(
