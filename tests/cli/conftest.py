@@ -180,5 +180,5 @@ def made_up(monkeypatch):
         return StopRun(stop, CaseRun(result))
 
     monkeypatch.setattr(batch, "run_stop", examine)
-    monkeypatch.setattr(rig, "load_stop", lambda: None)
+    monkeypatch.setattr(rig, "compiled_stop", lambda: None)
     return examined

@@ -146,8 +146,8 @@ def sweep(
     option = None if validated is None else Path(validated)
     reference = runs.reference_of(option, plan.base.scenario.validated)
 
-    def run_in(folder: Path, formats: Sequence[str] | None) -> runs.SweepRun:
-        return runs.SweepRun(
+    def run_in(folder: Path, formats: Sequence[str] | None) -> runs.SweepRequest:
+        return runs.SweepRequest(
             selection=selection,
             manifest=chunked.sweep_manifest(selection, expression=select, overrides=texts, seed=seed),
             folder=folder / plan.name,
@@ -166,9 +166,9 @@ def sweep(
         return _finished(run_in(folder, ()), keep=False)
 
 
-def _finished(run: runs.SweepRun, *, keep: bool) -> SweepResults:
-    finished = runs.run_sweep(run, runs.Observer())
+def _finished(request: runs.SweepRequest, *, keep: bool) -> SweepResults:
+    finished = runs.run_sweep(request, runs.Observer())
     assert finished is not None  # there is one shard
     if keep:
-        history.refresh_index(run.folder.parent)
-    return SweepResults.read(finished.result, run.folder, keep=keep)
+        history.refresh_index(request.folder.parent)
+    return SweepResults.read(finished.result, request.folder, keep=keep)

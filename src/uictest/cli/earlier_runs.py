@@ -175,25 +175,24 @@ def named_paths(*paths: Path | None) -> list[Path]:
 
 def keep_newest(
     code: ExitCode, keep: int | None, run: Path, kind: history.Kind, referred: Sequence[Path] = ()
-) -> ExitCode:
-    """Remove the runs beside a finished one beyond the `keep` newest, and return the exit code as it is.
+) -> None:
+    """Remove the runs beside a finished one beyond the `keep` newest.
 
-    Does nothing without `keep`. After an interruption or an error nothing is removed. `referred` are the
-    :func:`named_paths` of the command line: what they lie in stays.
+    Does nothing without `keep`. After an interruption or an error (`code`) nothing is removed. `referred` are
+    the :func:`named_paths` of the command line: what they lie in stays.
     """
     if keep is None:
-        return code
+        return
     if code not in (ExitCode.MET, ExitCode.MISSED):
         message("uictest: --keep: nothing is removed, as this run did not end as planned")
-        return code
+        return
     try:
         fates = [_shown(each, keep) for each in history.prune(run.parent, kind, keep, run.name, referred)]
     except OSError as error:
         message(f"uictest: --keep: {error.filename or run.parent}: {error.strerror or error}")
-        return code
+        return
     if any(fates) and (problem := history.refresh_index(run.parent)):
         message(f"uictest: {problem}")
-    return code
 
 
 def _shown(fate: history.Pruned, keep: int) -> bool:

@@ -182,55 +182,57 @@ class SweepObserver(TerminalObserver):
             message(f"uictest: searching the frontier along {key}")
 
 
-def execute_sweep(run: runs.SweepRun, shown: Format, junit: Path | None, *, quiet: bool) -> ExitCode:
+def execute_sweep(request: runs.SweepRequest, shown: Format, junit: Path | None, *, quiet: bool) -> ExitCode:
     """Run a sweep and show its result; return its exit code. Raises InvalidInputError, OSError."""
     try:
-        return _run_and_show(run, shown, junit, quiet=quiet)
+        return _run_and_show(request, shown, junit, quiet=quiet)
     except runs.MaxfailReached as reached:
         message(f"uictest: stopped at --maxfail: {reached}")
         message(
-            f"uictest: finished chunks are kept in {run.folder}; the same command without --maxfail continues"
+            f"uictest: finished chunks are kept in {request.folder}; "
+            "the same command without --maxfail continues"
         )
         return ExitCode.MISSED
     except KeyboardInterrupt:
         message("uictest: interrupted")
-        _report_finished_chunks(run)
+        _report_finished_chunks(request)
         return ExitCode.INTERRUPTED
     except OSError:
-        _report_finished_chunks(run)
+        _report_finished_chunks(request)
         raise
 
 
-def _run_and_show(run: runs.SweepRun, shown: Format, junit: Path | None, *, quiet: bool) -> ExitCode:
+def _run_and_show(request: runs.SweepRequest, shown: Format, junit: Path | None, *, quiet: bool) -> ExitCode:
     started = perf_counter()
-    finished = runs.run_sweep(run, SweepObserver(quiet=quiet, merging=bool(run.merged)))
+    finished = runs.run_sweep(request, SweepObserver(quiet=quiet, merging=bool(request.merged)))
     if finished is None:
-        message(f"uictest: {_shard_words(run)}")
+        message(f"uictest: {_shard_words(request)}")
         return ExitCode.MET
-    if problem := history.refresh_index(run.folder.parent):
+    if problem := history.refresh_index(request.folder.parent):
         message(f"uictest: {problem}")
     append_summary(lambda: report.append_sweep_step_summary(finished.content))
     if junit is not None:
-        suite = report.sweep_suite(finished.result, run.selection.plan.file)
+        suite = report.sweep_suite(finished.result, request.selection.plan.file)
         files.write_to(junit, report.junit_text([suite]))
     show_result(finished.result, finished.document, shown, quiet=quiet)
     if shown is Format.GITHUB:
         show_annotations(finished.content)
     if not quiet:
         seconds = perf_counter() - started
-        message(f"uictest: {report.sweep_tally(finished.result)} in {seconds:.1f} s; results in {run.folder}")
+        tally = report.sweep_tally(finished.result)
+        message(f"uictest: {tally} in {seconds:.1f} s; results in {request.folder}")
     return _exit_code(finished.result)
 
 
-def _report_finished_chunks(run: runs.SweepRun) -> None:
-    if chunked.ChunkStore(run.folder).has_chunks():
-        message(f"uictest: finished chunks are kept in {run.folder}; the same command continues")
+def _report_finished_chunks(request: runs.SweepRequest) -> None:
+    if chunked.ChunkStore(request.folder).has_chunks():
+        message(f"uictest: finished chunks are kept in {request.folder}; the same command continues")
 
 
-def _shard_words(run: runs.SweepRun) -> str:
-    shard, chunks = f"shard {run.shard.number} of {run.shard.count}", run.selection.chunks
-    if run.shard.chunk_numbers(chunks):
-        return f"{shard} is finished in {run.folder}"
+def _shard_words(request: runs.SweepRequest) -> str:
+    shard, chunks = f"shard {request.shard.number} of {request.shard.count}", request.selection.chunks
+    if request.shard.chunk_numbers(chunks):
+        return f"{shard} is finished in {request.folder}"
     return f"{shard} has no cases: the sweep has only {counted(chunks, 'chunk')}"
 
 

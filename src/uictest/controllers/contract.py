@@ -137,6 +137,6 @@ def _built_in() -> dict[str, Controller]:
 
 
 CONTROLLERS = _built_in()
-"""Every controller by its name."""
+"""Every built-in controller by its name."""
 DEFAULT = "threshold"
 """Name of the controller of a scenario that names none."""

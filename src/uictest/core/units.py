@@ -208,7 +208,6 @@ CELSIUS_ZERO: Final = _ZEROS["degC"]
 BAR: Final = SIZES["bar"]
 KILONEWTON: Final = SIZES["kN"]
 KILONEWTON_PER_BAR: Final = SIZES["kN/bar"]
-LITRE: Final = SIZES["L"]
 PERCENT: Final = SIZES["%"]
 
 _KINDS_IN_RECORDINGS: Final = frozenset(

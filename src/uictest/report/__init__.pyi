@@ -131,7 +131,6 @@ from .sweep.summary_tables import numbers_of_sweep as numbers_of_sweep
 from .sweep.sweep_sentences import (
     circumstances_words as circumstances_words,
     flip_words as flip_words,
-    not_judged_words as not_judged_words,
     sweep_annotations as sweep_annotations,
     sweep_suite as sweep_suite,
     sweep_tally as sweep_tally,

@@ -10,7 +10,6 @@ from .assembly import (
 from .backends.controller_code import ControllerCode as ControllerCode, controller_code as controller_code
 from .backends.lanes import (
     BatchMeasures as BatchMeasures,
-    load_lanes as load_lanes,
     run_in_lanes as run_in_lanes,
 )
 from .backends.machine_code import (
@@ -18,7 +17,7 @@ from .backends.machine_code import (
     Watcher as Watcher,
     compilation_watched as compilation_watched,
 )
-from .backends.native import load_stop as load_stop, stop_is_compiled as stop_is_compiled
+from .backends.native import compiled_stop as compiled_stop, stop_is_compiled as stop_is_compiled
 from .backends.replayed import noted_numbers as noted_numbers
 from .backends.scalar import STEP as STEP, STEP_ARGUMENTS as STEP_ARGUMENTS
 from .backends.stepped import (
@@ -38,7 +37,6 @@ from .external.in_process import (
     Beginning as Beginning,
     Driven as Driven,
     DriveRequest as DriveRequest,
-    Drives as Drives,
     drive as drive,
     empty_exchange as empty_exchange,
     run_in_process as run_in_process,

@@ -1,18 +1,19 @@
 from .batch import (
     Batch as Batch,
-    BatchRun as BatchRun,
     Keep as Keep,
     all_cases as all_cases,
     batch_of as batch_of,
     run_batch as run_batch,
 )
 from .drawing import with_traces as with_traces
+from .errors import InvalidInputError as InvalidInputError
 from .observer import Observer as Observer, available_processors as available_processors
 from .publishing import (
     Published as Published,
     holds_sweep as holds_sweep,
     publish_batch as publish_batch,
     publish_run as publish_run,
+    result_ids as result_ids,
     run_folder as run_folder,
     why_no_run as why_no_run,
 )
@@ -32,8 +33,6 @@ from .recorded import (
     stops_of_series as stops_of_series,
 )
 from .scenario_files import (
-    DEFAULT_FOLDER as DEFAULT_FOLDER,
-    InvalidInputError as InvalidInputError,
     is_series as is_series,
     is_sweep as is_sweep,
     load_cases as load_cases,
@@ -43,15 +42,14 @@ from .scenario_files import (
     only_case as only_case,
     read_reference as read_reference,
     reference_of as reference_of,
-    result_ids as result_ids,
     scenario_paths as scenario_paths,
     series_files as series_files,
     sweep_files as sweep_files,
 )
-from .sweep import FinishedSweep as FinishedSweep, run_sweep as run_sweep
+from .sweep import run_sweep as run_sweep
 from .sweep_chunks import (
     MaxfailReached as MaxfailReached,
-    SweepRun as SweepRun,
+    SweepRequest as SweepRequest,
     ToleranceError as ToleranceError,
     first_pair as first_pair,
     frontier_search as frontier_search,

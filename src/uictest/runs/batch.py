@@ -99,7 +99,8 @@ def batch_of(
         baseline: to compare with.
         drawn_first: ids of the cases whose stops a page draws before all others.
 
-    Raises InvalidInputError where a validation cannot be read.
+    Compensations are identified here, before any display: up to minutes. Raises InvalidInputError where a
+    validation cannot be read.
     """
     everything = all_cases(cases, planned)
     references = _references(everything, validated)
@@ -205,7 +206,7 @@ def simulate_cases(
         observer.foreign_in_process()
     asked = {case.id: case for case in cases if settings.firm or case.scenario.firm}
     with observer.compiling():
-        rig.load_stop()
+        rig.compiled_stop()
         if asked:
             rig.load_block([case.scenario.controller.program for case in asked.values()])
     varied = sum(map(stops_of_case, asked.values()))

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from uictest import report
 from uictest.core import document, files, recording
+from uictest.running import campaign
 from uictest.runs import history
 from uictest.runs.batch import Batch, run_batch
 from uictest.runs.observer import Observer
@@ -116,3 +117,16 @@ def run_folder(place: Path) -> Path:
     if place.name == files.LATEST and not place.is_dir():
         return files.latest_run(place.parent) or place
     return place
+
+
+def result_ids(content: report.RunContent, expression: str) -> frozenset[str]:
+    """Return the ids of the cases of a finished run that an expression (`-k`) selects.
+
+    Raises ExpressionError.
+    """
+    holds = campaign.parse(expression)
+    names = {
+        each.id: [each.id, Path(each.scenario).stem, *content.subject(each.id).tags]
+        for each in content.all_results
+    }
+    return frozenset(name for name, own in names.items() if holds(campaign.mentioned_in(own)))

@@ -17,7 +17,8 @@ from uictest.plans.scenario import yaml
 from uictest.recorded import field_data
 from uictest.running import campaign
 from uictest.runs.batch import Batch, all_cases
-from uictest.runs.scenario_files import InvalidInputError, is_series, load_series
+from uictest.runs.errors import InvalidInputError
+from uictest.runs.scenario_files import is_series, load_series
 
 CaseOfStop = Callable[[str, float], scenario.Case]
 """Returns the case that a recorded stop is judged as: from its name and its initial speed, m/s."""

@@ -10,26 +10,9 @@ from uictest.analysis import validation
 from uictest.plans import library, scenario, series
 from uictest.plans.scenario import yaml
 from uictest.running import campaign
+from uictest.runs.errors import InvalidInputError
 
-
-class InvalidInputError(ValueError):
-    """Arguments or files that cannot be used; each message says what is wrong and what to do instead.
-
-    Args:
-        messages: complete, in the words of any caller.
-        arguments: those that the caller can change, by name; a command shows the options that set them.
-    """
-
-    def __init__(self, *messages: str, arguments: Sequence[str] = ()) -> None:
-        self.messages = messages
-        self.arguments = tuple(arguments)
-        super().__init__(*messages)
-
-    def __str__(self) -> str:
-        return "\n".join(self.messages)
-
-
-DEFAULT_FOLDER = Path("scenarios")
+_DEFAULT_FOLDER = Path("scenarios")
 
 
 def scenario_paths(paths: Sequence[Path] | None) -> list[Path]:
@@ -39,13 +22,13 @@ def scenario_paths(paths: Sequence[Path] | None) -> list[Path]:
     """
     if paths:
         return [library.named_scenario(path) for path in paths]
-    if not DEFAULT_FOLDER.is_dir():
+    if not _DEFAULT_FOLDER.is_dir():
         raise InvalidInputError(
-            f"there is no folder {DEFAULT_FOLDER}/ here: name scenario files or folders, or a scenario that "
+            f"there is no folder {_DEFAULT_FOLDER}/ here: name scenario files or folders, or a scenario that "
             "ships with uictest, such as slip-120 ('uictest init --scenarios' copies all), "
             "or make a first scenario with 'uictest init'"
         )
-    return [DEFAULT_FOLDER]
+    return [_DEFAULT_FOLDER]
 
 
 def load_cases(
@@ -154,19 +137,6 @@ def _require_distinct(loaded: Sequence[series.Series]) -> None:
                 f"a second series {each.id!r} in {where}: give every series a name of its own"
             )
         file_of[each.id] = each.path
-
-
-def result_ids(content: report.RunContent, expression: str) -> frozenset[str]:
-    """Return the ids of the cases of a finished run that an expression (`-k`) selects.
-
-    Raises ExpressionError.
-    """
-    holds = campaign.parse(expression)
-    names = {
-        each.id: [each.id, Path(each.scenario).stem, *content.subject(each.id).tags]
-        for each in content.all_results
-    }
-    return frozenset(name for name, own in names.items() if holds(campaign.mentioned_in(own)))
 
 
 def nothing_selected(cases: Sequence[scenario.Case], planned: Sequence[series.Series] = ()) -> str:

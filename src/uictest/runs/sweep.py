@@ -13,9 +13,9 @@ from uictest.judging import evaluation
 from uictest.plans import scenario, sweeps
 from uictest.running import campaign
 from uictest.running.chunked import ChunkStore
+from uictest.runs.errors import InvalidInputError
 from uictest.runs.observer import Observer
-from uictest.runs.scenario_files import InvalidInputError
-from uictest.runs.sweep_chunks import SweepRun, prepared_runner, run_missing_chunks
+from uictest.runs.sweep_chunks import SweepRequest, prepared_runner, run_missing_chunks
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,21 +34,24 @@ class FinishedSweep:
     content: report.SweepContent
 
 
-def run_sweep(run: SweepRun, observer: Observer) -> FinishedSweep | None:
+def run_sweep(request: SweepRequest, observer: Observer) -> FinishedSweep | None:
     """Run a sweep; chunks that are finished already are not run again.
 
     Returns the finished sweep, None where this run is one shard of several. Finished chunks are kept whatever
     is raised: InvalidInputError where the folder is in use or holds the chunks of other inputs, OSError,
     KeyboardInterrupt, MaxfailReached.
     """
-    with _locked(run.folder, shared=run.shard.count > 1 and not run.restart), rig.Workers() as workers:
-        if run.in_process and any(sweeps.programs_of(run.selection.plan)):
+    with (
+        _locked(request.folder, shared=request.shard.count > 1 and not request.restart),
+        rig.Workers() as workers,
+    ):
+        if request.in_process and any(sweeps.programs_of(request.selection.plan)):
             observer.foreign_in_process()
-        isolated = run if run.in_process else replace(run, run_block=workers.run_block)
+        prepared = request if request.in_process else replace(request, run_block=workers.run_block)
         try:
-            store = ChunkStore(run.folder)
-            run_missing_chunks(isolated, store, observer)
-            return None if run.shard.count > 1 else publish(isolated, store, observer)
+            store = ChunkStore(request.folder)
+            run_missing_chunks(prepared, store, observer)
+            return None if request.shard.count > 1 else publish(prepared, store, observer)
         except KeyboardInterrupt:
             controllers.interrupt_turns()
             raise
@@ -71,65 +74,69 @@ def _locked(folder: Path, *, shared: bool) -> files.FolderLock:
         ) from error
 
 
-def publish(run: SweepRun, store: ChunkStore, observer: Observer) -> FinishedSweep:
+def publish(request: SweepRequest, store: ChunkStore, observer: Observer) -> FinishedSweep:
     """Write the result of a finished sweep and its reports. Raises OSError, and MissingChunksError."""
     files.begin_list(store.folder)
     summary = summaries.summarize(
-        run.selection, store, run.pair, run.measures, run.reference, csv=run.writes_csv
+        request.selection, store, request.pair, request.measures, request.reference, csv=request.writes_csv
     )
-    frontier = None if run.search is None else _frontier(run, summary, run.search, observer)
-    worst, subjects = _run_worst(run, summary, store.folder)
+    frontier = None if request.search is None else _frontier(request, summary, request.search, observer)
+    worst, subjects = _run_worst(request, summary, store.folder)
     result = replace(summary.result, frontier=frontier, worst=worst, subjects=subjects)
-    result = with_nominal_stops(run, result)
-    document = report.write_sweep_result(store.folder, result, run.selection.plan.file)
-    content = report.read_sweep(store.folder, traces=report.draws_stops(run.reports))
-    report.write_sweep_formats(store.folder, content, run.reports)
+    result = with_nominal_stops(request, result)
+    document = report.write_sweep_result(store.folder, result, request.selection.plan.file)
+    # Read back, so that what is shown now is what `uictest report` shows of the folder later.
+    content = report.read_sweep(store.folder, traces=report.draws_stops(request.reports))
+    report.write_sweep_formats(store.folder, content, request.reports)
     store.remove_partial_files()
     return FinishedSweep(result, document, content)
 
 
 def _run_worst(
-    run: SweepRun, summary: summaries.SweepSummary, folder: Path
+    request: SweepRequest, summary: summaries.SweepSummary, folder: Path
 ) -> tuple[tuple[evaluation.CaseResult, ...], Mapping[str, report.CaseDescription]]:
     """Run the worst cases again as their rows were, with explanations, and write their recordings.
 
     Return their results, and their descriptions by id. Raises OSError, and KeyboardInterrupt if interrupted.
     """
-    cases = summaries.full_cases(run.selection.plan, summary.worst_indices, summary.surveyed)
+    cases = summaries.full_cases(request.selection.plan, summary.worst_indices, summary.surveyed)
     files.remove_listed(folder, f"{report.RECORDINGS}/*")
 
     def write_recording(case_run: campaign.CaseRun) -> None:
         if case_run.recording is not None:
             report.write_recording(folder, case_run.result.id, case_run.recording)
 
-    request = campaign.RecordingRequest("all")
-    request = replace(request, every=min(request.every, campaign.shortest_cycle(cases)))
-    settings = _settings(run, cases, request)
-    if run.reference is not None:
-        settings = replace(settings, domains=run.reference.domains_of(settings.parts))
+    recording = campaign.RecordingRequest("all")
+    recording = replace(recording, every=min(recording.every, campaign.shortest_cycle(cases)))
+    settings = _settings(request, cases, recording)
+    if request.reference is not None:
+        settings = replace(settings, domains=request.reference.domains_of(settings.parts))
     results = campaign.run_cases(cases, settings, on_result=write_recording).whole()
     return tuple(results), campaign.descriptions_of(cases)
 
 
 def _frontier(
-    run: SweepRun, summary: summaries.SweepSummary, search: summaries.FrontierSearch, observer: Observer
+    request: SweepRequest,
+    summary: summaries.SweepSummary,
+    search: summaries.FrontierSearch,
+    observer: Observer,
 ) -> report.Frontier:
     observer.searching(search.key)
-    runner = prepared_runner(run, observer)
+    runner = prepared_runner(request, observer)
     scans = search.run(
-        summary.verdicts, lambda plan, indices: summaries.verdicts_of(plan, indices, runner, run.jobs)
+        summary.verdicts, lambda plan, indices: summaries.verdicts_of(plan, indices, runner, request.jobs)
     )
     return report.Frontier(search.key, tuple(scans))
 
 
-def with_nominal_stops(run: SweepRun, result: report.SweepResult) -> report.SweepResult:
+def with_nominal_stops(request: SweepRequest, result: report.SweepResult) -> report.SweepResult:
     """Return the result of a sweep with K_dry over the nominal deceleration, where the file states none.
 
     A note names each nominal case without a deceleration. Raises KeyboardInterrupt if interrupted.
     """
     if not result.k_dry or result.k_dry[0].nominal_is_stated:
         return result
-    stops = _nominal_stops(run)
+    stops = _nominal_stops(request)
     tables = zip(result.k_dry, stops, strict=True)
     k_dry = tuple(table.over((stop.measures or {}).get(table.measure)) for table, stop in tables)
     notes = [
@@ -140,15 +147,15 @@ def with_nominal_stops(run: SweepRun, result: report.SweepResult) -> report.Swee
     return replace(result, k_dry=k_dry, notes=(*result.notes, *notes))
 
 
-def _nominal_stops(run: SweepRun) -> Sequence[evaluation.CaseResult]:
-    plan = sweeps.nominal_plan(run.selection.plan)
+def _nominal_stops(request: SweepRequest) -> Sequence[evaluation.CaseResult]:
+    plan = sweeps.nominal_plan(request.selection.plan)
     cases = summaries.full_cases(plan, range(plan.size))
-    return campaign.run_cases(cases, _settings(run, cases, campaign.RecordingRequest("none"))).whole()
+    return campaign.run_cases(cases, _settings(request, cases, campaign.RecordingRequest("none"))).whole()
 
 
 def _settings(
-    run: SweepRun, cases: Sequence[scenario.Case], request: campaign.RecordingRequest
+    request: SweepRequest, cases: Sequence[scenario.Case], recording: campaign.RecordingRequest
 ) -> campaign.RunSettings:
     """Return how cases of a sweep are run one by one."""
     parts = campaign.parts_of_cases(cases)
-    return campaign.RunSettings(run.jobs, request, in_process=run.in_process, parts=parts)
+    return campaign.RunSettings(request.jobs, recording, in_process=request.in_process, parts=parts)

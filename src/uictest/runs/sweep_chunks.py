@@ -14,12 +14,12 @@ from uictest.plans import sweeps
 from uictest.plans.scenario import yaml
 from uictest.running import chunked
 from uictest.running.chunked import CaseSelection, ChangedInputsError, ChunkRunner, ChunkStore, Shard
+from uictest.runs.errors import InvalidInputError
 from uictest.runs.observer import Observer
-from uictest.runs.scenario_files import InvalidInputError
 
 
 @dataclass(frozen=True)
-class SweepRun:
+class SweepRequest:
     """The cases of a sweep, options of the run, and the folder of the results."""
 
     selection: CaseSelection
@@ -60,46 +60,46 @@ class MaxfailReached(Exception):  # noqa: N818 - nothing went wrong with the pro
     """`maxfail` cases missed their expectation; the message gives their number and the first."""
 
 
-def run_missing_chunks(run: SweepRun, store: ChunkStore, observer: Observer) -> None:
+def run_missing_chunks(request: SweepRequest, store: ChunkStore, observer: Observer) -> None:
     """Run the chunks of the run's shard that are not finished, and write them to the store.
 
     Finished chunks are kept whatever is raised: InvalidInputError where the folder holds the chunks of other
     inputs, OSError where it cannot be written, KeyboardInterrupt, MaxfailReached.
     """
-    _open_store(run, store, observer)
+    _open_store(request, store, observer)
     finished, damaged = store.finished()
     for path in damaged:
         observer.damaged(path)
-    own_chunks = run.shard.chunk_numbers(run.selection.chunks)
+    own_chunks = request.shard.chunk_numbers(request.selection.chunks)
     missing_chunks = [number for number in own_chunks if number not in finished]
-    cases, missing_cases = (_cases_in(run, numbers) for numbers in (own_chunks, missing_chunks))
+    cases, missing_cases = (_cases_in(request, numbers) for numbers in (own_chunks, missing_chunks))
     observer.found(cases, missing_cases)
     with observer.simulating(cases, cases - missing_cases) as advance:
-        failures = _Failures(run.maxfail)
+        failures = _Failures(request.maxfail)
 
         def write_chunk(number: int, content: bytes) -> None:
             store.write(number, content)
-            advance(run.selection.chunk(number).size)
+            advance(request.selection.chunk(number).size)
             failures.add(content)
 
         if missing_chunks:
-            _run_chunks(run, missing_chunks, write_chunk, observer)
+            _run_chunks(request, missing_chunks, write_chunk, observer)
 
 
-def _cases_in(run: SweepRun, numbers: Sequence[int]) -> int:
-    return sum(run.selection.chunk(number).size for number in numbers)
+def _cases_in(request: SweepRequest, numbers: Sequence[int]) -> int:
+    return sum(request.selection.chunk(number).size for number in numbers)
 
 
-def _open_store(run: SweepRun, store: ChunkStore, observer: Observer) -> None:
+def _open_store(request: SweepRequest, store: ChunkStore, observer: Observer) -> None:
     try:
-        store.open(run.manifest, restart=run.restart)
+        store.open(request.manifest, restart=request.restart)
     except ChangedInputsError as error:
         raise InvalidInputError(
-            f"{run.folder} holds chunks of this sweep with other inputs ({error}): "
+            f"{request.folder} holds chunks of this sweep with other inputs ({error}): "
             "restart it to discard them, or name another output folder",
             arguments=("restart", "output"),
         ) from error
-    for folder in run.merged:
+    for folder in request.merged:
         try:
             merged_chunks, damaged = store.merge(ChunkStore(folder))
         except ChangedInputsError as error:
@@ -110,16 +110,16 @@ def _open_store(run: SweepRun, store: ChunkStore, observer: Observer) -> None:
 
 
 def _run_chunks(
-    run: SweepRun, numbers: Sequence[int], write_chunk: chunked.WriteChunk, observer: Observer
+    request: SweepRequest, numbers: Sequence[int], write_chunk: chunked.WriteChunk, observer: Observer
 ) -> None:
-    address = run.cluster
+    address = request.cluster
     if address is None:
-        runner = prepared_runner(run, observer)
-        chunked.run_on_threads(runner, run.selection, numbers, run.jobs, write_chunk)
+        runner = prepared_runner(request, observer)
+        chunked.run_on_threads(runner, request.selection, numbers, request.jobs, write_chunk)
         return
     try:
         chunked.run_on_cluster(
-            *(run.selection, numbers, address, write_chunk), lambda: observer.waiting(address)
+            *(request.selection, numbers, address, write_chunk), lambda: observer.waiting(address)
         )
     except ImportError as error:
         raise InvalidInputError(
@@ -129,9 +129,9 @@ def _run_chunks(
         raise OSError(str(error)) from error
 
 
-def prepared_runner(run: SweepRun, observer: Observer) -> ChunkRunner:
+def prepared_runner(request: SweepRequest, observer: Observer) -> ChunkRunner:
     """Return a runner with a compiled rig."""
-    runner = chunked.chunk_runner(run.selection.plan, run.run_block)
+    runner = chunked.chunk_runner(request.selection.plan, request.run_block)
     with observer.compiling():
         runner.prepare()
     return runner

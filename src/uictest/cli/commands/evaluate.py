@@ -69,7 +69,9 @@ def evaluate(
     published = run_display.publish_and_show(batch, output, ("html",), junit, display)
     if published is None:
         return ExitCode.INTERRUPTED
-    return keep_newest(of_run(published), keep, published.place, "evaluate", named)
+    code = of_run(published)
+    keep_newest(code, keep, published.place, "evaluate", named)
+    return code
 
 
 def _case_of_stop(

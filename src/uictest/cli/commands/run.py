@@ -78,8 +78,8 @@ def run(
     verbose: options.Verbose = False,
 ) -> ExitCode:
     """Run scenarios, judge each case and write the reports."""
-    named = earlier_runs.named_paths(baseline, validated, junit, *(paths or ()))
-    names = options.report_formats(formats, "--report", report.format_names())
+    spared = earlier_runs.named_paths(baseline, validated, junit, *(paths or ()))
+    formats_wanted = options.report_formats(formats, "--report", report.format_names())
     choice = earlier_runs.BaselineChoice.of(baseline, options.tolerances_of(tolerance), accepting=accept)
     changes = overrides if repeat is None else [*(overrides or ()), f"repeat={repeat}"]
     cases, planned = runs.load_cases_and_series(paths, changes, seed, trusted)
@@ -114,7 +114,9 @@ def run(
         drawn_first=drawn_first(selected, of_series, draw),
     )
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
-    published = run_display.publish_and_show(batch, output, names, options.junit_file(junit, output), display)
+    published = run_display.publish_and_show(
+        batch, output, formats_wanted, options.junit_file(junit, output), display
+    )
     if published is None:
         return ExitCode.INTERRUPTED
     _show_slowest(published.content.all_results, durations)
@@ -122,7 +124,8 @@ def run(
         of_run(published),
         earlier_runs.accept_or_compare(choice, accepted, published, quiet=quiet),
     )
-    return earlier_runs.keep_newest(code, keep, published.place, "run", named)
+    earlier_runs.keep_newest(code, keep, published.place, "run", spared)
+    return code
 
 
 def _show_selection(
@@ -148,13 +151,17 @@ def _require_single_stops_at_sockets(cases: Sequence[scenario.Case]) -> None:
     """Raise typer.BadParameter unless the controllers are programs at a socket, each for one stop."""
     for case in cases:
         if case.scenario.repeat > 1:
-            message = f"{case.id} repeats its stop {case.scenario.repeat} times; run one stop: --repeat 1"
-            raise typer.BadParameter(message, param_hint="--real-time")
+            raise typer.BadParameter(
+                f"{case.id} repeats its stop {case.scenario.repeat} times; run one stop: --repeat 1",
+                param_hint="--real-time",
+            )
         program = case.scenario.controller.program
         if program is None or program.kind != "connect":
-            expected = "expected one with `connect`, a program at a socket"
-            message = f"{case.id} has the controller {case.scenario.controller.name!r}; {expected}"
-            raise typer.BadParameter(message, param_hint="--real-time")
+            raise typer.BadParameter(
+                f"{case.id} has the controller {case.scenario.controller.name!r}; "
+                "expected one with `connect`, a program at a socket",
+                param_hint="--real-time",
+            )
 
 
 def _show_slowest(results: Sequence[evaluation.CaseResult], count: int | None) -> None:

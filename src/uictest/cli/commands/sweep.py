@@ -123,7 +123,7 @@ def sweep(
     if dry_run:
         sweep_run.show_ids(selection)
         return ExitCode.MET
-    run = runs.SweepRun(
+    request = runs.SweepRequest(
         selection=selection,
         manifest=chunked.sweep_manifest(
             selection, expression=expression, overrides=overrides or (), seed=seed
@@ -142,4 +142,4 @@ def sweep(
         formats=format_names,
         in_process=in_process,
     )
-    return sweep_run.execute_sweep(run, shown, junit_file(junit, run.folder), quiet=quiet)
+    return sweep_run.execute_sweep(request, shown, junit_file(junit, request.folder), quiet=quiet)

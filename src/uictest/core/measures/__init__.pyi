@@ -9,12 +9,12 @@ from .layouts import STOP_MEASURES as STOP_MEASURES, WHEELSET_MEASURES as WHEELS
 from .measure import (
     Column as Column,
     Course as Course,
-    Decided as Decided,
     DefinitionValues as DefinitionValues,
     Measure as Measure,
     MeasureValue as MeasureValue,
     Overview as Overview,
     RecordedData as RecordedData,
+    ShownWhen as ShownWhen,
     StopColumn as StopColumn,
     WheelsetColumn as WheelsetColumn,
     Wheelsets as Wheelsets,

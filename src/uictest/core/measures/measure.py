@@ -149,7 +149,7 @@ them; from the first change of the field to the last; by its last change; over a
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Decided:
+class ShownWhen:
     """When a stop decides a measure, and how its plots show that.
 
     Args:
@@ -217,7 +217,7 @@ class Measure:
     course: Course
     meaning: str
     read: Reader
-    decided: Decided | None = None
+    decided: ShownWhen | None = None
     of_wheelsets: bool = False
     of_faults: bool = False
     of_simulation: bool = False

@@ -44,7 +44,7 @@ def judge(
 
     Args:
         resolved: scenario with the conditions of the stop and the criteria.
-        measures: record of the stop, SI.
+        measures: record of the stop, SI, as observed with `resolved.measures`.
         wheelset_measures: one record per wheelset from the leading end, SI.
         explain: whether the verdicts also list their definitions and whether another value in their range
             would change them, which takes most of the time.

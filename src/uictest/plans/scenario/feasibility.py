@@ -68,7 +68,7 @@ RIG_CHECKS: Final = "uictest-rig"
 def rig_checks() -> Criteria:
     """Return the profile."""
     place = Place(Document(RIG_CHECKS, Path(), RIG_CHECKS))
-    profile: Criteria = Parts(Files()).resolve(Scalar(RIG_CHECKS, RIG_CHECKS, place), Criteria, ()).part
+    profile: Criteria = Parts(Files()).part(Scalar(RIG_CHECKS, RIG_CHECKS, place), Criteria, ()).part
     return profile
 
 

@@ -51,7 +51,7 @@ def controller_labels(settings: Iterable[Setting], parts: Parts) -> Labels:
         node = setting.value.node
         if setting.key == CONTROLLER and id(node) not in programs:
             with suppress(ScenarioErrors):
-                part = parts.resolve(node, PART_KEYS[CONTROLLER,].model, (CONTROLLER,)).part
+                part = parts.part(node, PART_KEYS[CONTROLLER,].model, (CONTROLLER,)).part
                 programs[id(node)] = _program_named(part, setting)
     return {key: _told_apart(program, {*programs.values()}) for key, program in programs.items()}
 

@@ -137,7 +137,9 @@ class _Loader:
         require_schema(tree, SCENARIO_SCHEMA)
         own_name = tree.entries.get("name")
         merged, documents = inherit(
-            tree, self._parent, lambda parent, child: self.diagnostics.extend(changed_alone(parent, child))
+            tree,
+            fetch=self._parent,
+            check=lambda parent, child: self.diagnostics.extend(changed_alone(parent, child)),
         )
         # Every scenario has its own name: an inherited one would not be unique.
         merged = merged.without("name") if own_name is None else merged.with_entry("name", own_name)

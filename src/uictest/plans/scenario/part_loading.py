@@ -39,7 +39,7 @@ def load_part(reference: str) -> Part:
     if folder not in models:
         raise KeyError(folder)
     place = Place(Document(reference, Path(), reference), 1, len(folder) + 2)
-    part: Part = Parts(Files()).resolve(Scalar(name, name, place), models[folder], (folder,)).part
+    part: Part = Parts(Files()).part(Scalar(name, name, place), models[folder], (folder,)).part
     return part
 
 
@@ -65,7 +65,7 @@ def load_part_file(path: Path, trusted: Sequence[Path] = ()) -> Part:
 
 def _part_in(path: Path, files: Files, model: Any) -> Any:
     name = Scalar(path.name, path.name, Place(Document(str(path), path.parent, path.name)))
-    return Parts(files).resolve(name, model, ()).part
+    return Parts(files).part(name, model, ()).part
 
 
 def load_controller(
@@ -87,7 +87,7 @@ def load_controller(
     files = Files(Roots.of([path], trusted))
     controller: ControllerPart
     if not (is_path(reference) and is_file(path)):
-        controller = Parts(files).resolve(_node(reference, path, class_name), model, ()).part
+        controller = Parts(files).part(_node(reference, path, class_name), model, ()).part
         return controller
     if library is not None:
         places = {
@@ -96,7 +96,7 @@ def load_controller(
         }
         entries = {key: Entry(place, Scalar(name, name, place)) for key, (place, name) in places.items()}
         node = Map(entries, places["extends"][0])
-        controller = Parts(Files(Roots.of([path, library], trusted))).resolve(node, model, ()).part
+        controller = Parts(Files(Roots.of([path, library], trusted))).part(node, model, ()).part
         return controller
     schema = files.at(path).get("schema")
     if not isinstance(schema, Scalar) or schema.value != SCENARIO_SCHEMA:

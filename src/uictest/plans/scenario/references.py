@@ -58,7 +58,7 @@ class Parts:
         self._inline: dict[int, tuple[Node, ResolvedPart]] = {}
         self._originals: dict[int, tuple[Map, Any]] = {}
 
-    def resolve(self, node: Node, model: Any, key: Key) -> ResolvedPart:
+    def part(self, node: Node, model: Any, key: Key) -> ResolvedPart:
         """The part of type ``model`` that ``node`` at ``key`` stands for. Raises ScenarioErrors."""
         full_key = dotted(key)
         if isinstance(node, Map):
@@ -85,7 +85,7 @@ class Parts:
             )
             return generations[-1]
 
-        merged, documents = inherit(tree, fetch, _reject_changed_sources)
+        merged, documents = inherit(tree, fetch=fetch, check=_reject_changed_sources)
         part, programs = self._validated(merged, model, key)
         return ResolvedPart(self._with_origin(part, generations, model), (*documents, *programs))
 

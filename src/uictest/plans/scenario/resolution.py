@@ -90,31 +90,30 @@ def numbers(part: Part) -> Iterator[SourcedNumber]:
         yield SourcedNumber(dotted(key), quantity, part.sources.get(quantity.source))
 
 
-VALIDATED: Final = "validated"
-"""The key of a scenario."""
+_VALIDATION_KEY: Final = "validated"
 LARGEST: Final = 64 * 1024 * 1024
 """Largest file that is read, bytes: it holds every figure of every recorded stop."""
 _HINT: Final = "name the validation.json that `uictest validate` wrote"
 
 
-def _with_validated_file(data: dict[str, Any], tree: Map, files: Files) -> None:
+def _with_validation_path(data: dict[str, Any], tree: Map, files: Files) -> None:
     """Put the path of the validation, if a scenario names one, in the place of what it wrote.
 
     Raises ScenarioErrors for a file that is missing, lies outside the roots, or holds something else.
     """
-    node = tree.get(VALIDATED)
+    node = tree.get(_VALIDATION_KEY)
     if not isinstance(node, Scalar) or not isinstance(node.value, str):
         return
-    path = files.path_of(node, VALIDATED)
+    path = files.path_of(node, _VALIDATION_KEY)
     if not is_file(path):
         raise single_error(
-            node.place, f"no such file: {quoted(node.text)}", VALIDATED, nearest_file(path, _HINT)
+            node.place, f"no such file: {quoted(node.text)}", _VALIDATION_KEY, nearest_file(path, _HINT)
         )
-    if not files.once(f"{VALIDATED}:{path}", lambda: _is_validation(path)):
+    if not files.once(f"{_VALIDATION_KEY}:{path}", lambda: _is_validation(path)):
         raise single_error(
-            node.place, f"{quoted(node.text)} is not the result of a validation", VALIDATED, _HINT
+            node.place, f"{quoted(node.text)} is not the result of a validation", _VALIDATION_KEY, _HINT
         )
-    data[VALIDATED] = str(path)
+    data[_VALIDATION_KEY] = str(path)
 
 
 def _is_validation(path: Path) -> bool:
@@ -150,7 +149,7 @@ def resolve(tree: Map, parts: Parts) -> tuple[Scenario, tuple[Document, ...]]:
             failed.add(dotted(key))
             del mapping[str(key[-1])]
     try:
-        _with_validated_file(data, tree, parts.files)
+        _with_validation_path(data, tree, parts.files)
     except ScenarioErrors as errors:
         diagnostics.extend(errors.diagnostics)
     try:
@@ -182,7 +181,7 @@ def _resolved_parts(
     diagnostics: list[Diagnostic] = []
     for number, node in enumerate(nodes):
         try:
-            resolved.append(parts.resolve(node, model, (*key, number) if listed else key))
+            resolved.append(parts.part(node, model, (*key, number) if listed else key))
         except ScenarioErrors as errors:
             diagnostics.extend(errors.diagnostics)
     if diagnostics:

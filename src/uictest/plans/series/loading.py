@@ -104,7 +104,7 @@ def _criteria(tree: Map, parts: Parts) -> tuple[tuple[Criteria, ...], tuple[Docu
     entry = tree.entries.get("criteria")
     node: Node = Scalar(DEFAULT_CRITERIA, DEFAULT_CRITERIA, tree.place) if entry is None else entry.node
     nodes = node.items if isinstance(node, List) else (node,)
-    resolved = [parts.resolve(each, Criteria, ("criteria",)) for each in nodes]
+    resolved = [parts.part(each, Criteria, ("criteria",)) for each in nodes]
     documents = tuple(document for each in resolved for document in each.documents)
     return tuple(each.part for each in resolved), documents
 

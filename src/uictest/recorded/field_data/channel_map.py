@@ -214,7 +214,7 @@ def load_map(reference: str, trusted: Sequence[Path] = ()) -> tuple[ChannelMap, 
     else:
         raise KeyError(reference)
     files = Files(Roots.of([Path(reference)], trusted))
-    merged, documents = inherit(tree, lambda parent: _parent(parent, files))
+    merged, documents = inherit(tree, fetch=lambda parent: _parent(parent, files))
     loaded: ChannelMap = validated(ChannelMap, plain(merged), merged)
     inputs = {
         each.display

@@ -26,11 +26,6 @@ def sweep_tally(result: SweepResult) -> str:
     return f"{counted(result.cases, 'case')}: {counts_text(result.outcomes, result.cases - result.met)}"
 
 
-def not_judged_words(outcomes: Mapping[str, int]) -> str:
-    """Return how many cases no criterion applies to, e.g. ` (2 not judged)`; nothing where there are none."""
-    return f" ({outcomes['skipped']} not judged)" if outcomes["skipped"] else ""
-
-
 def command_alone(manifest: Mapping[str, Any]) -> str:
     """Return the command that runs one `CASE` of a sweep alone, as the sweep did."""
     file = argument(str(manifest.get("file", "FILE")))

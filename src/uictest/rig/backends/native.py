@@ -14,6 +14,7 @@ from uictest.rig.model.rail import RAIL_MEMORY, ROWS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
+from uictest.rig.single_stop import RunStop
 
 
 def stop_is_compiled() -> bool:
@@ -21,28 +22,16 @@ def stop_is_compiled() -> bool:
     return is_kept(RUN)
 
 
-def load_stop() -> None:
-    """Load the stop, compiled first where the cache does not hold it."""
-    compiled_stop()
-
-
 @cache
-def compiled_stop() -> "NativeStop":
+def compiled_stop() -> RunStop:
     """Return :func:`uictest.rig.model.stop.run_stop` compiled.
 
-    The first call on a machine takes some fifteen seconds.
+    It releases the interpreter's lock while it runs, and raises TypeError where a record does not have the
+    compiled layout. The first call on a machine takes some fifteen seconds.
     """
-    return NativeStop()
+    native = native_function(SCALAR, RUN, len(RUN_ARGUMENTS))
 
-
-class NativeStop:
-    """The stop in machine code. It releases the interpreter's lock while it runs."""
-
-    def __init__(self) -> None:
-        self._stop = native_function(SCALAR, RUN, len(RUN_ARGUMENTS))
-
-    def __call__(
-        self,
+    def run_stop(
         car: Any,
         bogies: Any,
         wheelsets: Any,
@@ -55,9 +44,8 @@ class NativeStop:
         trace: Trace,
         steps_per_sample: int,
     ) -> int:
-        """Run one stop on zeroed records. Raises TypeError where one does not have the compiled layout."""
         rows = len(trace.train)
-        return self._stop(
+        return native(
             address(car, CAR),
             address(bogies, BOGIE, (2,)),
             address(wheelsets, WHEELSET, (4,)),
@@ -73,3 +61,5 @@ class NativeStop:
             rows,
             steps_per_sample,
         )
+
+    return run_stop

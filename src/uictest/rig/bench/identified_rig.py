@@ -96,7 +96,7 @@ def _kept_or_identified(inputs: bytes, scenario: Scenario, pressure: str) -> str
 def _part(text: str) -> Compensation:
     """Read a compensation file. Raises ScenarioErrors for one that holds anything else."""
     tree = parse(Document("identified", Path(), text))
-    part: Compensation = Parts(Files()).resolve(tree, Compensation, ()).part
+    part: Compensation = Parts(Files()).part(tree, Compensation, ()).part
     return part
 
 

@@ -72,11 +72,11 @@ def load_compensation(reference: str, trusted: Sequence[Path] = ()) -> Compensat
     """
     if reference.endswith((".yaml", ".yml")):
         files = Files(Roots.of([Path(reference)], trusted))
-        part: Compensation = Parts(files).resolve(files.at(Path(reference)), Compensation, ()).part
+        part: Compensation = Parts(files).part(files.at(Path(reference)), Compensation, ()).part
         return part
     place = whole_file(Path("--base"))
     named: Compensation = (
-        Parts(Files()).resolve(Scalar(reference, reference, place), Compensation, ("base",)).part
+        Parts(Files()).part(Scalar(reference, reference, place), Compensation, ("base",)).part
     )
     return named
 
@@ -84,7 +84,7 @@ def load_compensation(reference: str, trusted: Sequence[Path] = ()) -> Compensat
 def check_compensation(text: str, path: Path) -> None:
     """Raise ScenarioErrors if a compensation file of this text would be rejected; ``path`` is its name."""
     tree = parse(Document(display_name(path), path.parent, text))
-    Parts(Files()).resolve(tree, Compensation, ())
+    Parts(Files()).part(tree, Compensation, ())
 
 
 def with_hysteresis(

@@ -1,7 +1,6 @@
 from .batch import (
     NOT_JUDGED as NOT_JUDGED,
     BatchResult as BatchResult,
-    PartsOfCases as PartsOfCases,
     RunSettings as RunSettings,
     ThreadedMap as ThreadedMap,
     judge_cases as judge_cases,
@@ -19,7 +18,6 @@ from .requirement_coverage import (
 )
 from .selection import (
     ExpressionError as ExpressionError,
-    Matches as Matches,
     Selectable as Selectable,
     by_expression as by_expression,
     by_id as by_id,

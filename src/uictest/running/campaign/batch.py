@@ -120,7 +120,7 @@ PartsOfCases = Mapping[str, Mapping[str, "evaluation.EffectivePart"]]
 def parts_of_cases(cases: Sequence[scenario.Case]) -> PartsOfCases:
     """Return the parts of simulated stops; a part that many cases share is computed once.
 
-    A compensation that is to be identified is: those parts are what the stop is run with.
+    A compensation that is to be identified is, in up to minutes: those parts are what the stop is run with.
     """
     effective = evaluation.EffectiveParts()
     return {case.id: effective.of(_as_run(case).scenario) for case in cases}

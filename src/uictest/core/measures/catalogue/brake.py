@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 from uictest.core.measures.measure import (
-    Decided,
     Measure,
     MeasureValue,
     Overview,
     RecordedData,
+    ShownWhen,
     StopColumn,
     WheelsetColumn,
     Wheelsets,
@@ -37,7 +37,7 @@ MEASURES = (
         course="grows",
         meaning="openings and closings of the vent",
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.valve_actuations for w in wheelsets),
-        decided=Decided(how="outer", plot="valves", field="venting"),
+        decided=ShownWhen(how="outer", plot="valves", field="venting"),
         of_wheelsets=True,
         recorded=RecordedData(("valve_command_{n}",)),
         column=WheelsetColumn(
@@ -58,7 +58,7 @@ MEASURES = (
         read=lambda stop, wheelsets, definition: value_per_wheelset(
             w.maximum_clamping_force for w in wheelsets
         ),
-        decided=Decided(how="extreme", plot="force", field="maximum_clamping_force", level=True),
+        decided=ShownWhen(how="extreme", plot="force", field="maximum_clamping_force", level=True),
         of_wheelsets=True,
         recorded=RecordedData(("clamping_force_{n}",)),
         column=WheelsetColumn(
@@ -73,7 +73,7 @@ MEASURES = (
         course="grows",
         meaning="highest temperature of the friction surface of the discs, where it is modelled",
         read=lambda stop, wheelsets, definition: _disc_temperatures(wheelsets),
-        decided=Decided(how="extreme", plot="temperature", field="maximum_disc_temperature", level=True),
+        decided=ShownWhen(how="extreme", plot="temperature", field="maximum_disc_temperature", level=True),
         of_wheelsets=True,
         recorded=RecordedData(("disc_surface_temperature_{n}",)),
         column=WheelsetColumn(
@@ -87,7 +87,7 @@ MEASURES = (
         course="falls",
         meaning="lowest gauge pressure of the reservoir",
         read=lambda stop, wheelsets, definition: one_value(stop.reservoir_minimum_pressure),
-        decided=Decided(
+        decided=ShownWhen(
             how="extreme", plot="pressure", field="reservoir_minimum_pressure", level=True, word="lowest"
         ),
         recorded=RecordedData(("reservoir_pressure",)),
@@ -103,7 +103,7 @@ MEASURES = (
         course="grows",
         meaning="air taken from the reservoir, normal volume (20 degC, 1 bar)",
         read=lambda stop, wheelsets, definition: one_value(normal_volume(stop.air_consumed)),
-        decided=Decided(how="end", plot="pressure"),
+        decided=ShownWhen(how="end", plot="pressure"),
         recorded=_FLOW_OF_AIR,
         column=StopColumn(
             "air_consumed_nl", "NL", read=lambda stop, definition: normal_volume(stop.air_consumed)
@@ -119,7 +119,7 @@ MEASURES = (
         read=lambda stop, wheelsets, definition: value_per_wheelset(
             normal_volume(w.air_vented) for w in wheelsets
         ),
-        decided=Decided(how="outer", plot="valves", field="venting"),
+        decided=ShownWhen(how="outer", plot="valves", field="venting"),
         of_wheelsets=True,
         recorded=_FLOW_OF_AIR,
         column=WheelsetColumn(
@@ -134,7 +134,7 @@ MEASURES = (
         course="falls",
         meaning="lowest difference between the pressure of the reservoir and the highest cylinder pressure",
         read=lambda stop, wheelsets, definition: one_value(stop.reservoir_margin),
-        decided=Decided(
+        decided=ShownWhen(
             how="extreme",
             plot="pressure",
             field="reservoir_margin",

@@ -8,11 +8,11 @@ from operator import attrgetter
 from typing import Any, Final
 
 from uictest.core.measures.measure import (
-    Decided,
     Measure,
     MeasureValue,
     Overview,
     RecordedData,
+    ShownWhen,
     StopColumn,
     WheelsetColumn,
     Wheelsets,
@@ -25,7 +25,7 @@ from uictest.core.measures.records import StopMeasures
 _DEFAULT_FIRST_PHASE: Final = 3.0
 """s; chosen. Used for the column of a case none of whose criteria defines its own first phase."""
 _OF_UTILISATION = ("sliding_slide", "sliding_slip", "moving_speed", "reduced_share")
-_LIMITED_BY_RAIL = Decided(how="intervals", plot="sliding", field="exploited_work")
+_LIMITED_BY_RAIL = ShownWhen(how="intervals", plot="sliding", field="exploited_work")
 _CONTACTS = RecordedData(
     (
         *("speed", "wheel_speed_{n}", "adhesion_{n}", "friction_{n}", "wheel_load_{n}"),
@@ -113,7 +113,7 @@ def _of_bogie(number: int) -> Measure:
         meaning=f"part of the mean deceleration given by the rail through the {_POSITIONS[number]} bogie: its"
         " work on both wheelsets over the mass of the train and the braking distance",
         read=lambda stop, wheelsets, definition: deceleration_of_bogie(stop, of_stop(stop)),
-        decided=Decided(how="span", plot="deceleration", level=True, word=f"{_POSITIONS[number]} bogie"),
+        decided=ShownWhen(how="span", plot="deceleration", level=True, word=f"{_POSITIONS[number]} bogie"),
         recorded=RecordedData(("speed", "distance", "adhesion_{n}", "wheel_load_{n}"), bounded=False),
         column=StopColumn(
             f"deceleration_bogie_{number}_mps2",
@@ -133,7 +133,7 @@ MEASURES = (
         meaning="mean deceleration of the train over the first phase, counted from the first sliding of any"
         " wheelset",
         read=lambda stop, wheelsets, definition: initial_adhesion(stop, definition["first_phase_duration"]),
-        decided=Decided(
+        decided=ShownWhen(
             how="span",
             plot="deceleration",
             span=lambda stop, definition: (
@@ -199,7 +199,7 @@ MEASURES = (
         course="falls",
         meaning="smallest filtered deceleration under developed braking",
         read=lambda stop, wheelsets, definition: _deceleration(stop.minimum_deceleration),
-        decided=Decided(how="extreme", plot="deceleration", field="minimum_deceleration", level=True),
+        decided=ShownWhen(how="extreme", plot="deceleration", field="minimum_deceleration", level=True),
         observed_by=(*_FILTERING, "developed_time"),
         recorded=RecordedData(("speed",), bounded=False),  # the filter has to settle first
         column=StopColumn(
@@ -213,7 +213,7 @@ MEASURES = (
         course="grows",
         meaning="largest filtered deceleration while the train runs",
         read=lambda stop, wheelsets, definition: _deceleration(stop.maximum_deceleration),
-        decided=Decided(how="extreme", plot="deceleration", field="maximum_deceleration", level=True),
+        decided=ShownWhen(how="extreme", plot="deceleration", field="maximum_deceleration", level=True),
         observed_by=_FILTERING,
         recorded=RecordedData(("speed",)),
         column=StopColumn(

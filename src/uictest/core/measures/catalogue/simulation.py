@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from uictest.core.measures.measure import (
-    Decided,
     Measure,
     MeasureValue,
     RecordedData,
+    ShownWhen,
     StopColumn,
     Wheelsets,
     one_value,
@@ -53,7 +53,7 @@ MEASURES = (
         course="settles",
         meaning="magnitude of the energy balance's error over the initial kinetic energy",
         read=lambda stop, wheelsets, definition: one_value(abs(stop.energy_residual)),
-        decided=Decided(how="end", plot="speed"),
+        decided=ShownWhen(how="end", plot="speed"),
         of_simulation=True,
         column=StopColumn(
             "energy_residual",
@@ -70,7 +70,7 @@ MEASURES = (
         course="settles",
         meaning="magnitude of the air balance's error over the mass taken",
         read=lambda stop, wheelsets, definition: one_value(abs(stop.air_residual)),
-        decided=Decided(how="end", plot="pressure"),
+        decided=ShownWhen(how="end", plot="pressure"),
         of_simulation=True,
         column=StopColumn(
             "air_residual",
@@ -87,7 +87,7 @@ MEASURES = (
         course="settles",
         meaning="magnitude of the error of the air's energy balance over the enthalpy taken",
         read=lambda stop, wheelsets, definition: one_value(abs(stop.air_energy_residual)),
-        decided=Decided(how="end", plot="pressure"),
+        decided=ShownWhen(how="end", plot="pressure"),
         of_simulation=True,
         column=StopColumn(
             "air_energy_residual",
@@ -104,7 +104,7 @@ MEASURES = (
         course="grows",
         meaning="longest time at a stretch that a wheelset without a fault of its own is locked",
         read=lambda stop, wheelsets, definition: longest_lock_of_sound_wheelsets(stop, wheelsets),
-        decided=Decided(
+        decided=ShownWhen(
             how="longest", plot="locked", field="lock", among=lambda wheelset: not wheelset.faulty
         ),
         observed_by=("locked_speed", "moving_speed"),
@@ -119,7 +119,7 @@ MEASURES = (
         meaning="longest time at a stretch that a wheelset with a faulty speed sensor is without brake force,"
         " once the brake is developed",
         read=lambda stop, wheelsets, definition: longest_release(stop, wheelsets),
-        decided=Decided(how="longest", plot="force", field="release"),
+        decided=ShownWhen(how="longest", plot="force", field="release"),
         observed_by=("moving_speed", "developed_time", "released_share"),
         of_faults=True,
         recorded=_FAULTS,
@@ -131,7 +131,7 @@ MEASURES = (
         course="grows",
         meaning="largest excess of the controller's reference speed over the train's since the first fault",
         read=lambda stop, wheelsets, definition: reference_excess(stop),
-        decided=Decided(
+        decided=ShownWhen(
             how="extreme", plot="speed", field="reference_excess", channel="reference_speed", word="excess"
         ),
         observed_by=("moving_speed",),
@@ -145,7 +145,7 @@ MEASURES = (
         course="grows",
         meaning="time for which loadcells are limited by their range, of all calipers together",
         read=lambda stop, wheelsets, definition: one_value(sum(w.loadcell_saturation for w in wheelsets)),
-        decided=Decided(how="end", plot="force"),
+        decided=ShownWhen(how="end", plot="force"),
         of_simulation=True,
     ),
     Measure(
@@ -157,7 +157,7 @@ MEASURES = (
         read=lambda stop, wheelsets, definition: one_value(
             stop.line_saturation + sum(w.pressure_saturation for w in wheelsets)
         ),
-        decided=Decided(how="end", plot="pressure"),
+        decided=ShownWhen(how="end", plot="pressure"),
         of_simulation=True,
     ),
     Measure(

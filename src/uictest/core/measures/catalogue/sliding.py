@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from typing import Final
 
 from uictest.core.measures.measure import (
-    Decided,
     DefinitionValues,
     Measure,
     MeasureValue,
     Overview,
     RecordedData,
+    ShownWhen,
     StopColumn,
     WheelsetColumn,
     Wheelsets,
@@ -111,7 +111,7 @@ MEASURES = (
         read=lambda stop, wheelsets, definition: maximum_slide_above_cutoff(
             stop, wheelsets, definition["low_speed_cutoff"]
         ),
-        decided=Decided(
+        decided=ShownWhen(
             how="extreme",
             plot="slide",
             field="maximum_slide_above",
@@ -144,7 +144,7 @@ MEASURES = (
         course="grows",
         meaning="time the wheelset slides in all",
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.sliding_duration for w in wheelsets),
-        decided=Decided(how="intervals", plot="sliding", field="sliding_duration"),
+        decided=ShownWhen(how="intervals", plot="sliding", field="sliding_duration"),
         of_wheelsets=True,
         observed_by=("sliding_slide", "sliding_slip", "moving_speed"),
         recorded=_WHEEL_SPEEDS,
@@ -165,7 +165,7 @@ MEASURES = (
         meaning="share of the time from the brake command to `end_speed` in which at least half of the"
         " wheelsets turn, at once, below the share `sliding_below` of the train's speed",
         read=lambda stop, _, definition: sliding_share(stop, definition),
-        decided=Decided(how="span", plot="slide", down_to="end_speed"),
+        decided=ShownWhen(how="span", plot="slide", down_to="end_speed"),
         definitions=("sliding_below", "end_speed"),
         speed_range=_down_to_end_speed,
         recorded=_SHARED,
@@ -185,7 +185,7 @@ MEASURES = (
         meaning="share of the time from the brake command to `end_speed` in which the wheelset turns below"
         " the share `sliding_below` of the train's speed",
         read=sliding_share_of_wheelsets,
-        decided=Decided(
+        decided=ShownWhen(
             how="span", plot="slide", field="slow_time", place=_place_of_slow_time, down_to="end_speed"
         ),
         of_wheelsets=True,
@@ -200,7 +200,7 @@ MEASURES = (
         course="grows",
         meaning="distance that the train runs while the wheelset slides or is locked",
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.slid_distance for w in wheelsets),
-        decided=Decided(how="intervals", plot="sliding", field="slid_distance"),
+        decided=ShownWhen(how="intervals", plot="sliding", field="slid_distance"),
         of_wheelsets=True,
         observed_by=_OF_FLATS,
         recorded=RecordedData(("speed", "wheel_speed_{n}")),
@@ -214,7 +214,7 @@ MEASURES = (
         course="grows",
         meaning="energy that both contacts of the wheelset turn into heat while it slides or is locked",
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.contact_energy for w in wheelsets),
-        decided=Decided(how="intervals", plot="sliding", field="contact_energy"),
+        decided=ShownWhen(how="intervals", plot="sliding", field="contact_energy"),
         of_wheelsets=True,
         observed_by=_OF_FLATS,
         recorded=RecordedData(("speed", "wheel_speed_{n}", "adhesion_{n}", "wheel_load_{n}"), computed=True),
@@ -228,7 +228,7 @@ MEASURES = (
         course="grows",
         meaning="time the wheelset is locked in all",
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.locked_time for w in wheelsets),
-        decided=Decided(how="intervals", plot="locked", field="locked_time"),
+        decided=ShownWhen(how="intervals", plot="locked", field="locked_time"),
         of_wheelsets=True,
         observed_by=_OF_LOCKS,
         recorded=_WHEEL_SPEEDS,
@@ -247,7 +247,7 @@ MEASURES = (
         course="grows",
         meaning="longest time the wheelset is locked at a stretch",
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.longest_lock for w in wheelsets),
-        decided=Decided(how="longest", plot="locked", field="lock"),
+        decided=ShownWhen(how="longest", plot="locked", field="lock"),
         of_wheelsets=True,
         observed_by=_OF_LOCKS,
         recorded=_WHEEL_SPEEDS,

@@ -6,11 +6,11 @@ import math
 from dataclasses import replace
 
 from uictest.core.measures.measure import (
-    Decided,
     Measure,
     MeasureValue,
     Overview,
     RecordedData,
+    ShownWhen,
     StopColumn,
     one_value,
     unavailable,
@@ -19,7 +19,7 @@ from uictest.core.measures.records import StopMeasures
 
 _NEVER = "the pressure of the brake line never reached `developed_share` of what is commanded"
 _OF_BUILD_UP = ("rising_share", "developed_share")
-_SINCE_BUILD_UP = Decided(
+_SINCE_BUILD_UP = ShownWhen(
     how="span",
     plot="speed",
     field="build_up_time",
@@ -91,7 +91,7 @@ MEASURES = (
         course="grows",
         meaning="distance from the brake command to standstill, not corrected for the initial speed",
         read=lambda stop, wheelsets, definition: braking_distance(stop),
-        decided=Decided(how="end", plot="speed", across="speed", along_distance=True),
+        decided=ShownWhen(how="end", plot="speed", across="speed", along_distance=True),
         recorded=RecordedData(("speed", "distance"), when="ends"),
         column=StopColumn(
             "braking_distance_m",
@@ -107,7 +107,7 @@ MEASURES = (
         course="grows",
         meaning="time from the brake command to standstill",
         read=lambda stop, wheelsets, definition: braking_time(stop),
-        decided=Decided(how="end", plot="speed", across="speed"),
+        decided=ShownWhen(how="end", plot="speed", across="speed"),
         recorded=RecordedData(("speed",), when="ends"),
         column=StopColumn(
             "braking_time_s",
@@ -123,7 +123,7 @@ MEASURES = (
         course="falls",
         meaning="v0^2 / (2 s), s the braking distance from v0",
         read=lambda stop, wheelsets, definition: mean_deceleration(stop),
-        decided=Decided(how="span", plot="deceleration", level=True, word="mean"),
+        decided=ShownWhen(how="span", plot="deceleration", level=True, word="mean"),
         recorded=RecordedData(("speed", "distance"), when="ends", bounded=False),
         column=StopColumn(
             "mean_deceleration_mps2",
@@ -139,7 +139,7 @@ MEASURES = (
         course="settles",
         meaning="1 where the train came to a standstill",
         read=lambda stop, wheelsets, definition: standstill(stop),
-        decided=Decided(how="end", plot="speed", word="the record ends at"),
+        decided=ShownWhen(how="end", plot="speed", word="the record ends at"),
         recorded=RecordedData(("speed",), when="end", from_command=False),
     ),
     Measure(
@@ -150,7 +150,7 @@ MEASURES = (
         meaning="equivalent build-up time T_react + T_increase / 2 of the brake-line pressure, which begins"
         " to rise T_react after the brake command and has built up T_increase later",
         read=lambda stop, wheelsets, definition: build_up_time(stop),
-        decided=Decided(
+        decided=ShownWhen(
             how="span",
             plot="pressure",
             field="build_up_time",

@@ -169,6 +169,7 @@ LONGEST_CHAIN: Final = 16
 
 def inherit(
     tree: Map,
+    *,
     fetch: Callable[[Scalar], Map],
     check: Callable[[Map, Map], object] = lambda parent, merged: None,
 ) -> tuple[Map, tuple[Document, ...]]:

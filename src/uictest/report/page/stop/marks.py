@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final, Literal
 
-from uictest.core.measures import MEASURES, Decided
+from uictest.core.measures import MEASURES, ShownWhen
 from uictest.core.units import SIZES, in_unit
 from uictest.judging import evaluation
 from uictest.report.escaping import printable
@@ -52,12 +52,12 @@ def fault_marks(trace: PlotTrace) -> Iterator[Mark]:
             yield Mark(plot, "fault", "" if place else f"fault: {span.label}", span.start, span.end)
 
 
-def _decided(verdict: evaluation.Verdict) -> Decided | None:
+def _decided(verdict: evaluation.Verdict) -> ShownWhen | None:
     measure = MEASURES.get(verdict.measure)
     return None if measure is None else measure.decided
 
 
-def _marks(verdict: evaluation.Verdict, decided: Decided, trace: PlotTrace) -> Iterator[Mark]:
+def _marks(verdict: evaluation.Verdict, decided: ShownWhen, trace: PlotTrace) -> Iterator[Mark]:
     moments = trace.moments.get(verdict.id, Moments())
     if decided.across:
         yield from _band(verdict, decided)
@@ -73,7 +73,7 @@ def _marks(verdict: evaluation.Verdict, decided: Decided, trace: PlotTrace) -> I
         yield from _intervals(verdict, decided, moments)
 
 
-def _band(verdict: evaluation.Verdict, decided: Decided) -> Iterator[Mark]:
+def _band(verdict: evaluation.Verdict, decided: ShownWhen) -> Iterator[Mark]:
     """Yield what lies within the bounds of a distance or a time and, unless it passed, what was reached."""
     label = printable(f"{verdict.id}: {limits(verdict, word='')}")
     along: Literal["time", "distance"] = "distance" if decided.along_distance else "time"
@@ -83,7 +83,7 @@ def _band(verdict: evaluation.Verdict, decided: Decided) -> Iterator[Mark]:
         yield replace(reached, along=along)
 
 
-def _span(verdict: evaluation.Verdict, decided: Decided, moments: Moments) -> Iterator[Mark]:
+def _span(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
     """Yield a mean with its bounds over its span; of another value, unless it passed, the span alone."""
     start, end = moments.span or (None, None)
     if (decided.span or decided.down_to) and (start is None or end is None):
@@ -103,7 +103,7 @@ def _span(verdict: evaluation.Verdict, decided: Decided, moments: Moments) -> It
         yield Mark(decided.plot, "mean", label, start, end, verdict.value / scale)
 
 
-def _extremes(verdict: evaluation.Verdict, decided: Decided, moments: Moments) -> Iterator[Mark]:
+def _extremes(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
     """Yield the bounds, and the extreme of the train or, unless it passed, of each wheelset."""
     if decided.level:
         until = moments.span[1] if moments.span else None
@@ -118,7 +118,7 @@ def _extremes(verdict: evaluation.Verdict, decided: Decided, moments: Moments) -
             yield point(decided.plot, time, height, label, n)
 
 
-def _intervals(verdict: evaluation.Verdict, decided: Decided, moments: Moments) -> Iterator[Mark]:
+def _intervals(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
     """Yield intervals in a strip; the longest of the wheelset that decides carries a value that did not pass.
 
     A panel has no room for more than the longest.
@@ -136,7 +136,7 @@ def _intervals(verdict: evaluation.Verdict, decided: Decided, moments: Moments) 
             yield Mark(decided.plot, "window", label, first, last)
 
 
-def _scale(verdict: evaluation.Verdict, decided: Decided) -> float:
+def _scale(verdict: evaluation.Verdict, decided: ShownWhen) -> float:
     """Return how many units of the criterion one unit of the plot is."""
     return SIZES.get(_UNITS[decided.plot], 1.0) / SIZES.get(verdict.unit, 1.0)
 
