@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from uictest.core.document import Lines
 from uictest.core.units import in_unit
 from uictest.judging import evaluation
-from uictest.judging.series import SeriesResult, SeriesVerdict
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.series.series_sentences import bypassed_is_better, interval, of_dry_stop, percent
 from uictest.report.verdict_sentences import counted, limits, number, quantity, value_and_limits
+
+if TYPE_CHECKING:
+    from uictest.judging.series import SeriesResult, SeriesVerdict
 
 NARROW: Final = 10.0
 """Per cent of the limit: a criterion met with less to spare is marked as narrow; chosen."""
