@@ -50,7 +50,7 @@ def test_three_readings_stand_side_by_side_and_the_first_decides(minimum_slide, 
     assert "inferred" in verdict.readings[0].source
     assert verdict.value == verdict.readings[0].value
     assert not over_readings(verdict).flips
-    assert verdict.firm
+    assert verdict.steady
 
 
 @pytest.mark.parametrize(
@@ -70,7 +70,7 @@ def test_the_verdict_turns_exactly_where_the_readings_disagree(
     assert verdict.status == status
     assert [each.status for each in verdict.readings] == statuses
     assert over_readings(verdict).flips == (len(set(statuses)) > 1)
-    assert verdict.firm == (len(set(statuses)) == 1)
+    assert verdict.steady == (len(set(statuses)) == 1)
     listed = ", ".join(f"{name} {each}" for name, each in zip(NAMES, statuses, strict=True))
     assert str(over_readings(verdict)) == f"readings: {listed}"
 

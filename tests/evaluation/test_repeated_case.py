@@ -35,7 +35,7 @@ def test_a_verdict_that_turns_is_shown_as_such_and_under_the_median_as_well(repe
     result = repeated([450.0, 500.0, 470.0])
     assert (result.outcome, result.met) == ("invalid", False)
     (verdict,) = result.criteria
-    assert (verdict.status, verdict.value, verdict.firm) == ("fail", 470.0, False)
+    assert (verdict.status, verdict.value, verdict.steady) == ("fail", 470.0, False)
     counts = verdict.over_stops
     assert (counts.passed, counts.failed, counts.lowest, counts.highest) == (2, 1, 450.0, 500.0)
     assert verdict.definition["bound"] == "440 .. 490 m"
@@ -43,7 +43,7 @@ def test_a_verdict_that_turns_is_shown_as_such_and_under_the_median_as_well(repe
     assert [stop.outcome for stop in result.repeats.stops] == ["pass", "invalid", "pass"]
     result = repeated([450.0, 500.0, 470.0], MEDIAN)
     assert (result.outcome, result.reason) == ("pass", "")
-    assert not result.criteria[0].firm
+    assert not result.criteria[0].steady
     # The figures of a stop whose rig is wrong are in every median.
     result = repeated([450.0, 500.0, 470.0], MEDIAN, layer="rig")
     assert (result.outcome, result.criteria[0].status) == ("invalid", "fail")
@@ -60,7 +60,7 @@ def test_measures_are_medians_over_the_stops_and_one_stop_is_judged_as_a_case_wi
     # The same value, margin, status and definitions; what is added are the counts.
     (verdict,) = repeated([450.0]).criteria
     assert (verdict.value, verdict.margin, verdict.status) == (450.0, 10.0, "pass")
-    assert verdict.firm
+    assert verdict.steady
 
 
 def test_an_error_in_one_stop_makes_the_case_one_and_keeps_the_others(repeated):

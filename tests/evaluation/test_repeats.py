@@ -120,11 +120,11 @@ def test_a_case_with_one_stop_has_nothing_of_repeats_and_what_is_read_back_is_ch
             results_of(document)
 
 
-def test_a_verdict_that_turns_is_not_firm_and_the_first_stop_is_drawn():
+def test_a_verdict_that_turns_is_not_steady_and_the_first_stop_is_drawn():
     (verdict,) = result(REPEATS).criteria
-    assert not verdict.firm
-    assert replace(verdict, over_stops=OverStops(passed=2, lowest=460.0, highest=470.0)).firm
-    assert replace(verdict, over_stops=None).firm
+    assert not verdict.steady
+    assert replace(verdict, over_stops=OverStops(passed=2, lowest=460.0, highest=470.0)).steady
+    assert replace(verdict, over_stops=None).steady
     drawn = result(REPEATS).drawn_stop
     assert (drawn.outcome, drawn.repeats) == ("pass", None)
     (verdict,) = drawn.criteria

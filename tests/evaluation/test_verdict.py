@@ -13,7 +13,7 @@ from uictest.judging.evaluation import (
     to_json_form,
 )
 
-# The interface's names; `sensitivity` adds how firm the verdict is, the last two say as data what was judged.
+# The interface's names; `sensitivity` says what definitions do to it, the last two as data what was judged.
 FIELDS = [
     "id",
     "layer",
@@ -77,9 +77,9 @@ def test_a_verdict_knows_its_definitions_and_whether_it_flips_and_cannot_be_chan
     assert verdict().defined("low_speed_cutoff") == 30 / 3.6
     assert verdict().defined("first_phase_duration") is None
     assert [entry["flips"] for entry in form_of(verdict())["sensitivity"]] == [True, False]
-    assert not verdict().firm
-    assert verdict(sensitivity=(STEADY,)).firm
-    assert verdict(sensitivity=()).firm
+    assert not verdict().steady
+    assert verdict(sensitivity=(STEADY,)).steady
+    assert verdict(sensitivity=()).steady
     with pytest.raises(AttributeError):
         verdict().status = "fail"
 

@@ -121,7 +121,7 @@ def test_draws_that_are_no_test_do_not_count_but_turn_the_criterion_of_validity(
 
 def test_values_that_do_not_fit_together_are_counted_apart():
     firmness = study([A, B], lambda a, b: 1.0, feasible=lambda a, b: a + b < 5.0)
-    assert firmness.infeasible == firmness.draws - firmness.counted > 0
+    assert firmness.outcomes["error"] == firmness.draws - firmness.counted > 0
     assert firmness.turned == 0
 
 

@@ -58,7 +58,7 @@ def close_calls(
             if verdict.layer == "rig" or verdict.status not in judged:
                 continue
             share = evaluation.relative_margin(verdict)
-            if not verdict.firm:
+            if not verdict.steady:
                 turning.append(CloseCall(result.id, verdict.id, "turns", turns_text(verdict)))
             elif verdict.status == "pass" and share is not None and 100.0 * share < NARROW:
                 text = _narrow(verdict, share)
@@ -119,7 +119,7 @@ def _uncertain(each: SeriesVerdict, confidence: float) -> str:
 
 def turns_text(verdict: evaluation.Verdict) -> str:
     """Return where a verdict turns: `turns with sliding_below between 85 and 90 % (now 90 %)`; else empty."""
-    if verdict.firm:
+    if verdict.steady:
         return ""
     turning = [each for each in verdict.sensitivity if each.flips]
     reasons = [text for each in turning if (text := _turns_where(verdict, each))]

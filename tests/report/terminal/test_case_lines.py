@@ -28,8 +28,8 @@ def test_a_crash_stands_first_on_its_line_and_every_line_is_one_line_whatever_is
 
 
 def test_criterion_lines_can_be_found_by_the_case():
-    firm = Sensitivity("low_speed_cutoff", "km/h", 10.0, 60.0, (VerdictInterval(10.0, 60.0, "pass"),))
-    lines = list(criterion_lines(make_result(criteria=(make_verdict(sensitivity=(firm,)),))))
+    steady = Sensitivity("low_speed_cutoff", "km/h", 10.0, 60.0, (VerdictInterval(10.0, 60.0, "pass"),))
+    lines = list(criterion_lines(make_result(criteria=(make_verdict(sensitivity=(steady,)),))))
     assert lines[0] == (
         "criterion dry-120[command=90] braking-distance (validity) pass: 465.25 m, limits 440 .. 490 m, "
         "margin 24.75 m"

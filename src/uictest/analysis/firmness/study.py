@@ -26,15 +26,19 @@ from uictest.plans.sweeps import Column, RangedNumber, sobol_blocks
 OUTCOME: Final = ""
 """In place of the id of a criterion: the outcome."""
 FIRM_SHARE: Final = 0.997
-"""Share of draws, with 95 % confidence, in which a firm verdict stands at least; chosen."""
+"""Share of draws, with 95 % confidence, in which a firm verdict stands at least; chosen: what 1 000
+draws without a turn show."""
 _DOUBT: Final = 0.05
+"""Probability that a share lies below its bound: 95 % confidence, as usual of test results; chosen."""
 _DECIDED: Final = ("pass", "fail")
+"""Statuses whose firmness is studied: all others are no verdict on the stop."""
 _HALVINGS: Final = 4
+"""Of the interval between two places of a scan: a turning value is known to 1 / 128 of its side; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
 class Effort:
-    """How many stops are run.
+    """How many stops are run; the numbers are chosen: enough draws for :data:`FIRM_SHARE`, if most count.
 
     Args:
         blocks: of draws of all numbers together, each scrambled for itself.

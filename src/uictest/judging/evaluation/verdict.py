@@ -203,7 +203,7 @@ class Verdict:
         return self.status != "inconclusive" and not self.turns
 
     @property
-    def firm(self) -> bool:
+    def steady(self) -> bool:
         """Whether the verdict stays the same over the stated range of every definition, and in every stop."""
         return not self.turns and (self.over_stops is None or not self.over_stops.turns)
 
@@ -228,11 +228,11 @@ def relative_margin(verdict: Verdict) -> float | None:
     or no and has no margin. A verdict that flips within the range of a definition, or from stop to stop of a
     repeated case, has none to spare: at most 0.
     """
-    if verdict.margin is None or (verdict.margin == 0.0 and verdict.status == "pass" and verdict.firm):
+    if verdict.margin is None or (verdict.margin == 0.0 and verdict.status == "pass" and verdict.steady):
         return None
     bound = max(abs(verdict.lower or 0.0), abs(verdict.upper or 0.0))
     share = verdict.margin / bound if bound else min(verdict.margin, 0.0)
-    return share if verdict.firm else min(share, 0.0)
+    return share if verdict.steady else min(share, 0.0)
 
 
 def definition_texts(

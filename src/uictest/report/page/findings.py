@@ -94,9 +94,9 @@ def _of_case(
 
 
 def _decides(margin: Margin, result: evaluation.CaseResult) -> bool:
-    """Return whether a criterion is why a case is not as expected: one that passes firmly never is."""
+    """Return whether a criterion is why a case is not as expected: a steady pass never is."""
     if margin.verdict.status == "pass":
-        return bool(result.unsettled) and not margin.verdict.firm
+        return bool(result.unsettled) and not margin.verdict.steady
     return True
 
 

@@ -71,12 +71,12 @@ def test_a_verdict_that_turns_has_nothing_to_spare_as_where_cases_are_ranked(
     stated = AppliedDefinition("d", 0.2 if status == "pass" else 0.7, "s", "chosen", 0.0, 1.0)
     own = {"sensitivity": (turning,), "definitions": (stated,)}
     verdict = make_verdict(**bounds, margin=margin, status=status, **own)
-    firm = make_verdict(**bounds, margin=0.1, status="pass", id="firm")
-    shown = margins_of([firm, verdict], [firm, verdict], trace).judged[0]
+    steady = make_verdict(**bounds, margin=0.1, status="pass", id="steady")
+    shown = margins_of([steady, verdict], [steady, verdict], trace).judged[0]
     assert (shown.verdict.id, shown.share_text, shown.turns_text) == (verdict.id, spare, words)
     assert shown.bar[1] == pytest.approx(abs(10.0 * margin) / 2)
     narrowest, criterion = narrowest_margin(
-        CaseResult("c", "s", {}, "pass", "pass", criteria=(firm, verdict))
+        CaseResult("c", "s", {}, "pass", "pass", criteria=(steady, verdict))
     )
     assert criterion == verdict.id
     assert shown.to_spare == pytest.approx(100.0 * (narrowest or 0.0))

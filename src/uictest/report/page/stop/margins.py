@@ -42,7 +42,7 @@ class Margin:
     @property
     def to_spare(self) -> float | None:
         """The share as cases are ranked by it: a verdict that turns has none to spare, at most 0."""
-        return self.share if self.share is None or self.verdict.firm else min(self.share, 0.0)
+        return self.share if self.share is None or self.verdict.steady else min(self.share, 0.0)
 
     @property
     def judged(self) -> bool:
@@ -56,7 +56,7 @@ class Margin:
             return "not-judged" if self.verdict.status == "not_applicable" else "inconclusive"
         if self.verdict.status == "fail":
             return "fail"
-        if not self.verdict.firm:
+        if not self.verdict.steady:
             return "turns"
         return "pass" if self.share is None or self.share >= NARROW else "narrow"
 
@@ -76,7 +76,7 @@ class Margin:
         """The share to spare with its sign and unit; `turns` where a verdict that passes has none."""
         if self.to_spare is None or not self.judged:
             return _WORDS.get(self.verdict.status, "")
-        if self.verdict.status == "pass" and not self.verdict.firm:
+        if self.verdict.status == "pass" and not self.verdict.steady:
             return "turns"
         return _percent(self.to_spare)
 
@@ -167,7 +167,7 @@ def margin_share(verdict: evaluation.Verdict) -> float | None:
     A criterion that is met exactly, as that of standstill is, only says yes or no.
     """
     bound = max(abs(verdict.lower or 0.0), abs(verdict.upper or 0.0))
-    says_yes = verdict.margin == 0.0 and verdict.status == "pass" and verdict.firm
+    says_yes = verdict.margin == 0.0 and verdict.status == "pass" and verdict.steady
     if verdict.margin is None or not bound or says_yes:
         return None
     return 100.0 * verdict.margin / bound
