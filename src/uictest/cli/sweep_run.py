@@ -73,16 +73,9 @@ def measure_names(names: Sequence[str] | None) -> tuple[str, ...]:
         return runs.measure_names(names)
 
 
-_IDS_AT_ONCE = 4096
-
-
 def show_ids(selection: chunked.CaseSelection) -> bool:
     """Write the ids of the selected cases to stdout, one per line; return whether all were accepted."""
-    for first in range(0, selection.size, _IDS_AT_ONCE):
-        indices = selection.indices(first, min(first + _IDS_AT_ONCE, selection.size))
-        if not data("\n".join(map(printable, selection.plan.ids(indices)))):
-            return False
-    return True
+    return all(data("\n".join(map(printable, ids))) for ids in selection.id_blocks())
 
 
 def show_result(result: report.SweepResult, document: str, shown: Format, *, quiet: bool) -> None:

@@ -27,6 +27,7 @@ _UNKNOWN_SPEED = 120.0 * KILOMETRE_PER_HOUR
 """m/s, for the scenario of a record whose speed cannot be used; its result is an error at any speed."""
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 _LONGEST_NAME = 80
+"""Letters of the name of a stop; chosen: names of files made of it stay below 255."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ _WIDTHS = (("avx512f", 8), ("avx", 4))
 """Extensions of x86 and how many double-precision numbers a register of theirs holds."""
 _SMALLEST = 2
 """Numbers in a register of SSE2 and of Arm's NEON, which every 64-bit processor of their kind has."""
-_CACHE_LINE = 64
+CACHE_LINE = 64
 """Bytes; no vector of a block then lies across two cache lines."""
 
 
@@ -48,6 +48,6 @@ def block(layout: np.dtype[Any], width: int, count: int = 1) -> NDArray[Any]:
     names = [name for name in layout.names or () if not layout[name].shape]
     wide = np.dtype([(name, layout[name], (width,)) for name in names])
     size = count * wide.itemsize
-    memory = np.zeros(size + _CACHE_LINE, np.uint8)
-    start = -memory.ctypes.data % _CACHE_LINE
+    memory = np.zeros(size + CACHE_LINE, np.uint8)
+    start = -memory.ctypes.data % CACHE_LINE
     return memory[start : start + size].view(wide)

@@ -5,13 +5,14 @@ from typing import Any
 from llvmlite import ir
 from numba.core import types
 
+from uictest.core.lanes.block import CACHE_LINE
 from uictest.core.lanes.compiler import in_compiled_code, local_variable
 from uictest.core.lanes.operators import call_llvm, common_integers, common_vector, everywhere, spread
 from uictest.core.lanes.types import Mask, Vector, type_of_layout, vector_of_llvm
 
 _POINTER = ir.IntType(8).as_pointer()
-_CACHE_LINE = 64
-_NUMBERS = _CACHE_LINE // 8
+_NUMBERS = CACHE_LINE // 8
+"""Double-precision numbers in a cache line."""
 
 
 @in_compiled_code
@@ -146,7 +147,7 @@ def align_stack(typing: Any) -> Any:
 
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         variable = local_variable(builder, vector_of_llvm(_NUMBERS))
-        variable.align = _CACHE_LINE
+        variable.align = CACHE_LINE
         # No instruction at all, but one that names the variable: without a use it would be optimised away.
         keep = ir.FunctionType(ir.VoidType(), [variable.type])
         builder.asm(keep, "", "r", [variable], side_effect=True)

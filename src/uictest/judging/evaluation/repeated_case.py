@@ -24,6 +24,7 @@ _MOST_TELLING: Final[tuple[Outcome, ...]] = ("fail", "pass", "invalid", "skipped
 """Outcomes that may not be the expected one, those that say most of a stop first."""
 
 _SEEDS_LISTED: Final = 6
+"""Seeds, or runs of them, that a reason names at most; chosen."""
 
 
 @dataclass(frozen=True, slots=True)

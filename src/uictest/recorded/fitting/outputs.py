@@ -73,6 +73,7 @@ def agreement(recorded: RecordedStop, simulated: SimulatedStop, both: Recording)
 SCHEMA: Final = "uictest/fit/1"
 _DIGITS: Final = 5
 _LONGEST_NAME: Final = 90
+"""Letters of the name of a part that a fit writes; chosen."""
 
 
 def fitted_yaml(

@@ -172,6 +172,7 @@ _LONGEST_DELAY = 0.05
 _GAIN_ERROR = 0.01
 """Standard deviation to which the brake force of each wheelset is known, share; chosen."""
 _LOWEST_GAIN, _HIGHEST_GAIN = 0.8, 1.2
+"""Span of the brake force of a wheelset that a fit may find, over the stated one; chosen."""
 _WHEELSETS = 4
 _KEPT = 8
 """Impulses of the rail that are kept: of the point that a gradient is taken at, and of its neighbours."""

@@ -17,6 +17,7 @@ Key = Sequence[tuple[str, str]]
 ROW_PIXELS: Final = (260.0, 880.0)
 """Ends of the axis across of a plot of rows, beside their names."""
 _ROW: Final = 20.0
+"""Height of a row, px; chosen."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,6 +19,7 @@ Expression = Callable[[Matches], bool]
 
 _TOKEN = re.compile(r"\s*([()]|[^\s()]+)")
 _DEEPEST = 50
+"""Parentheses inside each other that are read; chosen, far within what the interpreter can nest."""
 
 
 class ExpressionError(ValueError):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Final
@@ -21,6 +21,7 @@ _CHUNKING: Final = ((1024, 32), (4096, 64))
 What a chunk costs whatever its size counts in a sweep that takes hours, whose chunks may take ten seconds.
 """
 _IDS_AT_ONCE: Final = 4096
+"""Ids that are made, and in memory, at a time; chosen."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,11 @@ class CaseSelection:
         """Return the indices of the cases in a chunk."""
         first = number * self.chunk_size
         return self.indices(first, min(first + self.chunk_size, self.size))
+
+    def id_blocks(self) -> Iterator[list[str]]:
+        """Yield the ids of the cases in order, some thousands at a time."""
+        for first in range(0, self.size, _IDS_AT_ONCE):
+            yield self.plan.ids(self.indices(first, min(first + _IDS_AT_ONCE, self.size)))
 
     def indices(self, first: int, end: int) -> NDArray[np.int64]:
         """Return the indices of the cases from place `first` to before place `end`."""

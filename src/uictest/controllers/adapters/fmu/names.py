@@ -59,6 +59,7 @@ def grouped(slave: Slave, variables: Iterable[BoundVariable]) -> list[VariableGr
 FLOATS: Final = ("Real", "Float64", "Float32")
 _WHOLE: Final = ("Integer", "Enumeration", "Boolean")
 _SHOWN: Final = 8
+"""Names that a message lists at most; chosen."""
 _FIRST_NUMBERS: Final = (1, 0)
 """Wheelsets are counted from 1; a tool may count from 0."""
 

@@ -18,6 +18,7 @@ _HDF5 = b"\x89HDF\r\n\x1a\n"
 _HDF5_OFFSET = 512
 """Bytes of MATLAB's own header before the HDF5 file."""
 _DEEPEST = 8
+"""Levels of structures that are searched for channels; chosen."""
 _UNITS, _METADATA = "units", "metadata"
 
 

@@ -36,8 +36,9 @@ from uictest.plans.scenario.yaml.tree import (
 )
 
 _FEWEST_LETTERS: Final = 3
+"""Letters from which on the beginning of a name is taken for it; chosen."""
 _DEEPEST: Final = 3
-"""Levels of sections that are searched for a key."""
+"""Levels of sections that are searched for a key; chosen."""
 _WRITTEN = re.compile(rf"\s*({NUMBER_PATTERN})(.*)", re.DOTALL)
 _MEANT_BY_WORD: Final = {
     **dict.fromkeys(("on", "true", "yes", "enabled"), ("active", "full", "true")),
