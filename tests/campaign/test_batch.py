@@ -40,7 +40,7 @@ def test_results_come_in_the_order_of_the_cases(make_case, examined_by, jobs):
     examined_by(uneven)
     seen = []
     campaign = run_cases(
-        cases, RunSettings(jobs=jobs), on_result=lambda examined: seen.append(examined.result.id)
+        cases, RunSettings(jobs=jobs), on_case=lambda examined: seen.append(examined.result.id)
     )
     assert _ids(campaign) == seen == [case.id for case in cases]
     assert not campaign.interrupted
@@ -74,7 +74,7 @@ def test_an_interrupt_keeps_what_is_finished_and_waits_for_nothing(make_case, ex
     examined_by(examine)
     cases = [make_case(name) for name in ("first", "second", "long", "never")]
     try:
-        campaign = run_cases(cases, RunSettings(jobs=1), on_result=interrupt)
+        campaign = run_cases(cases, RunSettings(jobs=1), on_case=interrupt)
     finally:
         released.set()
     assert campaign.interrupted
@@ -87,7 +87,7 @@ def test_an_error_of_the_caller_goes_on(make_case, examined_by):
 
     examined_by(lambda case, wish, run: CaseRun(_result(case)))
     with pytest.raises(OSError, match="No space left"):
-        run_cases([make_case("first"), make_case("second")], on_result=full)
+        run_cases([make_case("first"), make_case("second")], on_case=full)
 
 
 def test_few_cases_are_examined_ahead_of_the_one_awaited(make_case, examined_by):

@@ -110,7 +110,7 @@ def test_only_the_first_stop_is_recorded_and_says_so(cases, monkeypatch):
         return simulate(case, record_every, *arguments)
 
     monkeypatch.setattr(rig, "simulate", asked)
-    run_cases(cases(more="repeat: 3"), RunSettings(recording=RecordingRequest("all")), on_result=runs.append)
+    run_cases(cases(more="repeat: 3"), RunSettings(recording=RecordingRequest("all")), on_case=runs.append)
     (run,) = runs
     assert recorded == [(0, True), (1, False), (2, False)]
     assert run.extremes == ()
@@ -124,7 +124,7 @@ def test_what_a_band_needs_changes_no_result(cases):
     asked, unasked = [], []
     for band_stops, heard in ((2, asked), (0, unasked)):
         request = RecordingRequest("all", band_stops=band_stops)
-        run_cases(written, RunSettings(jobs=2, recording=request), on_result=heard.append)
+        run_cases(written, RunSettings(jobs=2, recording=request), on_case=heard.append)
     assert [len(run.extremes) for run in (*asked, *unasked)] == [2, 0]
     assert [document([without_names(run.result)]) for run in asked] == [
         document([without_names(run.result)]) for run in unasked
@@ -135,7 +135,7 @@ def test_what_a_band_needs_changes_no_result(cases):
 def test_a_case_is_recorded_for_what_all_its_stops_come_to(cases, expect, recorded):
     runs = []
     written = cases(more=f"repeat: 2\nexpect: {expect}")
-    run_cases(written, RunSettings(recording=RecordingRequest("failed")), on_result=runs.append)
+    run_cases(written, RunSettings(recording=RecordingRequest("failed")), on_case=runs.append)
     assert [run.recording is not None for run in runs] == [recorded]
 
 
@@ -176,7 +176,7 @@ def test_an_error_with_one_seed_never_vanishes(cases, fails_with, rule):
     run_cases(
         cases(more=f"repeat: 4\noutcome_of_repeats: {rule}"),
         RunSettings(recording=NOTHING),
-        on_result=runs.append,
+        on_case=runs.append,
     )
     (run,) = runs
     told = "error in 1 of 4 stops (seed 2), with seed 2: ZeroDivisionError: no wheel load"
@@ -199,7 +199,7 @@ def test_an_interrupt_keeps_cases_all_of_whose_stops_are_finished(cases, monkeyp
     monkeypatch.setattr(rig, "simulate", slow)
     written = cases(more="repeat: 2\nmatrix: {brake.command: [100 %, 90 %]}")
     try:
-        batch = run_cases(written, RunSettings(jobs=1, recording=NOTHING), on_result=interrupt)
+        batch = run_cases(written, RunSettings(jobs=1, recording=NOTHING), on_case=interrupt)
     finally:
         released.set()
     assert batch.interrupted

@@ -7,7 +7,7 @@ from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult
 from uictest.report import DRAWN
 from uictest.running import campaign
-from uictest.running.campaign import BatchResult, CaseRun, RecordingRequest
+from uictest.running.campaign import CaseRun, RecordingRequest
 from uictest.runs.drawing import TraceCollection
 
 RECORDING = Recording(
@@ -44,7 +44,7 @@ def test_a_small_batch_is_recorded_as_it_runs(replayed):
     drawing = TraceCollection(_cases(2), RecordingRequest("none"), needed=True)
     assert drawing.recording.cases == "all"
     drawing.add(CaseRun(_result("case-0"), RECORDING))
-    assert list(drawing.finish(BatchResult([_result("case-0")]), jobs=1)) == ["case-0"]
+    assert list(drawing.finish([_result("case-0")], jobs=1, interrupted=False)) == ["case-0"]
     assert replayed == {}
 
 
@@ -55,7 +55,7 @@ def test_of_a_large_batch_the_worst_are_simulated_again(replayed):
     outcomes = ["pass"] * DRAWN + ["fail"] * 4 + ["error"]
     results = [_result(case.id, outcome) for case, outcome in zip(cases, outcomes, strict=True)]
     drawing.add(CaseRun(results[-2], RECORDING))
-    assert len(drawing.finish(BatchResult(results), jobs=1)) == DRAWN
+    assert len(drawing.finish(results, jobs=1, interrupted=False)) == DRAWN
     # Of those that failed one is recorded already, and an error has nothing to draw.
     assert {f"case-{DRAWN + n}" for n in range(4)} <= set(replayed)
     assert f"case-{DRAWN + 4}" not in replayed
@@ -64,22 +64,22 @@ def test_of_a_large_batch_the_worst_are_simulated_again(replayed):
 def test_chosen_cases_of_a_large_batch_are_simulated_again(replayed):
     cases = _cases(2 * DRAWN)
     chosen = {case.id for case in cases[DRAWN - 2 :]}
-    drawing = TraceCollection(cases, RecordingRequest("failed"), needed=True, chosen=chosen)
+    drawing = TraceCollection(cases, RecordingRequest("failed"), needed=True, drawn_first=chosen)
     results = [_result(case.id, "fail" if case.id not in chosen else "pass") for case in cases]
-    assert drawing.finish(BatchResult(results), jobs=1).keys() == chosen == set(replayed)
+    assert drawing.finish(results, jobs=1, interrupted=False).keys() == chosen == set(replayed)
 
 
 def test_a_recording_too_coarse_for_the_valves_is_not_what_a_page_draws(replayed):
     drawing = TraceCollection(_cases(1), RecordingRequest("all", every=0.1), needed=True)
     assert drawing.recording.every == 0.1
     drawing.add(CaseRun(_result("case-0"), RECORDING))
-    assert list(drawing.finish(BatchResult([_result("case-0")]), jobs=1)) == ["case-0"]
+    assert list(drawing.finish([_result("case-0")], jobs=1, interrupted=False)) == ["case-0"]
     assert replayed == {"case-0": CYCLE}
 
 
 @pytest.mark.parametrize(("wanted", "interrupted"), [(False, False), (True, True)])
 def test_nothing_is_drawn_unasked_or_after_an_interrupt(replayed, wanted, interrupted):
     drawing = TraceCollection(_cases(DRAWN + 1), RecordingRequest("failed"), needed=wanted)
-    assert drawing.finish(BatchResult([_result("case-0")], interrupted=interrupted), jobs=1) == {}
+    assert drawing.finish([_result("case-0")], jobs=1, interrupted=interrupted) == {}
     assert replayed == {}
     assert TraceCollection(_cases(1), RecordingRequest("failed"), needed=False).recording.cases == "failed"

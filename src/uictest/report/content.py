@@ -25,21 +25,21 @@ MOST_DRAWN = 60
 
 
 def drawn_cases(
-    results: Iterable[evaluation.CaseResult], chosen: Collection[str] = ()
+    results: Iterable[evaluation.CaseResult], drawn_first: Collection[str] = ()
 ) -> list[evaluation.CaseResult]:
-    """Return the cases that a page draws: at most `MOST_DRAWN` of those chosen, then others up to `DRAWN`.
+    """Return the cases that a page draws: at most `MOST_DRAWN` of those asked for, then others up to `DRAWN`.
 
     Of the others, those not as expected come first, then those with the narrowest margins, from every
     scenario in turn.
 
     Args:
         results: of all cases that can be drawn.
-        chosen: ids of the cases that somebody asked for.
+        drawn_first: ids of the cases that somebody asked for.
 
     """
     ranked = from_scenarios_in_turn(results)
-    asked_for = [result for result in ranked if result.id in chosen][:MOST_DRAWN]
-    others = [result for result in ranked if result.id not in chosen]
+    asked_for = [result for result in ranked if result.id in drawn_first][:MOST_DRAWN]
+    others = [result for result in ranked if result.id not in drawn_first]
     return [*asked_for, *others[: max(DRAWN - len(asked_for), 0)]]
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from uictest.core.document import Cell, Column, Table
-from uictest.judging.evaluation import Firmness, NumberEffect, Turn, VerdictFirmness
 from uictest.report.escaping import printable
+
+if TYPE_CHECKING:
+    from uictest.judging.evaluation import Firmness, NumberEffect, Turn, VerdictFirmness
 
 _MOST_TURNS: Final = 6
 """Numbers that a sentence names; chosen."""

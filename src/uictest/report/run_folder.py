@@ -207,14 +207,15 @@ def read_run(folder: Path, *, traces: bool = False) -> RunContent:
     return with_recorded_traces(content, folder) if traces else content
 
 
-def with_recorded_traces(content: RunContent, folder: Path, chosen: Collection[str] = ()) -> RunContent:
-    """Return a run with what a page draws from the recordings in its folder; `chosen` cases first, by id.
+def with_recorded_traces(content: RunContent, folder: Path, drawn_first: Collection[str] = ()) -> RunContent:
+    """Return a run with what a page draws from the recordings in its folder.
 
-    Raises OSError, and ValueError where a recording is none.
+    Cases `drawn_first`, by id, are drawn before others. Raises OSError, and ValueError where a recording is
+    none.
     """
     recorded = [result for result in content.all_results if recording_path(folder, result.id).is_file()]
-    traces = read_traces(folder, drawn_cases(recorded, chosen))
-    return dataclasses.replace(content, traces=traces, drawn_first=chosen)
+    traces = read_traces(folder, drawn_cases(recorded, drawn_first))
+    return dataclasses.replace(content, traces=traces, drawn_first=drawn_first)
 
 
 def run_content(document: object, name: str) -> RunContent:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 from uictest import report, rig
@@ -13,13 +15,13 @@ from uictest.judging import evaluation, series as judging_series
 from uictest.plans import scenario, series as series_plans
 from uictest.running import campaign
 from uictest.runs.drawing import TraceCollection
-from uictest.runs.firmness import firmness_run, stops_of_case, stops_of_series
 from uictest.runs.observer import Observer
 from uictest.runs.scenario_files import read_reference
 
 Keep = Callable[[str, recording.Recording], object]
 """Takes the id of a case and its recording."""
-Note = Callable[[campaign.CaseRun, Sequence[report.Difference]], None]
+Show = Callable[[campaign.CaseRun, Sequence[report.Difference]], None]
+"""Takes a finished case, and its differences from the baseline."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,65 +161,90 @@ def run_batch(
         needed=draws_stops,
         recorded=batch.judge is not None,
     )
-
-    def run(cases: Sequence[scenario.Case], note: Note, own: campaign.RunSettings) -> campaign.BatchResult:
-        def hand_on(case_run: campaign.CaseRun) -> None:
-            drawing.add(case_run)
-            result = case_run.result
-            if keep is not None and case_run.recording is not None and settings.recording.wants(result):
-                keep(result.id, case_run.recording)
-            note(case_run, batch.baseline.differences(result) if batch.baseline else ())
-
-        if batch.judge is not None:
-            return campaign.judge_cases(cases, batch.judge, settings, hand_on)
-        return simulate_cases(cases, replace(own, recording=drawing.recording), observer, hand_on)
-
-    done = run(batch.cases, observer.case, settings)
-    missed = sum(not result.met for result in done.results)
-    judged = SeriesBatch(interrupted=done.interrupted)
+    runner = _CaseRunner(batch, observer, drawing, keep)
+    done = runner.run(batch.cases, settings, observer.case)
+    judged: campaign.BatchResult[judging_series.SeriesResult]
+    judged = campaign.BatchResult(interrupted=done.interrupted)
     if not done.interrupted:
+        missed = sum(not result.met for result in done.results)
         judged = run_series(
             batch.series,
             # A series is firm as a whole: of its cases it is not asked.
-            lambda cases: run(cases, observer.case_of_series, replace(settings, maxfail=None, firm=False)),
+            lambda cases: runner.run(
+                cases, replace(settings, maxfail=None, firm=False), observer.case_of_series
+            ),
             lambda each, result: _with_firmness(each, result, settings, observer),
             maxfail=None if settings.maxfail is None else settings.maxfail - missed,
             show=observer.series,
         )
     content = batch.content(done.results, judged.results, name)
-    everything = campaign.BatchResult(content.all_results, judged.interrupted)
-    content = replace(content, traces=drawing.finish(everything, settings.jobs))
+    traces = drawing.finish(content.all_results, settings.jobs, interrupted=judged.interrupted)
+    content = replace(content, traces=traces)
     if batch.baseline is not None:
         content = replace(content, baseline=batch.baseline.compare(content))
     return BatchRun(content, judged.interrupted)
+
+
+@dataclass(frozen=True, slots=True)
+class _CaseRunner:
+    """Simulates or judges cases of a batch, and hands on each that is finished."""
+
+    batch: Batch
+    observer: Observer
+    drawing: TraceCollection
+    keep: Keep | None
+
+    def run(
+        self, cases: Sequence[scenario.Case], settings: campaign.RunSettings, show: Show
+    ) -> campaign.BatchResult[evaluation.CaseResult]:
+        on_case = partial(self._hand_on, show)
+        if self.batch.judge is not None:
+            return campaign.judge_cases(cases, self.batch.judge, settings, on_case)
+        recorded = replace(settings, recording=self.drawing.recording)
+        return simulate_cases(cases, recorded, self.observer, on_case)
+
+    def _hand_on(self, show: Show, case_run: campaign.CaseRun) -> None:
+        """Draw, keep and show a finished case."""
+        self.drawing.add(case_run)
+        result, samples = case_run.result, case_run.recording
+        if self.keep is not None and samples is not None and self.batch.settings.recording.wants(result):
+            self.keep(result.id, samples)
+        baseline = self.batch.baseline
+        show(case_run, baseline.differences(result) if baseline else ())
 
 
 def simulate_cases(
     cases: Sequence[scenario.Case],
     settings: campaign.RunSettings,
     observer: Observer,
-    on_result: Callable[[campaign.CaseRun], None] = lambda case_run: None,
+    on_case: Callable[[campaign.CaseRun], None] = lambda case_run: None,
     unit: str = "",
-) -> campaign.BatchResult:
+) -> campaign.BatchResult[evaluation.CaseResult]:
     """Run cases while an observer follows their stops; it counts them as `unit`s [default: what they are]."""
     if not cases:
         return campaign.BatchResult()
     if settings.in_process and any(case.scenario.controller.program for case in cases):
         observer.foreign_in_process()
     asked = {case.id: case for case in cases if settings.firm or case.scenario.firm}
+    varied = 0
+    if asked:
+        from uictest.runs.firmness import firmness_run, stops_of_case  # which few runs need
+
+        varied = sum(map(stops_of_case, asked.values()))
     with observer.compiling():
         rig.compiled_stop()
         if asked:
             rig.load_block([case.scenario.controller.program for case in asked.values()])
-    varied = sum(map(stops_of_case, asked.values()))
     stops = sum(case.scenario.repeat for case in cases) + varied
     unit = unit or ("stops" if stops > len(cases) else "cases")
-    with observer.simulating(stops, unit=unit) as advance, firmness_run(settings, varied, advance) as firm:
+    with ExitStack() as stack:
+        advance = stack.enter_context(observer.simulating(stops, unit=unit))
         if asked:
+            firm = stack.enter_context(firmness_run(settings, varied, advance))
             settings = replace(
                 settings, firmness=lambda name: firm.of_case(asked[name]) if name in asked else None
             )
-        return campaign.run_cases(cases, settings, on_result=on_result, on_stop=lambda: advance(1))
+        return campaign.run_cases(cases, settings, on_case=on_case, on_stop=lambda: advance(1))
 
 
 def _with_firmness(
@@ -229,6 +256,8 @@ def _with_firmness(
     """Return the result of a series, with how firm it is where that is asked and it was judged."""
     if not (settings.firm or planned.file.firm) or result.outcome in campaign.NOT_JUDGED:
         return result
+    from uictest.runs.firmness import firmness_run, stops_of_series  # which few runs need
+
     stops = stops_of_series(planned)
     with observer.compiling():
         rig.load_block([case.scenario.controller.program for case in planned.cases])
@@ -236,31 +265,22 @@ def _with_firmness(
         return replace(result, firmness=firm.of_series(planned))
 
 
-@dataclass(slots=True)
-class SeriesBatch:
-    """The series that were judged, and whether an interrupt ended them."""
-
-    results: list[judging_series.SeriesResult] = field(default_factory=list)
-    interrupted: bool = False
-
-
 def run_series(
     planned: Sequence[series_plans.Series],
-    run: Callable[[Sequence[scenario.Case]], campaign.BatchResult],
+    run: Callable[[Sequence[scenario.Case]], campaign.BatchResult[evaluation.CaseResult]],
     complete: Callable[
         [series_plans.Series, judging_series.SeriesResult], judging_series.SeriesResult
     ] = lambda planned, result: result,
     *,
     maxfail: int | None,
     show: Callable[[judging_series.SeriesResult], None],
-) -> SeriesBatch:
+) -> campaign.BatchResult[judging_series.SeriesResult]:
     """Run and judge series; after `maxfail` that are not as expected no further one is run.
 
-    `complete` adds to a result what it takes further stops to say.
-
-    A series whose stops an interrupt cut short is not judged.
+    `complete` adds to a result what it takes further stops to say. A series whose stops an interrupt
+    cut short is not judged.
     """
-    batch = SeriesBatch()
+    batch: campaign.BatchResult[judging_series.SeriesResult] = campaign.BatchResult()
     for each in planned:
         if maxfail is not None and sum(not result.met for result in batch.results) >= maxfail:
             break

@@ -28,7 +28,7 @@ class TraceCollection:
     request: campaign.RecordingRequest
     needed: bool
     repeatable: bool = True
-    chosen: Collection[str] = ()
+    drawn_first: Collection[str] = ()
     recorded: bool = False
     traces: dict[str, report.PlotTrace] = field(default_factory=dict)
 
@@ -37,13 +37,13 @@ class TraceCollection:
         cls,
         cases: Sequence[scenario.Case],
         request: campaign.RecordingRequest,
-        chosen: Collection[str] = (),
+        drawn_first: Collection[str] = (),
         *,
         needed: bool,
         recorded: bool = False,
     ) -> TraceCollection:
-        """Return the collection for some cases; those `chosen`, by id, are drawn before others."""
-        return cls(cases, request, needed, recorded or are_repeatable(cases), chosen, recorded)
+        """Return the collection for some cases; those `drawn_first`, by id, are drawn before others."""
+        return cls(cases, request, needed, recorded or are_repeatable(cases), drawn_first, recorded)
 
     @property
     def recording(self) -> campaign.RecordingRequest:
@@ -58,12 +58,14 @@ class TraceCollection:
             trace = report.trace_of_stop(case_run.recording, case_run.result)
             self.traces[case_run.result.id] = report.with_band(trace, case_run.extremes)
 
-    def finish(self, done: campaign.BatchResult, jobs: int) -> dict[str, report.PlotTrace]:
-        """Return the traces; simulate the drawn cases of a large batch again."""
-        drawn = _drawn(done.results, self.chosen)
+    def finish(
+        self, results: Sequence[evaluation.CaseResult], jobs: int, *, interrupted: bool
+    ) -> dict[str, report.PlotTrace]:
+        """Return the traces; simulate the drawn cases of a large batch again, unless it was interrupted."""
+        drawn = _drawn(results, self.drawn_first)
         if not self.repeatable:
             self.traces = {name: trace for name, trace in self.traces.items() if name in drawn}
-        if self.needed and not self._while_running and not done.interrupted:
+        if self.needed and not self._while_running and not interrupted:
             self.traces |= _simulated_again(self.cases, drawn, self._interval, jobs)
         return self.traces
 
@@ -111,11 +113,11 @@ def are_repeatable(cases: Sequence[scenario.Case]) -> bool:
 
 
 def _drawn(
-    results: Sequence[evaluation.CaseResult], chosen: Collection[str]
+    results: Sequence[evaluation.CaseResult], drawn_first: Collection[str]
 ) -> dict[str, evaluation.CaseResult]:
     """Return the cases that a page draws, by id."""
     stopped = [result for result in results if result.outcome != "error"]
-    return {result.id: result for result in report.drawn_cases(stopped, chosen)}
+    return {result.id: result for result in report.drawn_cases(stopped, drawn_first)}
 
 
 def _interval(cases: Sequence[scenario.Case], every: float) -> float:

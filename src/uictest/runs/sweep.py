@@ -111,7 +111,7 @@ def _run_worst(
     settings = _settings(request, cases, recording)
     if request.reference is not None:
         settings = replace(settings, domains=request.reference.domains_of(settings.parts))
-    results = campaign.run_cases(cases, settings, on_result=write_recording).whole()
+    results = campaign.run_cases(cases, settings, on_case=write_recording).whole()
     return tuple(results), campaign.descriptions_of(cases)
 
 

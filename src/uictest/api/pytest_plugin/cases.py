@@ -62,7 +62,7 @@ def simulated(config: pytest.Config, cases: Sequence[scenario.Case]) -> list[cam
     jobs = 1 if hasattr(config, "workerinput") else runs.available_processors()
     strict: bool = config.getoption("uictest_strict")
     settings = campaign.RunSettings(jobs, campaign.RecordingRequest("none"), strict=strict)
-    campaign.run_cases(cases, settings, on_result=case_runs.append).whole()
+    campaign.run_cases(cases, settings, on_case=case_runs.append).whole()
     return case_runs
 
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from uictest.core import statistics
 from uictest.core.series_measures import SERIES_MEASURES, Estimate, Method
-from uictest.judging.series import SeriesResult, SeriesVerdict
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.github import annotation
@@ -26,6 +25,9 @@ from uictest.report.verdict_sentences import (
     quantity,
     unsettled_sentences,
 )
+
+if TYPE_CHECKING:
+    from uictest.judging.series import SeriesResult, SeriesVerdict
 
 _METHODS: Final[dict[Method, str]] = {
     "median": "median of {}",

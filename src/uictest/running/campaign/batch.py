@@ -181,14 +181,14 @@ class RunSettings:
 
 
 @dataclass(slots=True)
-class BatchResult:
-    """The results of a batch in the order of its cases, and whether the batch was interrupted."""
+class BatchResult(Generic[Result]):
+    """The results of cases, or of series, in their order, and whether an interrupt left some out."""
 
-    results: list[evaluation.CaseResult] = field(default_factory=list)
+    results: list[Result] = field(default_factory=list)
     interrupted: bool = False
 
-    def whole(self) -> list[evaluation.CaseResult]:
-        """Return the results of all cases. Raises KeyboardInterrupt where an interrupt left some out."""
+    def whole(self) -> list[Result]:
+        """Return the results of all. Raises KeyboardInterrupt where an interrupt left some out."""
         if self.interrupted:
             raise KeyboardInterrupt
         return self.results
@@ -198,9 +198,9 @@ def run_cases(
     cases: Sequence[scenario.Case],
     settings: RunSettings | None = None,
     *,
-    on_result: Callable[[CaseRun], None] = lambda case_run: None,
+    on_case: Callable[[CaseRun], None] = lambda case_run: None,
     on_stop: Callable[[], None] = lambda: None,
-) -> BatchResult:
+) -> BatchResult[evaluation.CaseResult]:
     """Run the cases on threads, and return the results in the order of the cases.
 
     The stops of a case that repeats its stop run side by side as well. A KeyboardInterrupt ends the batch;
@@ -209,18 +209,18 @@ def run_cases(
     Args:
         cases: to run.
         settings: how to run them.
-        on_result: called in this thread, once per case, in the order of the cases.
+        on_case: called in this thread, once per case, in the order of the cases.
         on_stop: called in this thread, once per stop.
     """
     settings = settings or RunSettings()
-    batch, own = BatchResult(), settings
+    batch, own = BatchResult[evaluation.CaseResult](), settings
 
     def report(case_run: CaseRun) -> None:
         batch.results.append(own.completed(case_run.result))
         if own.firmness is not None and case_run.result.outcome not in NOT_JUDGED:
             result = batch.results[-1]
             batch.results[-1] = replace(result, firmness=own.firmness(result.id))
-        on_result(replace(case_run, result=batch.results[-1]))
+        on_case(replace(case_run, result=batch.results[-1]))
 
     with rig.Workers() as workers:
         run: rig.RunInputs = rig.run_in_process if settings.in_process else workers.run
@@ -251,13 +251,13 @@ def judge_cases(
     cases: Iterable[scenario.Case],
     judge: Callable[[scenario.Case], CaseRun],
     settings: RunSettings,
-    on_result: Callable[[CaseRun], None],
-) -> BatchResult:
+    on_case: Callable[[CaseRun], None],
+) -> BatchResult[evaluation.CaseResult]:
     """Return the results of recorded cases, which `judge` judges one after the other."""
-    batch = BatchResult()
+    batch = BatchResult[evaluation.CaseResult]()
     for case_run in map(judge, cases):
         batch.results.append(settings.completed(case_run.result))
-        on_result(replace(case_run, result=batch.results[-1]))
+        on_case(replace(case_run, result=batch.results[-1]))
     return batch
 
 
