@@ -2,8 +2,9 @@
 
 from dataclasses import replace
 
-from uictest.core.series_measures import SeriesValue
+from uictest.core.series_measures import Estimate, SeriesValue
 from uictest.judging.evaluation import AppliedDefinition, Sensitivity, VerdictInterval
+from uictest.judging.series import SeriesVerdict
 from uictest.report.close_calls import MOST_CLOSE, close_calls, close_lines, turns_text
 from uictest.report.formats.md import markdown_summary
 from uictest.report.series.series_sentences import series_tally
@@ -54,6 +55,23 @@ def test_many_are_counted():
     assert lines.sentences[-1].startswith("3 more")
 
 
+def test_an_uncertain_share_names_the_limit_inside_its_interval_and_the_stops_that_would_settle_it():
+    share = Estimate(100.0, 73.54, 100.0, 0.95, "share", 12, 0.0, 1.0)
+    verdict = make_verdict(id="passing-stops", value=100.0, unit="%", lower=90.0, upper=None, margin=10.0)
+
+    def text(**changes):
+        uncertain = SeriesVerdict(replace(verdict, **changes), share, confident=False)
+        (call,) = close_calls((), [make_series(criteria=(uncertain,))])
+        return call.text
+
+    inside = "lies inside the 95 % interval 73.54 .. 100 % (12 stops)"
+    assert text() == (
+        f"100 %: not certain, the lower limit of 90 % {inside}; 36 stops, all passing, would settle it"
+    )
+    assert text(lower=100.0).endswith(f"limit of 100 % {inside}; no number of stops settles it")
+    assert text(lower=None, upper=95.0).endswith(f"the upper limit of 95 % {inside}")
+
+
 def test_a_series_that_passes_by_chance_or_worse_than_without_wsp_says_so_everywhere():
     series = make_series()
     (k_wet,) = series.criteria
@@ -66,7 +84,7 @@ def test_a_series_that_passes_by_chance_or_worse_than_without_wsp_says_so_everyw
         ("acceptance", "", True), ("acceptance", "k-wet", True)
     ]  # fmt: skip
     assert "K_wet is better with the WSP bypassed" in str(calls[0])
-    assert "not certain, the 95 % interval" in calls[1].text
+    assert "not certain, a limit lies inside the interval at another speed or rail" in calls[1].text
     assert series_tally([doubtful]) == "1 series: 1 pass; 1 verdict not certain"
     (judged,) = judged_criteria(doubtful)
     assert (judged.status, judged.tone) == ("pass, not certain", "odd")

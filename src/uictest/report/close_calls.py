@@ -12,8 +12,14 @@ from uictest.core.units import in_unit
 from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences
-from uictest.report.series.series_sentences import bypassed_is_better, interval, of_dry_stop, percent
-from uictest.report.verdict_sentences import counted, limits, number, quantity, value_and_limits
+from uictest.report.series.series_sentences import (
+    bypassed_is_better,
+    interval,
+    limit_inside,
+    of_dry_stop,
+    percent,
+)
+from uictest.report.verdict_sentences import counted, number, quantity, value_and_limits
 
 if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult, SeriesVerdict
@@ -110,11 +116,12 @@ def _uncertain(each: SeriesVerdict, confidence: float) -> str:
     verdict, estimate = each.verdict, each.estimate
     value = f"{quantity(verdict.value, verdict.unit)}{of_dry_stop(each)}"
     place = f" from {each.place}" if each.speed_kmh is not None else ""
-    ends = f" {interval(estimate)}" if estimate is not None else ""
-    return (
-        f"{value}{place}, {limits(verdict, word='')}: not certain, the {percent(confidence)} interval{ends}"
-        f" of {counted(estimate.stops if estimate else 0, 'stop')} holds the limit"
-    )
+    if estimate is None:
+        return f"{value}{place}: not certain"
+    unit = "" if verdict.unit == "1" else f" {verdict.unit}"
+    stops = counted(estimate.stops, "stop")
+    within = f"the {percent(confidence)} interval {interval(estimate)}{unit} ({stops})"
+    return f"{value}{place}: not certain, {limit_inside(each, within)}"
 
 
 def turns_text(verdict: evaluation.Verdict) -> str:

@@ -101,8 +101,37 @@ def confidence_words(each: SeriesVerdict, confidence: float) -> str:
         return f"{each.kept} of {counted(each.stops, 'stop')} keep it, {at} interval of the share {ends}"
     if each.estimate is None:
         return ""
-    uncertain = f"; the verdict is not certain at {at}: a limit lies in the interval"
-    return f"{estimate_words(each.estimate)}{uncertain if each.confident is False else ''}"
+    uncertain = f"; not certain: {limit_inside(each, 'it')}" if each.confident is False else ""
+    return f"{estimate_words(each.estimate)}{uncertain}"
+
+
+def limit_inside(each: SeriesVerdict, within: str) -> str:
+    """Return the limit for which a verdict is not certain: `the lower limit of 90 % lies inside it`.
+
+    `within` stands for the interval. Of a share of stops it adds how many would settle it.
+    """
+    verdict, estimate = each.verdict, each.estimate
+    bounds = {"lower": verdict.lower, "upper": verdict.upper}
+    inside = [
+        f"the {name} limit of {quantity(bound, verdict.unit)} lies inside {within}"
+        for name, bound in bounds.items()
+        if bound is not None and estimate is not None and estimate.low <= bound <= estimate.high
+    ]
+    if not inside:
+        return "a limit lies inside the interval at another speed or rail"
+    return "; ".join([*inside, *_settled_by(each)])
+
+
+def _settled_by(each: SeriesVerdict) -> Iterator[str]:
+    """Yield how many stops would settle a share of stops that has its least value."""
+    verdict, estimate = each.verdict, each.estimate
+    if estimate is None or estimate.method != "share" or verdict.lower is None or verdict.status != "pass":
+        return
+    needed = statistics.trials_needed(verdict.lower / 100.0, estimate.confidence)
+    if needed is None:
+        yield "no number of stops settles it"
+    elif needed > estimate.stops:
+        yield f"{needed} stops, all passing, would settle it"
 
 
 def series_verdict_sentence(each: SeriesVerdict, confidence: float) -> str:
