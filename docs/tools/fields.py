@@ -8,7 +8,7 @@ from uictest.core.measures import MEASURES
 from uictest.core.units import KINDS
 from uictest.plans.faults import FAULT_KINDS, FaultKind
 
-_COURSES = {"grows": "can only grow", "falls": "can only fall", "settles": "is final once there is one"}
+_COURSES = {"grows": "grows", "falls": "falls", "settles": "stays"}
 
 
 def units_table() -> str:
