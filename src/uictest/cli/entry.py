@@ -14,7 +14,7 @@ import typer
 from typer.core import TyperGroup
 
 from uictest import __version__, runs
-from uictest.cli.options import TRUSTED_FOLDERS, CommandLine, option
+from uictest.cli.options import TRUSTED_FOLDERS, option
 from uictest.cli.output import ExitCode, data, lost_data, message, use_safe_encoding
 from uictest.plans import scenario
 
@@ -157,19 +157,19 @@ _DEFAULT_OUTPUT: Final = "reports"
 def execute(arguments: Sequence[str]) -> ExitCode:
     """Run one command line, and return its exit code. Raises nothing."""
     use_safe_encoding()
-    code = _outcome(CommandLine(arguments))
+    code = _outcome(tuple(arguments))
     reason = lost_data()
     if reason:
         message(f"uictest: {reason}; data are lost")
     return ExitCode.ERROR if reason and code is not ExitCode.INTERRUPTED else code
 
 
-def _outcome(invocation: CommandLine) -> ExitCode:
+def _outcome(arguments: tuple[str, ...]) -> ExitCode:
     try:
-        return _call(invocation)
+        return _call(arguments)
     except typer.TyperException as error:
         option = getattr(error, "option_name", "")
-        message(f"uictest: {error.format_message()}\n{_advice(invocation.arguments, option)}")
+        message(f"uictest: {error.format_message()}\n{_advice(arguments, option)}")
         return ExitCode.USAGE
     except scenario.ScenarioErrors as error:
         for trace in error.traces:
@@ -188,7 +188,7 @@ def _outcome(invocation: CommandLine) -> ExitCode:
         return ExitCode.MET
     except Exception as error:
         reason = _reason(error) if isinstance(error, OSError) else ""
-        if _is_of_argument(error, invocation.arguments):
+        if _is_of_argument(error, arguments):
             message(f"uictest: {reason or error}")
             return ExitCode.USAGE
         if not reason:
@@ -232,9 +232,9 @@ def _options(arguments: Sequence[str]) -> str:
     return f" ({', '.join(_OPTIONS[name] for name in arguments)})" if arguments else ""
 
 
-def _call(invocation: CommandLine) -> ExitCode:
-    app = application(next(iter(invocation.arguments), None))
-    code = app(args=list(invocation.arguments), prog_name="uictest", standalone_mode=False, obj=invocation)
+def _call(arguments: tuple[str, ...]) -> ExitCode:
+    app = application(next(iter(arguments), None))
+    code = app(args=list(arguments), prog_name="uictest", standalone_mode=False, obj=arguments)
     if code == _TYPER_INTERRUPTED:
         # Outside its standalone mode typer returns this code for an interrupt.
         raise KeyboardInterrupt

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any, Final
@@ -14,13 +13,6 @@ import typer
 
 from uictest import report, runs
 from uictest.analysis import comparison
-
-
-@dataclass(slots=True)
-class CommandLine:
-    """The arguments as typed."""
-
-    arguments: Sequence[str]
 
 
 class Format(StrEnum):

@@ -62,7 +62,7 @@ def evaluate(
         case_of = _case_of_stop(scenario, expression, overrides or (), trusted)
         stops = runs.stops_in_recordings(files, mapped, inputs, case_of)
     request = campaign.RecordingRequest(recorded.value)
-    batch = runs.recorded_batch(stops, context.obj.arguments, request, strict=strict)
+    batch = runs.recorded_batch(stops, context.obj, request, strict=strict)
     if not quiet:
         _write_preparation(stops.files)
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)

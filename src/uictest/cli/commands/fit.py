@@ -107,7 +107,7 @@ def fit(
     fitted = _FittedStops(named, case, scenario, overrides or (), trusted, result)
     data("\n".join(_lines(fitted)))
     with compilation_shown():
-        folder = _publish(fitted, context.obj.arguments, output)
+        folder = _publish(fitted, context.obj, output)
     for file, stop in zip(files, stops, strict=True):
         for defect in stop.defects:
             message(f"uictest: {file}: {defect}")

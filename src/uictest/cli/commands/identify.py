@@ -253,7 +253,7 @@ def _provenance(
         digest=field_data.digest_of(record),
         samples_digest=identification.samples_digest(recorded.channels),
         origin=recorded.origin,
-        command=shlex.join(["uictest", *context.obj.arguments]),
+        command=shlex.join(["uictest", *context.obj]),
         version=__version__,
         date=_date(),
         rig=recorded.rig,

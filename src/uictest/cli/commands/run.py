@@ -108,7 +108,7 @@ def run(
         firm=firm,
     )
     batch = runs.batch_of(
-        *(selected, of_series, context.obj.arguments, seed, settings),
+        *(selected, of_series, context.obj, seed, settings),
         validated=validated,
         baseline=None if accept else accepted,
         drawn_first=drawn_first(selected, of_series, draw),

@@ -49,7 +49,7 @@ def validate(
     codes = [ExitCode.MET]
     for plan in plans:
         run = runs.run_validation(plan, jobs, trusted, TerminalObserver())
-        place = runs.publish_validation(run.validation, context.obj.arguments, output)
+        place = runs.publish_validation(run.validation, context.obj, output)
         _show(run.validation, shown, every_figure=verbose)
         message(f"uictest: {plan.name}: {validation.tally(run.validation)}; validation in {place}")
         codes.append(_code(run))

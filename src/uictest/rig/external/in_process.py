@@ -1,4 +1,4 @@
-"""A controller from outside in this process: opened, run in a stop, or driven through given cycles."""
+"""A stop in this process, its controller built in or from outside; one from outside opened and driven."""
 
 import ctypes
 from collections.abc import Iterator, Sequence

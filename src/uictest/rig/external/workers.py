@@ -1,4 +1,4 @@
-"""Stops whose controller from outside runs here or in a child process."""
+"""Every stop passes here: it runs in this process, or in a child if its controller is from outside."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager

@@ -11,6 +11,7 @@ from .batch import (
     run_cases as run_cases,
     shortest_cycle as shortest_cycle,
 )
+from .descriptions import descriptions_of as descriptions_of
 from .requirement_coverage import (
     CoveredRequirement as CoveredRequirement,
     Verifier as Verifier,
@@ -22,7 +23,6 @@ from .selection import (
     by_expression as by_expression,
     by_id as by_id,
     by_tag as by_tag,
-    descriptions_of as descriptions_of,
     mentioned_in as mentioned_in,
     parse as parse,
     selected as selected,

@@ -1,0 +1,53 @@
+"""What reports say of simulated cases: title, tags and the main settings, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from uictest import report
+from uictest.plans.scenario import Case, ExternalController, Scenario, is_changed, yaml
+
+
+def descriptions_of(cases: Iterable[Case]) -> dict[str, report.CaseDescription]:
+    """Return title, tags and the main settings of every case by its id."""
+    return {case.id: _description_of(case.scenario) for case in cases}
+
+
+def _description_of(scenario: Scenario) -> report.CaseDescription:
+    return report.CaseDescription(scenario.title, tuple(scenario.tags), _settings(scenario))
+
+
+def _settings(scenario: Scenario) -> dict[str, str]:
+    brake, rail, rig = scenario.brake, scenario.rail, scenario.rig
+    return {
+        "vehicle": _named(scenario.vehicle),
+        "initial speed": scenario.initial_speed.text,
+        "brake": f"{_named(brake.system)}, position {brake.position}, {brake.command.text}",
+        "rail": f"{_named(rail.condition)}, friction {_friction(scenario)}, gradient {rail.gradient.text}",
+        "WSP": f"{rig.wsp}, controller {_controller(scenario)}",
+        "rig": f"{rig.topology}, compensation {_named(rig.compensation_model)}, setting {rig.compensation}",
+        "criteria": ", ".join(profile.name for profile in scenario.criteria),
+    }
+
+
+def _named(part: yaml.Part) -> str:
+    """Return the name of a part, and whether it differs from the part that it extends."""
+    return f"{part.label} (changed)" if is_changed(part) else part.label
+
+
+def _friction(scenario: Scenario) -> str:
+    rail = scenario.rail
+    if rail.friction is None:
+        text = rail.condition.friction.text
+    else:
+        text = getattr(rail.friction, "text", "along the track")
+    return text if rail.friction_over_time is None else f"{text}, changing with time"
+
+
+def _controller(scenario: Scenario) -> str:
+    """Return the name of the controller; of one from outside, its version and what is loaded, too."""
+    controller = scenario.controller
+    if not isinstance(controller, ExternalController):
+        return _named(controller)
+    version = f" {controller.version}" if controller.version else ""
+    return f"{_named(controller)}{version} ({controller.kind} {controller.reference})"
