@@ -23,10 +23,14 @@ def _turning(now, *intervals, **changes):
 STEPS = VerdictInterval(85.0, 85.0, "fail"), VerdictInterval(90.0, 95.0, "pass")
 
 
-def test_a_verdict_turns_between_the_values_that_were_tried():
-    assert turns_text(_turning(90.0, *STEPS)) == "turns with sliding_below between 85 and 90 % (now 90 %)"
-    closely = VerdictInterval(85.0, 87.1234561, "fail"), VerdictInterval(87.1234562, 95.0, "pass")
-    assert turns_text(_turning(90.0, *closely)) == "turns with sliding_below at 87.123 % (now 90 %)"
+def test_a_verdict_that_turns_says_by_which_value_of_what_and_to_what():
+    sliding = "sliding counted below {} instead of 90 % of the train's speed"
+    assert turns_text(_turning(90.0, *STEPS)) == f"would fail if {sliding.format('85 %')}"
+    closely = VerdictInterval(85.0, 87.1234561, "inconclusive"), VerdictInterval(87.1234562, 95.0, "pass")
+    assert turns_text(_turning(90.0, *closely)) == f"would be inconclusive if {sliding.format('87.123 %')}"
+    both = [VerdictInterval(at, at, "pass" if at == 90.0 else "fail") for at in (85.0, 90.0, 95.0)]
+    of_both = [f"would fail if {sliding.format(at)}" for at in ("85 %", "95 %")]
+    assert turns_text(_turning(90.0, *both)) == " or ".join(of_both)
     readings = (VerdictInterval(1, 1, "pass", "half-at-once"), VerdictInterval(2, 2, "fail", "depth"))
     own = make_verdict(sensitivity=(Sensitivity("readings", "", 1, 2, readings),))
     assert turns_text(own) == "turns with its reading (half-at-once pass, depth fail)"

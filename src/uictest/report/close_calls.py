@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from typing import TYPE_CHECKING, Final
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 from uictest.core.document import Lines
 from uictest.core.units import in_unit
 from uictest.judging import evaluation
+from uictest.plans.scenario import supposed_definition
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.series.series_sentences import (
@@ -19,7 +20,7 @@ from uictest.report.series.series_sentences import (
     of_dry_stop,
     percent,
 )
-from uictest.report.verdict_sentences import counted, number, quantity, value_and_limits
+from uictest.report.verdict_sentences import counted, quantity, value_and_limits
 
 if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult, SeriesVerdict
@@ -28,6 +29,12 @@ NARROW: Final = 10.0
 """Per cent of the limit: a criterion met with less to spare is marked as narrow; chosen."""
 MOST_CLOSE: Final = 8
 """Close verdicts that a reader is shown first; the tables of cases and series have all of them."""
+_BECOMES: Final[Mapping[evaluation.Status, str]] = {
+    "pass": "pass",
+    "fail": "fail",
+    "inconclusive": "be inconclusive",
+    "not_applicable": "not apply",
+}
 TITLE: Final = "Close or uncertain"
 
 
@@ -125,36 +132,35 @@ def _uncertain(each: SeriesVerdict, confidence: float) -> str:
 
 
 def turns_text(verdict: evaluation.Verdict) -> str:
-    """Return where a verdict turns: `turns with sliding_below between 85 and 90 % (now 90 %)`; else empty."""
+    """Return what would turn a verdict: `would fail if sliding counted below 85 % instead of 90 % ...`.
+
+    Empty where nothing does.
+    """
     if verdict.steady:
         return ""
     turning = [each for each in verdict.sensitivity if each.flips]
-    reasons = [text for each in turning if (text := _turns_where(verdict, each))]
+    reasons = [text for each in turning for text in _turned_by(verdict, each)]
     if verdict.over_stops is not None and verdict.over_stops.turns:
-        reasons.append("from stop to stop")
-    return f"turns {' or '.join(reasons)}".rstrip()
+        reasons.append("turns from stop to stop")
+    return " or ".join(reasons) or "turns"
 
 
-def _turns_where(verdict: evaluation.Verdict, sensitivity: evaluation.Sensitivity) -> str:
-    """Return between which values of a definition the verdict changes; empty where that is not known.
-
-    What is continuous was tried so closely that both values look alike.
-    """
+def _turned_by(verdict: evaluation.Verdict, sensitivity: evaluation.Sensitivity) -> Iterator[str]:
+    """Yield which values of a definition, the nearest ones, change the verdict and to what."""
     if any(each.reading for each in sensitivity.intervals):
-        return f"with its reading ({', '.join(map(str, sensitivity.intervals))})"
+        yield f"turns with its reading ({', '.join(map(str, sensitivity.intervals))})"
+        return
     stated = verdict.defined(sensitivity.definition)
     if stated is None:
-        return ""
+        return
     now, unit = in_unit(stated, sensitivity.unit), sensitivity.unit
     own = next((each for each in sensitivity.intervals if each.first <= now <= each.last), None)
     if own is None:
-        return ""
+        return
     place = sensitivity.intervals.index(own)
     below, above = sensitivity.intervals[:place][-1:], sensitivity.intervals[place + 1 :][:1]
-    gaps = [*((each.last, own.first) for each in below), *((own.last, each.first) for each in above)]
-    turns = [_between(number(low), number(high), unit) for low, high in gaps]
-    return f"with {sensitivity.definition} {' or '.join(turns)} (now {quantity(now, unit)})"
-
-
-def _between(low: str, high: str, unit: str) -> str:
-    return f"at {low} {unit}" if low == high else f"between {low} and {high} {unit}"
+    nearest = [*((each.last, each.status) for each in below), *((each.first, each.status) for each in above)]
+    clause = supposed_definition(sensitivity.definition)
+    for value, status in nearest:
+        supposed = clause.format(f"{quantity(value, unit)} instead of {quantity(now, unit)}")
+        yield f"would {_BECOMES[status]} if {supposed}"

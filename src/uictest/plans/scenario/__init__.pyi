@@ -89,6 +89,7 @@ from .parts.reading import (
     Applicability as Applicability,
     Nominal as Nominal,
     RangedDefinition as RangedDefinition,
+    supposed_definition as supposed_definition,
 )
 from .parts.tail_requests import KDryRequest as KDryRequest, QuantileRequest as QuantileRequest
 from .parts.vary import (

@@ -57,9 +57,9 @@ def test_a_bar_begins_at_the_limit_and_ends_with_the_scale(trace):
 @pytest.mark.parametrize(
     ("margin", "status", "spare", "words"),
     [
-        (4.0, "pass", "turns", "turns with d between 0.5 and 0.6 s (now 0.2 s)"),
-        (-4.0, "fail", "-40 %", "turns with d between 0.5 and 0.6 s (now 0.7 s)"),
-        (0.0, "pass", "turns", "turns with d between 0.5 and 0.6 s (now 0.2 s)"),
+        (4.0, "pass", "turns", "would fail if d were 0.6 s instead of 0.2 s"),
+        (-4.0, "fail", "-40 %", "would pass if d were 0.5 s instead of 0.7 s"),
+        (0.0, "pass", "turns", "would fail if d were 0.6 s instead of 0.2 s"),
     ],
 )
 def test_a_verdict_that_turns_has_nothing_to_spare_as_where_cases_are_ranked(

@@ -1,7 +1,7 @@
 """How the words of a criterion are read, and the stops that it applies to."""
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, get_args
 
 from pydantic import Field, model_validator
 
@@ -22,10 +22,11 @@ class RangedDefinition(Model):
     """One definition of a criterion: the value used, and the range of values that the words allow.
 
     `unit` is what it is printed in, `step` the size (SI) of the classes it comes in, None where it is
-    continuous.
+    continuous. `supposed` is the clause that supposes another value, which stands for its braces.
     """
 
     unit: ClassVar[str]
+    supposed: ClassVar[str]
     step: ClassVar[float | None]
 
     value: Quantity
@@ -69,6 +70,7 @@ class FirstPhaseDuration(RangedDefinition):
     """How long the first phase of braking lasts, from the first sliding of any wheelset."""
 
     unit: ClassVar[str] = "s"
+    supposed: ClassVar[str] = "the first phase of braking lasted {}"
     step: ClassVar[float | None] = None
 
     value: _Duration = field("Duration used.")
@@ -79,6 +81,7 @@ class LowSpeedCutoff(RangedDefinition):
     """The train speed down to which slides count: a multiple of 10 km/h, as slides are kept in classes."""
 
     unit: ClassVar[str] = "km/h"
+    supposed: ClassVar[str] = "slides counted down to {}"
     step: ClassVar[float | None] = SLIDE_CLASS
 
     value: _Cutoff = field("Cut-off used.")
@@ -89,6 +92,7 @@ class SlidingBelow(RangedDefinition):
     """The share of the train's speed below which a wheelset slides: 85, 90 or 95 %."""
 
     unit: ClassVar[str] = "%"
+    supposed: ClassVar[str] = "sliding counted below {} of the train's speed"
     step: ClassVar[float | None] = SLOW_SHARE_CLASS
 
     value: _SlidingBelow = field("Share used.")
@@ -99,6 +103,7 @@ class EndSpeed(RangedDefinition):
     """The train speed that ends the time in which sliding counts: a multiple of 10 km/h, at most 100 km/h."""
 
     unit: ClassVar[str] = "km/h"
+    supposed: ClassVar[str] = "the time in which sliding counts ended at {}"
     step: ClassVar[float | None] = SLIDE_CLASS
 
     value: _EndSpeed = field("Speed used.")
@@ -123,6 +128,15 @@ class Definition(Model):
     def stated(self) -> dict[str, float]:
         """Return the SI value used of each definition that is given."""
         return {name: float(parameter.value) for name, parameter in self.parameters().items()}
+
+
+def supposed_definition(name: str) -> str:
+    """Return the clause that supposes another value of a definition; of an unknown one it has its name."""
+    known = Definition.model_fields.get(name)
+    if known is None:
+        return f"{name} were {{}}"
+    kind: type[RangedDefinition] = get_args(known.annotation)[0]
+    return kind.supposed
 
 
 ID = r"^[a-z0-9][a-z0-9._-]{0,99}$"
