@@ -7,6 +7,7 @@ from uictest.judging.evaluation import AppliedDefinition, Sensitivity, VerdictIn
 from uictest.judging.series import SeriesVerdict
 from uictest.report.close_calls import MOST_CLOSE, close_calls, close_lines, turns_text
 from uictest.report.formats.md import markdown_summary
+from uictest.report.page.series_view import series_view
 from uictest.report.series.series_sentences import series_tally
 from uictest.report.series.tables import judged_criteria
 
@@ -89,7 +90,10 @@ def test_a_series_that_passes_by_chance_or_worse_than_without_wsp_says_so_everyw
     ]  # fmt: skip
     assert "K_wet is better with the WSP bypassed" in str(calls[0])
     assert "not certain, a limit lies inside the interval at another speed or rail" in calls[1].text
-    assert series_tally([doubtful]) == "1 series: 1 pass; 1 verdict not certain"
+    assert series_tally([doubtful]) == "1 series: 1 pass; 1 of 1 criteria of series not certain"
     (judged,) = judged_criteria(doubtful)
     assert (judged.status, judged.tone) == ("pass, not certain", "odd")
+    badge = series_view(doubtful)
+    assert (badge.badge, badge.tone) == ("pass, not certain", "odd")
+    assert (series_view(series).badge, series_view(series).tone) == ("pass", "good")
     assert "### Close or uncertain" in markdown_summary(make_content(series=[doubtful]))

@@ -74,6 +74,20 @@ def test_each_wheelset_has_a_lane_for_each_magnet_of_its_valve(drawn):
         assert paths[f"magnet {magnet} role-wheelset-{n}"].count("z") == 1
 
 
+def test_a_stop_that_is_no_test_does_not_look_like_a_failure():
+    unmet = make_verdict(id="initial-adhesion", margin=-10.0, status="fail", reason="0.124 g misses < 0.08 g")
+    failed = make_verdict(
+        id="locked-wheels", layer="requirement", margin=-1.0, status="fail", reason="locked"
+    )
+    result = make_result(outcome="invalid", criteria=(unmet, failed))
+    page = page_html(make_content(result, traces={result.id: trace_of(make_recording(sliding_time="5"))}))
+    assert page.count('<span class="word word-odd">invalid</span>') == 3
+    assert '<span class="word judgement-inconclusive">not met</span>' in page
+    assert '<span class="word judgement-fail">fail</span>' in page
+    reasons = re.search(r'<div class="explanation">(.*?)</div>', page).group(1)
+    assert "<p>locked-wheels (requirement) fail: locked</p>" in reasons
+
+
 def test_the_page_loads_nothing_and_runs_only_its_own_scripts(drawn):
     page = Page(drawn)
     places = [attributes.get(name) for _, attributes in page.elements for name in ("src", "href", "action")]

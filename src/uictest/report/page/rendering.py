@@ -17,6 +17,7 @@ from jinja2.bccache import Bucket, BytecodeCache, bc_magic
 from markupsafe import Markup
 
 from uictest.core import user_cache
+from uictest.core.document import Tone
 from uictest.report.difference import side_text
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences, firmness_table
@@ -115,8 +116,21 @@ _STYLES = (
 """Parts of the style sheet; those for narrow windows and for paper change what stands before them."""
 
 
+def badge_tone(word: str) -> Tone:
+    """Return the tone of the badge of a word: no test, or not judged, is no failure."""
+    return "odd" if word in ("invalid", "inconclusive") else tone(word)
+
+
 _WORDS: Final[tuple[Callable[..., Any], ...]] = (
-    *(base_word, changed_parameters, domain_notices, domain_sentences, part_sentences, slide_speed),
+    *(
+        badge_tone,
+        base_word,
+        changed_parameters,
+        domain_notices,
+        domain_sentences,
+        part_sentences,
+        slide_speed,
+    ),
     *(counted, counted_in, failing_first, listed, number, reading_sentences, reading_sources, tone),
     *(any_repeated, side_text, stops_text, without_rig_that_holds),
     *(firmness_sentences, firmness_table),

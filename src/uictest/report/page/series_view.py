@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Final
 
-from uictest.core.document import Column, Table
+from uictest.core.document import Column, Table, Tone
 from uictest.core.series_measures import SERIES_MEASURES
 from uictest.judging import evaluation
 from uictest.judging.series import SeriesResult, SeriesStop, SpeedResult, observed_stops
@@ -18,6 +18,7 @@ from uictest.report.page.plot import ROW_PIXELS, Label, Plot, Shape, dot, row_at
 from uictest.report.series.series_sentences import (
     bypassed_is_better,
     count_sentences,
+    is_uncertain,
     not_counted_sentences,
     percent,
     series_word,
@@ -29,7 +30,7 @@ from uictest.report.series.tables import (
     judged_criteria,
     value_with_interval,
 )
-from uictest.report.verdict_sentences import MOST_URGENT
+from uictest.report.verdict_sentences import MOST_URGENT, tone
 
 _DISTANCE = "braking_distance_m"
 _OF_DISTANCE = ("braking_distance", "median_braking_distance", "worst_braking_distance")
@@ -56,6 +57,16 @@ class SeriesView:
     plots: Sequence[Plot]
     criteria: Table
     measures: Table
+
+    @property
+    def badge(self) -> str:
+        """The word, and whether a verdict behind it is not certain."""
+        return f"{self.word}, not certain" if is_uncertain(self.result) else self.word
+
+    @property
+    def tone(self) -> Tone:
+        """The tone of the badge; one that is not certain has its own."""
+        return "odd" if is_uncertain(self.result) else tone(self.word)
 
     @property
     def fragment(self) -> str:

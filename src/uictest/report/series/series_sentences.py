@@ -52,16 +52,22 @@ def series_word(result: SeriesResult) -> str:
     return outcome_word(result.outcome, met=result.met)
 
 
+def is_uncertain(result: SeriesResult) -> bool:
+    """Return whether a series is as expected, and some verdict of its criteria is not certain."""
+    return result.met and any(each.confident is False for each in result.criteria)
+
+
 def series_tally(results: Sequence[SeriesResult]) -> str:
     """Return the counts of the series of a run, e.g. `2 series: 1 pass, 1 fail; 1 not as expected`.
 
-    Of series that are as expected it counts the verdicts that are not certain.
+    Of series that are as expected it counts the criteria whose verdict is not certain.
     """
     counts = Counter(map(series_word, results))
     in_order = {word: counts[word] for word in CASE_WORDS}
     tally = f"{len(results)} series: {counts_text(in_order, sum(not each.met for each in results))}"
-    uncertain = sum(each.confident is False for result in results if result.met for each in result.criteria)
-    return f"{tally}; {counted(uncertain, 'verdict')} not certain" if uncertain else tally
+    judged = [each for result in results if result.met for each in result.criteria]
+    uncertain = sum(each.confident is False for each in judged)
+    return f"{tally}; {uncertain} of {len(judged)} criteria of series not certain" if uncertain else tally
 
 
 def percent(share: float) -> str:
