@@ -12,23 +12,23 @@ from uictest.plans.scenario import ScenarioErrors, load_part, numbers
 REFERENCES = [f"{folder}/{name}" for folder in library.FOLDERS for name in library.names(folder)]
 
 
-def value(reference: str, key: str) -> float:
+def value(reference, key):
     return {number.key: float(number.quantity) for number in numbers(load_part(reference))}[key]
 
 
-def mark(reference: str, key: str) -> str:
+def mark(reference, key):
     source = {number.key: number.source for number in numbers(load_part(reference))}[key]
     assert source is not None
     return source.mark
 
 
 @pytest.mark.parametrize("reference", REFERENCES)
-def test_every_number_has_a_described_source(reference: str) -> None:
+def test_every_number_has_a_described_source(reference):
     assert [number.key for number in numbers(load_part(reference)) if number.source is None] == []
 
 
 @pytest.mark.parametrize("reference", REFERENCES)
-def test_every_source_is_used_and_explained(reference: str) -> None:
+def test_every_source_is_used_and_explained(reference):
     part = load_part(reference)
     used = {number.quantity.source for number in numbers(part)}
     used |= {end.source for number in numbers(part) for end in number.quantity.range or ()}
@@ -41,14 +41,14 @@ def test_every_source_is_used_and_explained(reference: str) -> None:
 
 
 @pytest.mark.parametrize("reference", REFERENCES)
-def test_a_part_is_called_like_its_file_and_says_what_it_is(reference: str) -> None:
+def test_a_part_is_called_like_its_file_and_says_what_it_is(reference):
     part = load_part(reference)
 
     assert part.name == reference.split("/")[1]
     assert part.title
 
 
-def test_the_parts_named_in_the_documents_are_there() -> None:
+def test_the_parts_named_in_the_documents_are_there():
     assert set(REFERENCES) >= {
         "brakes/ep-disc",
         "calipers/six-inch",
@@ -87,7 +87,7 @@ def test_the_parts_named_in_the_documents_are_there() -> None:
         ("brakes/ep-disc", "air.atmospheric_pressure", 101_325.0),
     ],
 )
-def test_published_numbers(reference: str, key: str, published: float) -> None:
+def test_published_numbers(reference, key, published):
     assert value(reference, key) == pytest.approx(published, rel=1e-12)
     assert mark(reference, key) == "published"
 
@@ -103,12 +103,12 @@ def test_published_numbers(reference: str, key: str, published: float) -> None:
         ("compensations/six-inch", "sampling_time", 0.5e-3),
     ],
 )
-def test_numbers_stated_in_the_source(reference: str, key: str, stated: float) -> None:
+def test_numbers_stated_in_the_source(reference, key, stated):
     assert value(reference, key) == pytest.approx(stated, rel=1e-12)
     assert mark(reference, key) == "stated"
 
 
-def test_every_stated_or_published_source_names_a_publication_and_a_place() -> None:
+def test_every_stated_or_published_source_names_a_publication_and_a_place():
     folder = Path(library.__file__).parent
     texts = [
         (path.name, key, source["text"])
@@ -134,34 +134,32 @@ def test_every_stated_or_published_source_names_a_publication_and_a_place() -> N
         ("rails/wet-cleaning", "cleaning.carry_over", 0.5),
     ],
 )
-def test_numbers_whose_publication_nobody_can_name_are_chosen(
-    reference: str, key: str, unnamed: float
-) -> None:
+def test_numbers_whose_publication_nobody_can_name_are_chosen(reference, key, unnamed):
     assert value(reference, key) == pytest.approx(unnamed, rel=1e-12)
     assert mark(reference, key) == "chosen"
 
 
-def test_the_clearance_is_inferred_from_the_stated_volume() -> None:
+def test_the_clearance_is_inferred_from_the_stated_volume():
     """0.053 L over the area of the piston; the paper states no stroke."""
     stroke = 0.053e-3 / value("calipers/six-inch", "piston_area")
     assert value("calipers/six-inch", "clearance") == pytest.approx(stroke, rel=5e-3)
     assert mark("calipers/six-inch", "clearance") == "chosen"
 
 
-def test_the_balls_are_367_of_1_03_cm() -> None:
+def test_the_balls_are_367_of_1_03_cm():
     assert value("brakes/ep-disc", "caliper_tank.ball_volume") == pytest.approx(
         367 * 3.141592653589793 / 6 * 0.0103**3, rel=2e-3
     )
 
 
-def test_the_default_car_is_a_chosen_45_t() -> None:
+def test_the_default_car_is_a_chosen_45_t():
     car = load_part("vehicles/intercity-180")
 
-    assert car.total_mass == pytest.approx(45_000.0)  # type: ignore[attr-defined]
+    assert car.total_mass == pytest.approx(45_000.0)
     assert {source.mark for source in car.sources.values()} == {"chosen"}
 
 
-def test_all_numbers_of_controllers_are_chosen() -> None:
+def test_all_numbers_of_controllers_are_chosen():
     for name in library.names("controllers"):
         marks = {source.mark for source in load_part(f"controllers/{name}").sources.values()}
         assert marks == {"chosen"}
@@ -183,13 +181,13 @@ WITHOUT_RANGE = {
         if each.startswith(("vehicles/", "brakes/", "calipers/", "pads/", "rails/", "sensors/"))
     ],
 )
-def test_every_chosen_number_of_the_rig_states_a_plausible_range(reference: str) -> None:
+def test_every_chosen_number_of_the_rig_states_a_plausible_range(reference):
     chosen = [each for each in numbers(load_part(reference)) if each.source.mark == "chosen"]
     without = [each.key for each in chosen if each.quantity.range is None]
     assert [key for key in without if key.rpartition(".")[2] not in WITHOUT_RANGE] == []
 
 
-def test_an_unknown_part_is_refused_with_the_nearest() -> None:
+def test_an_unknown_part_is_refused_with_the_nearest():
     with pytest.raises(ScenarioErrors, match="did you mean 'intercity-180'"):
         load_part("vehicles/intercity-108")
     with pytest.raises(KeyError):
@@ -199,12 +197,12 @@ def test_an_unknown_part_is_refused_with_the_nearest() -> None:
 @pytest.mark.parametrize(
     ("folder", "name"), [("vehicles", "../rails/dry"), ("..", "x"), ("vehicles", "nothing")]
 )
-def test_only_what_is_listed_can_be_read(folder: str, name: str) -> None:
+def test_only_what_is_listed_can_be_read(folder, name):
     with pytest.raises(KeyError):
         library.content(folder, name)
 
 
-def test_the_ring_of_a_disc_is_that_of_its_diameters() -> None:
+def test_the_ring_of_a_disc_is_that_of_its_diameters():
     """740 mm outer and 425 mm inner diameter; the pads act near the middle of the ring."""
     assert value("brakes/ep-disc", "disc.thermal.area") == pytest.approx(
         math.pi / 4.0 * (0.740**2 - 0.425**2), rel=1e-3
@@ -212,7 +210,7 @@ def test_the_ring_of_a_disc_is_that_of_its_diameters() -> None:
     assert 0.425 / 2.0 < value("brakes/ep-disc", "disc.mean_radius") < 0.740 / 2.0
 
 
-def test_composite_blocks_are_marked_as_recalled() -> None:
+def test_composite_blocks_are_marked_as_recalled():
     """k2 200 kN, k3 50 kN, k4 150 km/h, k5 75 km/h: nobody has checked them against the publication."""
     numbers_of_law = [
         ("force.numerator", 200e3),

@@ -1,27 +1,19 @@
 """Results, runs and recordings to report on, with whatever is to be different."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-from typing import Final
-
 import numpy as np
 
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, Verdict
 from uictest.report import RunContent, RunManifest
-from uictest.report.sweep.folder import SweepContent
 
-MakeSweep = Callable[..., SweepContent]
-
-HOSTILE: Final = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
+HOSTILE = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
 """A text with terminal codes, formula, markup, XML, null, direction override and workflow command."""
 
 
-def make_result(**changes: object) -> CaseResult:
+def make_result(**changes):
     """A stop at 120 km/h on a dry rail that passed."""
-    content: dict[str, object] = {
+    content = {
         "id": "dry-120[command=90]",
         "scenario": "scenarios/dry/120.yaml",
         "parameters": {"brake.command": "90 %"},
@@ -32,12 +24,12 @@ def make_result(**changes: object) -> CaseResult:
         "wheelsets": tuple(map(_wheelset, range(1, 5))),
         "duration": 0.25,
     }
-    return CaseResult(**(content | changes))  # type: ignore[arg-type]
+    return CaseResult(**(content | changes))
 
 
-def make_verdict(**changes: object) -> Verdict:
+def make_verdict(**changes):
     """A braking distance inside its limits."""
-    content: dict[str, object] = {
+    content = {
         "id": "braking-distance",
         "layer": "validity",
         "value": 465.25,
@@ -49,16 +41,16 @@ def make_verdict(**changes: object) -> Verdict:
         "reason": "",
         "definition": {"low_speed_cutoff": "30 km/h"},
     }
-    return Verdict(**(content | changes))  # type: ignore[arg-type]
+    return Verdict(**(content | changes))
 
 
-def make_content(*results: CaseResult, **changes: object) -> RunContent:
+def make_content(*results, **changes):
     """A finished run of the given results."""
     manifest = RunManifest(command=("uictest", "run"), versions={"uictest": "0.1.0"})
-    return RunContent(**({"name": "a-run", "results": results, "manifest": manifest} | changes))  # type: ignore[arg-type]
+    return RunContent(**({"name": "a-run", "results": results, "manifest": manifest} | changes))
 
 
-def make_recording(samples: int = 3401, **metadata: str) -> Recording:
+def make_recording(samples=3401, **metadata):
     """A stop from 120 km/h at 1 m/s2 in which every wheelset slides by 40 % for a while and is vented."""
     time = np.linspace(0.0, 34.0, samples)
     speed = np.clip(120 / 3.6 - time, 0.0, None)
@@ -81,7 +73,7 @@ def make_recording(samples: int = 3401, **metadata: str) -> Recording:
     return Recording(channels, units, {"case": "dry-120", **metadata})
 
 
-def _wheelset(n: int) -> dict[str, float]:
+def _wheelset(n):
     own = {
         "maximum_slide": 0.02 * n,
         "valve_actuations": n,

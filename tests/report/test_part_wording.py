@@ -1,7 +1,5 @@
 """What a case was run with, in every format that says so."""
 
-from __future__ import annotations
-
 import csv
 import dataclasses
 import io
@@ -25,9 +23,8 @@ from uictest.report.formats.xlsx import parameter_rows
 from uictest.report.page import page_html, sweep_page_html
 from uictest.report.page.overview import shown_parts
 from uictest.report.part_wording import changed_parameters, controllers_text, part_sentences, slide_speed
-from uictest.report.sweep.folder import SweepContent
 
-from .builders import MakeSweep, make_content, make_result
+from .builders import make_content, make_result
 
 SLIP = Parameter("controller.slip_threshold", 0.8, "m/s", "3 km/h", "user", "", True, 1.146, "1.146 m/s")
 HOLD = Parameter("controller.hold_limit", 2.0, "s", "2 s", "chosen", "ours")
@@ -39,20 +36,20 @@ COMPENSATION = EffectivePart("compensation", "rig.compensation_model", "six-inch
 CHANGE = "controller.slip_threshold 3 km/h (library: 1.146 m/s)"
 
 
-def rig(topology: str, compensation: str = "full") -> EffectivePart:
+def rig(topology, compensation="full"):
     settings = {"rig.topology": topology, "rig.compensation": compensation}
     own = tuple(Parameter(key, text, "", text, "user") for key, text in settings.items())
     return EffectivePart("scenario.rig", "rig", "", None, own)
 
 
-def test_a_changed_part_is_named_with_what_was_changed() -> None:
+def test_a_changed_part_is_named_with_what_was_changed():
     assert part_sentences({"controller": CONTROLLER}) == {
         "controller": "threshold, changed: slip_threshold 3 km/h (library: 1.146 m/s)"
     }
     assert part_sentences({"controller": PLAIN}) == {"controller": "threshold"}
 
 
-def test_what_a_users_own_file_has_instead_is_not_called_the_librarys() -> None:
+def test_what_a_users_own_file_has_instead_is_not_called_the_librarys():
     own = dataclasses.replace(CONTROLLER, based_on="mine.yaml", removed=("controller.gone",))
     assert changed_parameters({"controller": own}) == [
         "controller threshold (own part based on mine.yaml)",
@@ -61,7 +58,7 @@ def test_what_a_users_own_file_has_instead_is_not_called_the_librarys() -> None:
     ]
 
 
-def test_a_controller_from_outside_is_told_by_its_program() -> None:
+def test_a_controller_from_outside_is_told_by_its_program():
     facts = {
         "parameters.gain": "2",
         "python": "wsp.py",
@@ -89,7 +86,7 @@ LIBRARY = EffectivePart(
 )
 
 
-def test_the_version_that_a_controller_tells_is_shown_case_by_case() -> None:
+def test_the_version_that_a_controller_tells_is_shown_case_by_case():
     parts = {"controller": LIBRARY}
     told = [("one", "1.2"), ("two", "1.3"), ("failed", "")]
     results = [make_result(id=name, parts=parts, controller_version=text) for name, text in told]
@@ -108,7 +105,7 @@ def test_the_version_that_a_controller_tells_is_shown_case_by_case() -> None:
     ]
 
 
-def test_a_version_that_contradicts_the_stated_one_stands_beside_it() -> None:
+def test_a_version_that_contradicts_the_stated_one_stands_beside_it():
     version = Parameter("controller.version", "1.1", "", "1.1", "user")
     stated = dataclasses.replace(LIBRARY, parameters=(*LIBRARY.parameters, version))
     for told, sentence in {"1.1": "version 1.1", "": "version 1.1"}.items():
@@ -120,7 +117,7 @@ def test_a_version_that_contradicts_the_stated_one_stands_beside_it() -> None:
     }
 
 
-def test_a_users_part_is_not_taken_for_the_librarys_of_the_same_name() -> None:
+def test_a_users_part_is_not_taken_for_the_librarys_of_the_same_name():
     own = dataclasses.replace(PLAIN, based_on=None)
     assert part_sentences({"controller": own}) == {"controller": "threshold, own part"}
     assert changed_parameters({"controller": own}) == ["controller threshold (own part)"]
@@ -138,12 +135,12 @@ def test_a_users_part_is_not_taken_for_the_librarys_of_the_same_name() -> None:
         ("four-caliper", "six-inch, not in use with four calipers"),
     ],
 )
-def test_the_compensation_is_named_with_its_setting(topology: str, sentence: str) -> None:
+def test_the_compensation_is_named_with_its_setting(topology, sentence):
     parts = {"scenario.rig": rig(topology, "cylinder"), "compensation": COMPENSATION}
     assert part_sentences(parts)["compensation"] == sentence
 
 
-def test_parts_are_listed_once_for_all_cases_alike() -> None:
+def test_parts_are_listed_once_for_all_cases_alike():
     one, two = make_result(id="one", parts={"controller": CONTROLLER}), make_result(id="two")
     two = dataclasses.replace(two, parts={"controller": PLAIN})
     assert list(part_lines([one, one])) == [f"part controller: threshold, changed: {CHANGE[11:]}"]
@@ -153,7 +150,7 @@ def test_parts_are_listed_once_for_all_cases_alike() -> None:
     ]
 
 
-def test_tables_and_summaries_say_what_was_changed() -> None:
+def test_tables_and_summaries_say_what_was_changed():
     result = make_result(parts={"controller": CONTROLLER}, expect="fail")
     (row,) = csv.DictReader(io.StringIO(csv_text(*summary_table([result]))))
     assert row["changed_parameters"] == CHANGE
@@ -165,7 +162,7 @@ def test_tables_and_summaries_say_what_was_changed() -> None:
     assert (hold["differs"], hold["source"]) == (False, "A surrogate.")
 
 
-def test_junit_says_it_of_a_case_that_is_met_and_of_one_that_is_not() -> None:
+def test_junit_says_it_of_a_case_that_is_met_and_of_one_that_is_not():
     parts = {"controller": CONTROLLER}
     met, missed = ElementTree.fromstring(
         junit_text(run_suites([make_result(parts=parts), make_result(parts=parts, expect="fail")]))
@@ -174,7 +171,7 @@ def test_junit_says_it_of_a_case_that_is_met_and_of_one_that_is_not() -> None:
     assert (missed.findtext("failure") or "").endswith(f"changed parameters: {CHANGE}")
 
 
-def test_the_page_shows_the_change_beside_the_verdict_and_all_parameters_once() -> None:
+def test_the_page_shows_the_change_beside_the_verdict_and_all_parameters_once():
     results = [make_result(id=name, parts={"controller": CONTROLLER}) for name in ("one", "two")]
     html = page_html(make_content(*results))
     assert html.count(f"changed: {CHANGE}") == 2
@@ -183,11 +180,9 @@ def test_the_page_shows_the_change_beside_the_verdict_and_all_parameters_once() 
     assert "A surrogate." in html
 
 
-def test_the_page_of_a_sweep_says_what_is_changed_in_every_case_and_what_varies(
-    make_sweep: MakeSweep,
-) -> None:
+def test_the_page_of_a_sweep_says_what_is_changed_in_every_case_and_what_varies(make_sweep):
 
-    def of_varied(key: str) -> SweepContent:
+    def of_varied(key):
         content = make_sweep(varied=[key])
         result = dataclasses.replace(content.result, base={"controller": CONTROLLER})
         return dataclasses.replace(content, result=result)
@@ -200,7 +195,7 @@ def test_the_page_of_a_sweep_says_what_is_changed_in_every_case_and_what_varies(
     assert "3 km/h <small>varied</small>" in html
 
 
-def test_the_manifest_names_the_parts_with_their_digests() -> None:
+def test_the_manifest_names_the_parts_with_their_digests():
     content = run_manifest([], None, {}, 2, [{"controller": CONTROLLER}, {"controller": PLAIN}])
     assert content.parts == {
         CONTROLLER.id: f"threshold, changed: {CHANGE[11:]}",
@@ -208,7 +203,7 @@ def test_the_manifest_names_the_parts_with_their_digests() -> None:
     }
 
 
-def test_a_page_of_many_parts_says_how_many_it_leaves_out_and_where_they_are() -> None:
+def test_a_page_of_many_parts_says_how_many_it_leaves_out_and_where_they_are():
     parts = [dataclasses.replace(PLAIN, name=f"own-{k}") for k in range(102)]
     html = page_html(make_content(*(make_result(id=each.name, parts={"controller": each}) for each in parts)))
     assert sum(f'id="{each.id}"' in html for each in parts) == 100
@@ -217,7 +212,7 @@ def test_a_page_of_many_parts_says_how_many_it_leaves_out_and_where_they_are() -
     assert "not shown here" not in few
 
 
-def test_a_stop_links_to_the_parts_that_the_page_shows_and_to_no_other() -> None:
+def test_a_stop_links_to_the_parts_that_the_page_shows_and_to_no_other():
     shown = shown_parts([{"controller": CONTROLLER}])
     assert CONTROLLER in shown
     assert PLAIN not in shown
@@ -226,14 +221,14 @@ def test_a_stop_links_to_the_parts_that_the_page_shows_and_to_no_other() -> None
 BAND = dataclasses.replace(PLAIN, name="slip-band", based_on="slip-band")
 
 
-def test_a_controller_of_the_library_that_is_not_the_default_is_a_change() -> None:
+def test_a_controller_of_the_library_that_is_not_the_default_is_a_change():
     parts = {"scenario.rig": rig("one-caliper"), "controller": BAND}
     assert changed_parameters(parts) == ["controller slip-band (default: threshold)"]
     assert not changed_parameters(parts, ["controller"])
     assert not changed_parameters({"controller": PLAIN})
 
 
-def test_every_report_names_the_controller_under_test_and_its_version() -> None:
+def test_every_report_names_the_controller_under_test_and_its_version():
     parts = {"controller": BAND}
     content = make_content(make_result(parts=parts, outcome="fail"))
     headline = "slip-band (built into uictest 0.1.0)"
@@ -248,7 +243,7 @@ def test_every_report_names_the_controller_under_test_and_its_version() -> None:
     assert f"WSP controller: <strong>{headline}</strong>" in page_html(content)
 
 
-def test_the_page_names_every_vehicle_once() -> None:
+def test_the_page_names_every_vehicle_once():
     cars = [EffectivePart("vehicle", "vehicle", name, name, ()) for name in ("wagon", "coach", "wagon")]
     results = [
         make_result(id=str(k), parts={"controller": PLAIN, "vehicle": car}) for k, car in enumerate(cars)
@@ -256,7 +251,7 @@ def test_the_page_names_every_vehicle_once() -> None:
     assert "vehicle: <strong>wagon, coach</strong>" in page_html(make_content(*results))
 
 
-def test_controllers_are_named_once_and_one_that_never_acted_is_marked() -> None:
+def test_controllers_are_named_once_and_one_that_never_acted_is_marked():
     bypassed = EffectivePart(
         "scenario.rig", "rig", "", None, (Parameter("rig.wsp", "bypassed", "", "bypassed", "user"),)
     )
@@ -270,7 +265,7 @@ def test_controllers_are_named_once_and_one_that_never_acted_is_marked() -> None
     )
 
 
-def test_the_largest_slide_says_above_which_speed_it_counts() -> None:
+def test_the_largest_slide_says_above_which_speed_it_counts():
     moving = Parameter("measures.moving_speed", 2.78, "m/s", "10 km/h", "chosen")
     parts = {"measures": EffectivePart("measures", "measures", "standard", "standard", (moving,))}
     other = {
