@@ -18,11 +18,12 @@ _BELOW: Final = {
     "standstill": "the train does not come to a standstill",
 }
 """What it means that a value is above, or below, its bounds, where that says more than `too high`."""
+_BYPASSED: Final = "WSP bypassed: the controller did not act, the stop says nothing about it"
 
 
 def cause_sentences(result: evaluation.CaseResult) -> list[str]:
     """Return what was done to a stop that explains its outcome, and why an invalid one is no test."""
-    bypassed = ["WSP bypassed: the controller did not act"] if is_bypassed(result.parts) else []
+    bypassed = [_BYPASSED] if is_bypassed(result.parts) else []
     parameters = [each for part in result.parts.values() for each in part.parameters]
     return [*fault_sentences(parameters), *bypassed, *_why_no_test(result)]
 

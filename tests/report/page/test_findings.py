@@ -1,12 +1,16 @@
 """What a page answers first: what is not as expected, by how much and where."""
 
 import re
+from dataclasses import replace
 
+from uictest.judging.evaluation import AppliedDefinition
 from uictest.report.close_calls import MOST_CLOSE, NARROW, TITLE
+from uictest.report.content import CaseDescription
 from uictest.report.page.run_page import page_html
 from uictest.report.page.stop.margins import margins_of
+from uictest.report.traces.trace import trace_of
 
-from ..builders import make_content, make_result, make_verdict
+from ..builders import make_content, make_recording, make_result, make_verdict
 
 _LOCKED = make_verdict(
     id="locked-wheels",
@@ -58,6 +62,25 @@ def test_an_unexpected_pass_says_what_was_expected():
     said = _first(page_html(make_content(make_result(expect="fail"))))
     assert "unexpected pass" in said
     assert "Expected: fail" in said
+
+
+def test_a_finding_states_its_conditions_and_of_several_wheelsets_the_worst():
+    recording = make_recording()
+    time = recording["time"]
+    for n, last in ((2, 12.0), (4, 10.5)):
+        recording.channels[f"wheel_speed_{n}"][(time > 10.0 + 1e-6) & (time < last + 1e-6)] = 0.0
+    known = [AppliedDefinition(name, 0.1, "m/s", "chosen") for name in ("locked_speed", "moving_speed")]
+    of_all = {"definition": {"wheelsets": "all"}, "definitions": tuple(known), "missed_by": (2, 4)}
+    locked = replace(_LOCKED, measure="longest_lock", value=2.0, **of_all)
+    settings = {"vehicle": "intercity-180", "initial speed": "120 km/h", "rail": "wet, friction 0.09"}
+    content = make_content(
+        _failing("slides", locked),
+        subjects={"slides": CaseDescription(settings=settings)},
+        traces={"slides": trace_of(recording, [locked])},
+    )
+    said = _first(page_html(content))
+    assert "initial speed 120 km/h; rail wet, friction 0.09; expected: pass" in said
+    assert "wheelsets 2 and 4, worst: wheelset 2 at 10 to 12 s" in said
 
 
 def test_an_error_shows_its_reason():

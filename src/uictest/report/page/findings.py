@@ -10,7 +10,7 @@ from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.causes import cause_sentences
 from uictest.report.close_calls import CloseCall, close_calls
-from uictest.report.content import RunContent
+from uictest.report.content import CaseDescription, RunContent
 from uictest.report.difference import difference_sentences
 from uictest.report.page.case_view import CaseView
 from uictest.report.page.links import case_anchor, fragment, rerun_command, series_anchor
@@ -19,6 +19,8 @@ from uictest.report.page.stop.margins import Margin, Margins, margins_of
 MOST_FINDINGS: Final = 12
 """Cases that the first screen names; the table below it has all of them, these first."""
 _DIFFERENCES: Final = 3
+_CONDITIONS: Final = ("initial speed", "brake", "rail", "WSP")
+"""Names of settings that stand with a finding."""
 _MOST_CRITERIA: Final = 10
 """Columns of the matrix: more would leave no room for the names of the cases."""
 
@@ -28,7 +30,8 @@ class Finding:
     """A case or series that is not as expected.
 
     `causes` say what explains it, `missed` holds the criteria that decided it, `sentences` say the rest.
-    `command` runs it again, and is empty where there is none.
+    `command` runs it again, and is empty where there is none. `conditions` are those of a stop, and what was
+    expected of it.
     """
 
     word: str
@@ -38,6 +41,7 @@ class Finding:
     sentences: Sequence[str]
     command: str
     causes: Sequence[str] = ()
+    conditions: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,8 +84,7 @@ def _of_case(
     causes = cause_sentences(result)
     sentences = [each for each in content.explanation(result, _DIFFERENCES) if each not in causes]
     if missed:
-        expected = [] if result.expect == "pass" else [f"Expected: {result.expect}"]
-        sentences = [*expected, *difference_sentences(content.differences(result.id), _DIFFERENCES)]
+        sentences = list(difference_sentences(content.differences(result.id), _DIFFERENCES))
     return Finding(
         content.word(result),
         result.id,
@@ -90,7 +93,15 @@ def _of_case(
         sentences,
         commands[result.id],
         causes,
+        "; ".join(
+            [*_conditions(content.subject(result.id)), *([f"expected: {result.expect}"] if missed else [])]
+        ),
     )
+
+
+def _conditions(subject: CaseDescription) -> Iterator[str]:
+    """Yield what a reader must know of a stop before its values mean anything."""
+    yield from (f"{name} {text}" for name, text in subject.settings.items() if name in _CONDITIONS)
 
 
 def _decides(margin: Margin, result: evaluation.CaseResult) -> bool:

@@ -100,6 +100,20 @@ class Margin:
         return missed_by_text(self.verdict, len(WHEELSETS)) if self.verdict.status == "fail" else ""
 
     @property
+    def worst(self) -> int | None:
+        """The wheelset that misses it most, of those that miss it; None where that is not known."""
+        keeps_all = self.verdict.definition.get("wheelsets") == "all"
+        n = self.taken.wheelset if self.taken else None
+        return n if keeps_all and n in self.verdict.missed_by else None
+
+    @property
+    def missed_at_text(self) -> str:
+        """When the value was taken, and at which wheelset unless `missed_by_text` and `worst` say so."""
+        if self.taken is None:
+            return ""
+        return self.taken.times if self.worst else self.taken.text
+
+    @property
     def baseline_text(self) -> str:
         """The value in the baseline; empty where there is none."""
         return "" if self.baseline is None else f"baseline {quantity(self.baseline, self.verdict.unit)}"

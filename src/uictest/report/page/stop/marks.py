@@ -170,8 +170,12 @@ class Taken:
     @property
     def text(self) -> str:
         """The instant or the stretch of time, and the wheelset."""
-        times = f"{self.start:.4g}" if self.start == self.end else f"{self.start:.4g} to {self.end:.4g}"
-        return f"{times} s" + (f", wheelset {self.wheelset}" if self.wheelset else "")
+        return self.times + (f", wheelset {self.wheelset}" if self.wheelset else "")
+
+    @property
+    def times(self) -> str:
+        """The instant or the stretch of time."""
+        return f"{self.start:.4g} s" if self.start == self.end else f"{self.start:.4g} to {self.end:.4g} s"
 
 
 def taken_at(verdict: evaluation.Verdict, trace: PlotTrace) -> Taken | None:
