@@ -146,6 +146,38 @@ def test_firm_is_never_said_where_the_sample_contradicts_it(limit):
     assert outcome.status != "firm"
 
 
+def several(first, second):
+    """Study a stop that both margins of one number decide."""
+
+    def judge(columns, seeds):
+        rows = (columns[0].numbers - 100.0).tolist()
+        return [one(value) for value in rows]
+
+    def one(value):
+        margins = {"first": first(value), "second": second(value)}
+        statuses = {name: "pass" if margin >= 0.0 else "fail" for name, margin in margins.items()}
+        return Drawn("fail" if "fail" in statuses.values() else "pass", statuses, margins)
+
+    return FirmnessStudy([A], judge, effort=SMALL).run()
+
+
+def test_an_outcome_turns_where_it_does_and_not_where_its_first_criterion_changes():
+    # Both fail at the nominal value; from 101 N on one of them passes, the outcome only from 103 N on.
+    [turn] = several(lambda a: a - 1.0, lambda a: a - 3.0).turned_by
+    assert (turn.key, turn.side, turn.to) == ("a", "above", "pass")
+    assert float(turn.stands_to.removesuffix(" N")) <= 103.0 <= float(turn.value.removesuffix(" N"))
+    # The one that changes to pass decides nothing where the other one fails.
+    [turn] = several(lambda a: 10.0, lambda a: 2.0 - a).turned_by
+    assert (turn.criterion, turn.to) == ("second", "fail")
+
+
+def test_a_part_of_the_range_without_a_test_is_no_place_where_a_verdict_turns():
+    firmness = study([A], lambda a: 4.0 - a, validity=lambda a: abs(a - 2.0) - 0.9)
+    [turn] = firmness.turned_by
+    assert (turn.to, turn.criterion) == ("fail", "limit")
+    assert float(turn.value.removesuffix(" N")) == pytest.approx(104.0, abs=0.15)
+
+
 def test_without_numbers_nothing_is_shown():
     firmness = study([], lambda: 1.0)
     assert (firmness.status, firmness.draws) == ("not_shown", 0)

@@ -157,6 +157,10 @@ PARTS = [
         *("vehicle.body.mass.source", "unknown source 'nobody'", "crh380a"),
     ),
     (
+        "rail: {condition: wet, gradient: {value: 0 permille, source: »survey}}",
+        *("rail.gradient.source", "unknown source 'survey'", "leave it out"),
+    ),
+    (
         "vehicle: {extends: crh380a, body: {mass: »{value: 30 t}}}",
         *("vehicle.body.mass", "found a mapping", "'value' and 'source'"),
     ),

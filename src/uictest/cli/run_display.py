@@ -56,7 +56,7 @@ class Lines(Display):
         if self.verbose:
             for line in report.criterion_lines(result):
                 data(line)
-        for line in (*report.domain_lines(result), *report.firmness_lines(result.id, result.firmness)):
+        for line in (*report.domain_lines(result), *report.firmness_lines(result)):
             data(line)
 
     def series(self, result: series.SeriesResult) -> None:
@@ -64,7 +64,7 @@ class Lines(Display):
         if self.quiet and result.met:
             return
         self._show(report.series_word(result), report.series_line(result))
-        for line in (*report.series_lines(result), *report.firmness_lines(result.id, result.firmness)):
+        for line in (*report.series_lines(result), *report.firmness_lines(result)):
             data(line)
 
     def end(self, content: report.RunContent, document: str) -> None:
@@ -130,13 +130,13 @@ class VerdictTable(Display):
         for result in shown:
             if self.verbose or not content.passes(result):
                 console.print(report.explanation_text(content, result, every_criterion=self.verbose))
-            for line in (*report.domain_lines(result), *report.firmness_lines(result.id, result.firmness)):
+            for line in (*report.domain_lines(result), *report.firmness_lines(result)):
                 console.print(line, markup=False)
         judged = [each for each in content.series if not (self.quiet and each.met)]
         for line in report.series_table(judged, console.width) if judged else ():
             console.print(line, markup=False)
         for each in judged:
-            for line in report.firmness_lines(each.id, each.firmness):
+            for line in report.firmness_lines(each):
                 console.print(line, markup=False)
         close = report.close_lines(() if self.quiet else shown, judged)
         if close.sentences:

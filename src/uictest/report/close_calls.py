@@ -78,12 +78,8 @@ def close_calls(
                 narrow.append((share, CloseCall(result.id, verdict.id, "narrow", text)))
     of_series = [call for each in series for call in _of_series(each)]
     not_firm = [
-        *(CloseCall(each.id, "", "turns", text) for each in results for text in _not_firm(each.firmness)),
-        *(
-            CloseCall(each.id, "", "turns", text, True)
-            for each in series
-            for text in _not_firm(each.firmness)
-        ),
+        *(CloseCall(each.id, "", "turns", text) for each in results for text in _not_firm(each)),
+        *(CloseCall(each.id, "", "turns", text, True) for each in series for text in _not_firm(each)),
     ]
     return [*not_firm, *of_series, *turning, *(call for _, call in sorted(narrow, key=lambda each: each[0]))]
 
@@ -96,11 +92,11 @@ def close_lines(results: Sequence[evaluation.CaseResult], series: Sequence[Serie
     return Lines([*map(str, calls[:MOST_CLOSE]), *more], title=TITLE)
 
 
-def _not_firm(firmness: evaluation.Firmness | None) -> list[str]:
+def _not_firm(result: evaluation.CaseResult | SeriesResult) -> list[str]:
     """Return the sentence of an outcome that hangs on numbers that nobody measured; none of others."""
-    if firmness is None or firmness.status == "firm":
+    if result.firmness is None or result.is_firm:
         return []
-    return list(islice(firmness_sentences(firmness), 1))
+    return list(islice(firmness_sentences(result), 1))
 
 
 def _of_series(result: SeriesResult) -> Iterator[CloseCall]:

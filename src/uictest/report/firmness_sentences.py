@@ -9,7 +9,8 @@ from uictest.core.document import Cell, Column, Table
 from uictest.report.escaping import printable
 
 if TYPE_CHECKING:
-    from uictest.judging.evaluation import Firmness, NumberEffect, Turn, VerdictFirmness
+    from uictest.judging.evaluation import CaseResult, Firmness, NumberEffect, Turn, VerdictFirmness
+    from uictest.judging.series import SeriesResult
 
 _MOST_TURNS: Final = 6
 """Numbers that a sentence names; chosen."""
@@ -23,10 +24,16 @@ _WORDS: Final = {
 }
 
 
-def firmness_sentences(firmness: Firmness | None) -> Iterator[str]:
+def firmness_sentences(result: CaseResult | SeriesResult) -> Iterator[str]:
     """Yield how firm an outcome is, and which verdicts are not firm and by what they turn; else nothing."""
+    firmness = result.firmness
     if firmness is None:
         return
+    if result.outcome != firmness.nominal:
+        yield (
+            f"{result.outcome} is not shown to be firm: the stops that were varied come to"
+            f" {firmness.nominal}, of which the following is said"
+        )
     yield printable(f"{firmness.nominal} is {_status(firmness, firmness)}")
     for each in firmness.criteria:
         if each.turned or each.turned_by or each.status == "noise":
@@ -35,16 +42,19 @@ def firmness_sentences(firmness: Firmness | None) -> Iterator[str]:
     yield from map(printable, _remarks(firmness))
 
 
-def firmness_lines(name: str, firmness: Firmness | None) -> Iterator[str]:
+def firmness_lines(result: CaseResult | SeriesResult) -> Iterator[str]:
     """Yield the same as lines for grep: the word `firmness`, the id of the case or series, and a sentence."""
-    for sentence in firmness_sentences(firmness):
-        yield f"firmness {printable(name)} {sentence}"
+    for sentence in firmness_sentences(result):
+        yield f"firmness {printable(result.id)} {sentence}"
 
 
-def firmness_property(firmness: Firmness | None) -> dict[str, str]:
+def firmness_property(result: CaseResult | SeriesResult) -> dict[str, str]:
     """Return the property of a testcase: `{"firmness": "turns: a.b above 6.1 kJ/m"}`; {} if not asked."""
+    firmness = result.firmness
     if firmness is None:
         return {}
+    if result.outcome != firmness.nominal:
+        return {"firmness": "not_shown"}  # what was varied came to another outcome
     turns = [f"{each.key} {each.side} {each.value or each.stands_to}" for each in firmness.turned_by]
     return {"firmness": ": ".join(filter(None, (firmness.status, ", ".join(turns))))}
 

@@ -121,7 +121,7 @@ def explanation(result: evaluation.CaseResult, instants: Mapping[str, str] | Non
     is_unsettled = bool(result.unsettled) or result.lacks_firmness
     outcome = outcome_sentence(result.outcome, result.expect, names, unsettled=is_unsettled)
     unsettled = [line for line in unsettled_sentences(result.unsettled) if line not in deciding.values()]
-    unsettled += firmness_sentences(result.firmness) if result.lacks_firmness else ()
+    unsettled += firmness_sentences(result) if result.lacks_firmness else ()
     known = instants or {}
     lines = [
         f"{line} (taken at {at})" if (at := known.get(name)) else line for name, line in deciding.items()

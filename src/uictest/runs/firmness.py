@@ -113,12 +113,13 @@ class _VariedStops:
     def results(self, columns: _Columns, seeds: Sequence[int]) -> list[list[CaseResult]]:
         """Return for each row of the columns the results of the stops, one for each repeat of the case.
 
-        A seed counts from that of the case, in steps of its repeats.
+        A seed counts from that of the case, in steps of its repeats, and goes on from 0 behind the largest.
         """
         resolved = self.varied.case.scenario
         repeat = resolved.repeat
         rows = np.repeat(np.arange(len(seeds)), repeat)
-        numbers = [resolved.seed + seed * repeat + k for seed in seeds for k in range(repeat)]
+        known = scenario.LARGEST_SEED + 2 - repeat  # how many seeds a case with these repeats may have
+        numbers = [(resolved.seed + seed * repeat + k) % known for seed in seeds for k in range(repeat)]
         settings = {number.key: columns[key].take(rows) for key, number in self.numbers.items()}
         settings["seed"] = sweeps.listed_column([sweeps.ParameterValue(str(k), k) for k in numbers])
         results = self.varied.results(settings, self.run.advance)

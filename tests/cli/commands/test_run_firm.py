@@ -71,6 +71,19 @@ def test_a_number_that_turns_a_verdict_is_named_with_its_value_and_misses_strict
     assert "reason=pass, unsettled. Expected: pass" in answer.out or "not firm" in answer.out
 
 
+def test_an_outcome_that_the_varied_stops_do_not_come_to_is_not_said_to_be_firm(call, scenario):
+    # A rig with one caliper stops within 33.463 m, one with four within 33.491 m.
+    path = scenario("stop", TURNED.replace("36 m", "33.47 m"))
+    answer, [case] = run(call, path, "--firm", "--strict", code=1)
+    assert (case["outcome"], case["firmness"]["nominal"]) == ("pass", "fail")
+    assert "firmness stop pass is not shown to be firm: the stops that were varied come to fail" in answer.out
+
+
+def test_the_seeds_go_on_from_0_behind_the_largest(call, scenario):
+    _, [case] = run(call, scenario("stop", STOP), "--firm", "--seed", 2**32 - 1)
+    assert case["firmness"]["status"] == "not_shown"  # the stops under further seeds can be run
+
+
 def test_a_scenario_asks_for_it_and_a_report_is_written_again_with_it(call, scenario):
     _, [case] = run(call, scenario("stop", f"{STOP}firm: true\n"))
     assert case["firmness"]["draws"] == 8

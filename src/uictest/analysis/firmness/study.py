@@ -32,6 +32,8 @@ _DOUBT: Final = 0.05
 """Probability that a share lies below its bound: 95 % confidence, as usual of test results; chosen."""
 _DECIDED: Final = ("pass", "fail")
 """Statuses whose firmness is studied: all others are no verdict on the stop."""
+_DECIDING: Final = {"invalid": "fail", "skipped": "not_applicable"}
+"""Status of the criteria that decide an outcome, where it has another name."""
 _HALVINGS: Final = 4
 """Of the interval between two places of a scan: a turning value is known to 1 / 128 of its side; chosen."""
 
@@ -94,19 +96,39 @@ class _Stops:
     nominal: Sequence[Drawn]
     ends: Mapping[_Place, Sequence[Drawn]]
     joint: Sequence[Drawn]
+    validity: frozenset[str]
 
     def usual(self, criterion: str) -> str:
         """Return what a verdict is at the nominal values, under most seeds."""
         return _usual(self.nominal, criterion)
 
-    def changed_at(self, place: _Place) -> str:
-        """Return the first criterion that is not what it is at the nominal values; empty for none."""
-        changed = (each for each in self.nominal[0].statuses if self.standing(place, each) < 1.0)
-        return next(changed, OUTCOME)
+    def stands(self, drawn: Drawn, criterion: str) -> bool | None:
+        """Return whether a verdict is what it is at the nominal values; None for one that does not count.
 
-    def standing(self, place: _Place, criterion: str) -> float:
-        """Return the share of the stops at an end in which a verdict is what it is at the nominal values."""
-        return _standing(self.ends[place], criterion, self.usual(criterion))
+        What is required of a test does not count where there is none.
+        """
+        nominal = self.usual(criterion)
+        of_validity = criterion in self.validity or (criterion == OUTCOME and nominal == "invalid")
+        if drawn.outcome == "error" or (drawn.outcome == "invalid" and not of_validity):
+            return None
+        return drawn.status(criterion) == nominal
+
+    def turned_at(self, place: _Place, criterion: str) -> list[Drawn]:
+        """Return the stops at an end in which a verdict is another."""
+        return [each for each in self.ends[place] if self.stands(each, criterion) is False]
+
+    def deciding_at(self, place: _Place) -> str:
+        """Return the first criterion that decides the outcome at an end where it is another; empty for none.
+
+        To pass, it is the first of those that decided the nominal outcome.
+        """
+        turned, nominal = self.turned_at(place, OUTCOME)[0], self.nominal[0]
+        one, other = (nominal, turned) if turned.outcome == "pass" else (turned, nominal)
+        status = _DECIDING.get(one.outcome, one.outcome)
+        decides = (
+            each for each, found in one.statuses.items() if found == status and other.status(each) != status
+        )
+        return next(decides, OUTCOME)
 
 
 @dataclass(frozen=True)
@@ -136,6 +158,7 @@ class FirmnessStudy:
             self._drawn(np.full((effort.seeds, count), np.nan), range(effort.seeds)),
             dict(zip(places, at_ends, strict=True)),
             self._drawn(points, [0] * len(points)),
+            self.validity,
         )
         criteria = [each for each in stops.nominal[0].statuses if stops.usual(each) in _DECIDED]
         outcomes = Counter(each.outcome for each in stops.joint)
@@ -167,20 +190,13 @@ class FirmnessStudy:
     def _firmness(self, criterion: str, stops: _Stops) -> dict[str, Any]:
         """Return the fields of :class:`VerdictFirmness` for a criterion, or the outcome."""
         nominal = stops.usual(criterion)
-        of_validity = criterion in self.validity or (criterion == OUTCOME and nominal == "invalid")
-
-        def stands(drawn: Drawn) -> bool | None:
-            if drawn.outcome == "error" or (drawn.outcome == "invalid" and not of_validity):
-                return None  # no test: what is required of one does not count
-            return drawn.status(criterion) == nominal
-
-        joint = [stands(each) for each in stops.joint]
+        joint = [stops.stands(each, criterion) for each in stops.joint]
         size = self.effort.block
         shares = [_share(joint[first : first + size]) for first in range(0, len(joint), size)]
         known = [share for share in shares if share is not None]
         counted, turned = len(joint) - joint.count(None), joint.count(False)
         noisy = any(each.status(criterion) != nominal for each in stops.nominal)
-        turning = [place for place, drawn in stops.ends.items() if False in map(stands, drawn)]
+        turning = [place for place in stops.ends if stops.turned_at(place, criterion)]
         at_least = _DOUBT ** (1.0 / counted) if counted and not turned else None
         return {
             "criterion": criterion,
@@ -197,9 +213,8 @@ class FirmnessStudy:
         }
 
     def _turns(self, criterion: str, turning: Sequence[_Place], stops: _Stops) -> Iterator[Turn]:
-        """Yield where each number turns a verdict; the outcome turns with a criterion that changes there."""
-        deciding = {place: criterion or stops.changed_at(place) for place in turning}
-        scans = self._scanned(deciding, stops)
+        """Yield where each number turns a verdict, and the criterion with which the outcome turns."""
+        scans = self._scanned(turning, criterion, stops)
         for place in turning:
             ranged, end = self.numbers[place[0]], place[1]
             scan = scans[place]
@@ -210,38 +225,36 @@ class FirmnessStudy:
                 for each in (turns_at, turned_from)
             )
             yield Turn(
-                *(ranged.key, "above" if end else "below", deciding[place]),
-                _changed_to(stops.ends[place], criterion, stops.usual(criterion)),
+                *(ranged.key, "above" if end else "below", criterion or stops.deciding_at(place)),
+                _usual(stops.turned_at(place, criterion), criterion),
                 *(value, ranged.rounded_text(stands_to, up=not end), first_turned, ranged.ends[end].text),
             )
 
-    def _scanned(self, deciding: Mapping[_Place, str], stops: _Stops) -> dict[_Place, Scan]:
-        """Scan each number from its nominal value to an end, all numbers together, then halve.
-
-        `deciding` names the criterion that is looked at in each scan.
-        """
+    def _scanned(self, turning: Sequence[_Place], criterion: str, stops: _Stops) -> dict[_Place, Scan]:
+        """Scan each number from its nominal value to an end, all numbers together, then halve."""
         scans = {
             (number, end): Scan({self.numbers[number].nominal_place: 1.0}, float(end))
-            for number, end in deciding
+            for number, end in turning
         }
-        self._extend(scans, {place: scan.grid() for place, scan in scans.items()}, deciding, stops)
+        self._extend(scans, {place: scan.grid() for place, scan in scans.items()}, criterion, stops)
         for _ in range(_HALVINGS):
             middles = {place: [scan.middle] for place, scan in scans.items() if scan.middle is not None}
-            self._extend(scans, middles, deciding, stops)
+            self._extend(scans, middles, criterion, stops)
         return scans
 
     def _extend(
         self,
         scans: Mapping[_Place, Scan],
         points: Mapping[_Place, Sequence[float]],
-        deciding: Mapping[_Place, str],
+        criterion: str,
         stops: _Stops,
     ) -> None:
         flat = [(place, point) for place, of_place in points.items() for point in of_place]
         drawn = self._one_by_one([(place[0], point) for place, point in flat], self.effort.seeds)
         for (place, point), of_point in zip(flat, drawn, strict=True):
-            criterion = deciding[place]
-            scans[place].standing[point] = _standing(of_point, criterion, stops.usual(criterion))
+            standing = _share([stops.stands(each, criterion) for each in of_point])
+            if standing is not None:
+                scans[place].standing[point] = standing
 
     def _effect(self, number: int, stops: _Stops, criteria: Sequence[str]) -> NumberEffect:
         ranged = self.numbers[number]
@@ -267,15 +280,6 @@ def _status(noisy: bool, turns: bool, at_least: float | None) -> FirmnessStatus:
 def _usual(drawn: Sequence[Drawn], criterion: str) -> str:
     """Return the most frequent status; of equally frequent ones the first."""
     return Counter(each.status(criterion) for each in drawn).most_common(1)[0][0]
-
-
-def _changed_to(drawn: Sequence[Drawn], criterion: str, nominal: str) -> str:
-    """Return the most frequent of the statuses that are not the nominal one."""
-    return _usual([each for each in drawn if each.status(criterion) != nominal], criterion)
-
-
-def _standing(drawn: Sequence[Drawn], criterion: str, nominal: str) -> float:
-    return sum(each.status(criterion) == nominal for each in drawn) / len(drawn)
 
 
 def _share(stands: Sequence[bool | None]) -> float | None:

@@ -124,11 +124,17 @@ class CaseResult:
         return self.as_expected and not self.unsettled and not self.lacks_firmness
 
     @property
+    def is_firm(self) -> bool:
+        """Whether it was asked how firm the outcome is, and this very outcome is shown to be."""
+        own = self.firmness
+        return own is not None and (own.nominal, own.status) == (self.outcome, "firm")
+
+    @property
     def lacks_firmness(self) -> bool:
         """Whether, with `strict`, it was asked how firm the outcome is, and it is not shown to be."""
         if self.firmness is None or not self.strict:
             return False
-        return self.firmness.status != "firm"
+        return not self.is_firm
 
     @property
     def drawn_stop(self) -> CaseResult:

@@ -241,8 +241,14 @@ class SeriesResult:
         return self.as_expected and not self.unsettled and not self.lacks_firmness
 
     @property
+    def is_firm(self) -> bool:
+        """Whether it was asked how firm the outcome is, and this very outcome is shown to be."""
+        own = self.firmness
+        return own is not None and (own.nominal, own.status) == (self.outcome, "firm")
+
+    @property
     def lacks_firmness(self) -> bool:
         """Whether, if its cases are `strict`, it was asked how firm it is, and it is not shown to be."""
         if self.firmness is None or not any(each.case.strict for each in self.cases):
             return False
-        return self.firmness.status != "firm"
+        return not self.is_firm

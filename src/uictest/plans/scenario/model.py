@@ -35,7 +35,15 @@ from uictest.plans.scenario.parts.named_file import OutcomeOfRepeats, Repeat, Te
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, distinct_values, wheelset_value
 from uictest.plans.scenario.sections import Brake, Rail, Rig, Simulation
-from uictest.plans.scenario.yaml import DEFAULT_SOURCE, Inconsistency, PartReference, Quantity, quoted
+from uictest.plans.scenario.yaml import (
+    DEFAULT_SOURCE,
+    Inconsistency,
+    PartReference,
+    Quantity,
+    quantities_in,
+    quoted,
+    unknown_sources,
+)
 from uictest.plans.scenario.yaml.quantity_field import field, optional, quantity
 
 
@@ -101,6 +109,13 @@ class Scenario(TestFile):
     vary: dict[str, Any] | None = optional(
         "What `uictest sweep` varies: lists, ranges and distributions of values."
     )
+
+    def undescribed(self) -> Iterator[Inconsistency]:
+        """Yield sources of its own numbers: parts describe sources, a scenario has none."""
+        for key, source in unknown_sources(quantities_in(self, parts=False), ()):
+            yield Inconsistency(
+                key, f"unknown source {quoted(source)}", "leave it out: a scenario describes no sources"
+            )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield values of different sections that do not fit together."""

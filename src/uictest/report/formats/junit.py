@@ -88,7 +88,7 @@ def _testcase(
 ) -> Testcase:
     status = _status(result, differs=bool(differences))
     remarks = [*real_time_sentences(result), *domain_sentences(result), *changes_line(result)]
-    remarks += firmness_sentences(result.firmness)
+    remarks += firmness_sentences(result)
     is_of_baseline = status != "passed" and case_word(result, differences) == DIFFERS
     if status != "passed":
         controllers = controllers_text([result], uictest_version)
@@ -106,7 +106,7 @@ def _testcase(
         result.duration,
         {
             **(test_properties(result.test_case, requirements_of(result)) if with_properties else {}),
-            **firmness_property(result.firmness),
+            **firmness_property(result),
         },
     )
 

@@ -8,6 +8,7 @@ from typing import Final, NamedTuple
 
 from uictest.core.document import Column, Document, Lines, Table
 from uictest.judging import evaluation
+from uictest.judging.series import SeriesResult
 from uictest.report import series as series_views
 from uictest.report.case_table import cases_table
 from uictest.report.close_calls import close_lines
@@ -74,9 +75,8 @@ def _baseline(content: RunContent) -> list[Table | Lines]:
 
 def _firmness(content: RunContent) -> Lines:
     """Return how firm the cases and series are of which it was asked."""
-    asked = [(each.id, each.firmness) for each in content.results]
-    asked += [(each.id, each.firmness) for each in content.series]
-    lines = [f"{name}: {line}" for name, firmness in asked for line in firmness_sentences(firmness)]
+    judged: list[evaluation.CaseResult | SeriesResult] = [*content.results, *content.series]
+    lines = [f"{each.id}: {line}" for each in judged for line in firmness_sentences(each)]
     return Lines(lines, "Firm or not firm" if lines else "")
 
 

@@ -214,7 +214,7 @@ def unsettled_of_series(result: SeriesResult) -> list[str]:
     """Return which verdicts of a strict series and of its cases are not settled, and why."""
     pairs = [(printable(name), each) for name, each in result.unsettled]
     lines = [f"{name}: {line}" for name, each in pairs for line in unsettled_sentences([each])]
-    return [*lines, *(firmness_sentences(result.firmness) if result.lacks_firmness else ())]
+    return [*lines, *(firmness_sentences(result) if result.lacks_firmness else ())]
 
 
 SHOWN_MEASURES = ("k_wet", "stopping_distance_extension", "passing_share")

@@ -18,6 +18,7 @@ from .model import (
     accepted_keys as accepted_keys,
     models_in as models_in,
     quantities_in as quantities_in,
+    unknown_sources as unknown_sources,
 )
 from .parsing import parse as parse, scalar_value as scalar_value
 from .quantities import (

@@ -134,18 +134,9 @@ class Part(Model):
 
     def undescribed(self) -> Iterator[Inconsistency]:
         """Yield every number whose source is not described."""
-        known = {SCENARIO_SOURCE, DEFAULT_SOURCE, *self.sources}
-        for key, quantity in quantities_in(self):
-            named = {"source": quantity.source}
-            if quantity.range is not None:
-                named["range_source"] = quantity.range[0].source
-            for name, source in named.items():
-                if source not in known:
-                    yield Inconsistency(
-                        (*key, name),
-                        f"unknown source {quoted(source)}",
-                        suggestion(source, self.sources) or "describe it under 'sources'",
-                    )
+        for key, source in unknown_sources(quantities_in(self), self.sources):
+            hint = suggestion(source, self.sources) or "describe it under 'sources'"
+            yield Inconsistency(key, f"unknown source {quoted(source)}", hint)
 
     @classmethod
     def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -192,8 +183,20 @@ _WITHOUT_QUANTITIES: Final = frozenset({type(None), bool, int, float, str})
 """Types of most fields; every part is searched when it is read."""
 
 
-def quantities_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Quantity]]:
-    """Yield every quantity inside a model, tuple or mapping with its key."""
+def unknown_sources(
+    quantities: Iterable[tuple[Key, Quantity]], described: Iterable[str]
+) -> Iterator[tuple[Key, str]]:
+    """Yield each source that a quantity names and that is not described, with the key that names it."""
+    known = {SCENARIO_SOURCE, DEFAULT_SOURCE, *described}
+    for key, quantity in quantities:
+        named = {"source": quantity.source}
+        if quantity.range is not None and quantity.range[0].source != quantity.source:
+            named["range_source"] = quantity.range[0].source
+        yield from (((*key, name), source) for name, source in named.items() if source not in known)
+
+
+def quantities_in(value: object, key: Key = (), *, parts: bool = True) -> Iterator[tuple[Key, Quantity]]:
+    """Yield every quantity inside a model, tuple or mapping with its key; of `parts` inside, too."""
     if isinstance(value, Quantity):
         yield key, value
         return
@@ -202,11 +205,11 @@ def quantities_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Quantity]
         inside = enumerate(value)
     elif isinstance(value, dict):
         inside = value.items()
-    elif isinstance(value, BaseModel):
+    elif isinstance(value, BaseModel) and (parts or not isinstance(value, Part)):
         inside = value.__dict__.items()
     for name, inner in inside:
         if type(inner) not in _WITHOUT_QUANTITIES:
-            yield from quantities_in(inner, (*key, name))
+            yield from quantities_in(inner, (*key, name), parts=parts)
 
 
 @cache
