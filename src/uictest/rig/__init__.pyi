@@ -9,7 +9,6 @@ from .assembly import (
 )
 from .backends.controller_code import ControllerCode as ControllerCode, controller_code as controller_code
 from .backends.lanes import (
-    BatchMeasures as BatchMeasures,
     run_in_lanes as run_in_lanes,
 )
 from .backends.machine_code import (

@@ -21,8 +21,6 @@ from .paired.difference import (
 )
 from .paired.drawn_stops import Draw as Draw
 from .paired.pairing import (
-    NotPaired as NotPaired,
-    PairedComparison as PairedComparison,
     variants_json as variants_json,
 )
 from .paired.variants import compare_variants as compare_variants

@@ -1,6 +1,5 @@
 from .columns import (
     Columns as Columns,
-    DeviationOfStops as DeviationOfStops,
     deviations_of_stops as deviations_of_stops,
 )
 from .document import (

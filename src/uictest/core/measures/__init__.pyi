@@ -9,10 +9,8 @@ from .layouts import STOP_MEASURES as STOP_MEASURES, WHEELSET_MEASURES as WHEELS
 from .measure import (
     Column as Column,
     Course as Course,
-    DefinitionValues as DefinitionValues,
     Measure as Measure,
     MeasureValue as MeasureValue,
-    Overview as Overview,
     RecordedData as RecordedData,
     ShownWhen as ShownWhen,
     StopColumn as StopColumn,
@@ -22,7 +20,6 @@ from .measure import (
 from .noted_samples import note_samples as note_samples
 from .records import (
     END_SPEEDS as END_SPEEDS,
-    SLOW_SHARES as SLOW_SHARES,
     SLOW_TIMES as SLOW_TIMES,
     SPEED_CLASSES as SPEED_CLASSES,
     WINDOW_SECONDS as WINDOW_SECONDS,

@@ -7,7 +7,6 @@ from .measure import (
     SeriesMeasure as SeriesMeasure,
     SeriesValue as SeriesValue,
     SpeedStops as SpeedStops,
-    Statistic as Statistic,
     dry_relation as dry_relation,
     mean_of as mean_of,
     median_of as median_of,

@@ -2,7 +2,6 @@ from .bench import Subject as Subject, subject_of as subject_of
 from .checks import (
     CHECKS as CHECKS,
     Check as Check,
-    Examined as Examined,
     examine as examine,
     examined as examined,
 )
