@@ -81,6 +81,22 @@ def test_an_interrupt_keeps_what_is_finished_and_waits_for_nothing(make_case, ex
     assert _ids(campaign) == ["first", "second"]
 
 
+def test_a_case_is_handed_on_where_an_interrupt_ends_the_question_how_firm_it_is(make_case, examined_by):
+    def interrupt(case_id):
+        raise KeyboardInterrupt
+
+    examined_by(lambda case, wish, run: CaseRun(_result(case)))
+    seen = []
+    campaign = run_cases(
+        [make_case("first"), make_case("second")],
+        RunSettings(jobs=1, firmness=interrupt),
+        on_case=lambda examined: seen.append(examined.result.id),
+    )
+    assert campaign.interrupted
+    assert _ids(campaign) == seen
+    assert seen[0] == "first"
+
+
 def test_an_error_of_the_caller_goes_on(make_case, examined_by):
     def full(examined):
         raise OSError("No space left on device")

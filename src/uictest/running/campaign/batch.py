@@ -216,11 +216,13 @@ def run_cases(
     batch, own = BatchResult[evaluation.CaseResult](), settings
 
     def report(case_run: CaseRun) -> None:
-        batch.results.append(own.completed(case_run.result))
-        if own.firmness is not None and case_run.result.outcome not in NOT_JUDGED:
-            result = batch.results[-1]
-            batch.results[-1] = replace(result, firmness=own.firmness(result.id))
-        on_case(replace(case_run, result=batch.results[-1]))
+        result = own.completed(case_run.result)
+        try:
+            if own.firmness is not None and result.outcome not in NOT_JUDGED:
+                result = replace(result, firmness=own.firmness(result.id))
+        finally:  # a case that an interrupt leaves without it is finished all the same
+            batch.results.append(result)
+            on_case(replace(case_run, result=result))
 
     with rig.Workers() as workers:
         run: rig.RunInputs = rig.run_in_process if settings.in_process else workers.run
