@@ -9,6 +9,7 @@ from uictest.report import (
     RunManifest,
     read_run,
     recording_path,
+    with_recorded_traces,
     write_recording,
     write_reports,
 )
@@ -23,7 +24,7 @@ def test_a_run_comes_back_from_its_folder(tmp_path):
     written = RunContent("a-run", [result], manifest, complete=False, subjects={result.id: subject})
     write_reports(tmp_path, written)
     write_recording(tmp_path, result.id, make_recording())
-    content = read_run(tmp_path, traces=True)
+    content = with_recorded_traces(read_run(tmp_path), tmp_path)
     assert cases_document(content.results) == cases_document([result])
     assert (content.name, content.manifest, content.complete) == (tmp_path.name, manifest, False)
     assert content.subject(result.id) == subject

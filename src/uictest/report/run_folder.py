@@ -191,20 +191,16 @@ def write_recording(folder: Path, case_id: str, samples: recording.Recording) ->
     return path
 
 
-def read_run(folder: Path, *, traces: bool = False) -> RunContent:
-    """Return what a run folder holds; with `traces`, what a page draws from its recordings, too.
+def read_run(folder: Path) -> RunContent:
+    """Return what a run folder holds, nothing to draw.
 
-    Raises:
-        OSError: results.json or a recording cannot be read.
-        ValueError: one of them is not what it should be.
-
+    Raises OSError, and ValueError where results.json is not what it should be.
     """
     path = folder / RESULTS
     try:
-        content = run_content(json.loads(path.read_text(encoding="utf-8")), folder.resolve().name)
+        return run_content(json.loads(path.read_text(encoding="utf-8")), folder.resolve().name)
     except (ValueError, RecursionError) as error:  # RecursionError: nested deeper than JSON is read
         raise ValueError(f"{path}: not the results of a run: {error}") from error
-    return with_recorded_traces(content, folder) if traces else content
 
 
 def with_recorded_traces(content: RunContent, folder: Path, drawn_first: Collection[str] = ()) -> RunContent:

@@ -169,11 +169,9 @@ def styles_of(workbook: Workbook) -> Styles:
     }
 
 
-def write_sheet(
-    sheet: Worksheet, rows: Sequence[Row], styles: Styles, verdicts: Collection[str] = VERDICT_COLUMNS
-) -> None:
+def write_sheet(sheet: Worksheet, rows: Sequence[Row], styles: Styles) -> None:
     """Write rows below a header that names every column of any of them; colour the columns of verdicts."""
-    write_table(sheet, columns_of(rows), rows, styles, verdicts=verdicts)
+    write_table(sheet, columns_of(rows), rows, styles)
 
 
 def columns_of(rows: Iterable[Row]) -> list[str]:

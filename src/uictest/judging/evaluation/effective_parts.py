@@ -218,10 +218,7 @@ def program_of(part: EffectivePart, told: str = "") -> Program | None:
     return Program(part.name, kind, values[kind], *stated).telling(told)
 
 
-def program_in(parts: Mapping[str, EffectivePart], told: str = "") -> Program | None:
-    """Return the program among the parts of a case, by role; None where its controller is built in.
-
-    `told` as for :func:`program_of`.
-    """
+def program_in(parts: Mapping[str, EffectivePart]) -> Program | None:
+    """Return the program among the parts of a case, by role; None where its controller is built in."""
     controller = parts.get("controller")
-    return None if controller is None else program_of(controller, told)
+    return None if controller is None else program_of(controller)

@@ -18,7 +18,6 @@ from markupsafe import Markup
 
 from uictest.core import user_cache
 from uictest.core.document import Tone
-from uictest.report.difference import side_text
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences, firmness_table
 from uictest.report.part_wording import (
@@ -33,13 +32,11 @@ from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.verdict_sentences import (
     counted,
     counted_in,
-    failing_first,
     listed,
     number,
     reading_sentences,
     reading_sources,
     tone,
-    without_rig_that_holds,
 )
 
 _UPLOT: Final = MappingProxyType(
@@ -131,8 +128,8 @@ _WORDS: Final[tuple[Callable[..., Any], ...]] = (
         part_sentences,
         slide_speed,
     ),
-    *(counted, counted_in, failing_first, listed, number, reading_sentences, reading_sources, tone),
-    *(any_repeated, side_text, stops_text, without_rig_that_holds),
+    *(counted, counted_in, listed, number, reading_sentences, reading_sources, tone),
+    *(any_repeated, stops_text),
     *(firmness_sentences, firmness_table),
 )
 """What every template can put results into words by."""

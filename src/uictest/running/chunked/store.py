@@ -205,7 +205,7 @@ class ChunkStore:
         """Write a chunk. Raises OSError."""
         self._write(f"{number:06d}-{_digest(content)}.parquet", content)
 
-    def tables(self, numbers: Sequence[int], columns: Sequence[str] | None = None) -> Iterator[pa.Table]:
+    def tables(self, numbers: Sequence[int]) -> Iterator[pa.Table]:
         """Yield the rows of chunks, one chunk after the other. Raises MissingChunksError."""
         import pyarrow.parquet as pq
 
@@ -216,7 +216,7 @@ class ChunkStore:
             raise MissingChunksError(f"{len(missing)} chunks are missing: {listed}")
         for number in numbers:
             with paths[number].open("rb") as file, pq.ParquetFile(file) as parquet:
-                yield parquet.read(columns=None if columns is None else list(columns), use_threads=False)
+                yield parquet.read(use_threads=False)
 
     def merge(self, other: ChunkStore) -> tuple[int, list[Path]]:
         """Copy the intact chunks of another store of this sweep; return their number and the damaged files.

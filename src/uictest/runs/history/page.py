@@ -64,7 +64,6 @@ def index_html(folder: str, listing: Listing) -> str:
         running_head=folder,
         mark=MARK,
         folder=folder,
-        listing=listing,
         runs=[_run_row(run) for run in listing.runs],
         unfolded=_UNFOLDED,
         shown=shown,

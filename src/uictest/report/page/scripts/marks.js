@@ -77,7 +77,6 @@ const paintBars = (plot, { spans, row, half, ink, opacity = 1 }) =>
   });
 
 const CHARACTER = 6.3; /* pixels of a letter of a label, about */
-const LABEL_ROW = 14;
 const SAMPLES = { limit: "┄ ", mean: "━ ", tolerance: "▬ ", fault: "▨ " };
 const widthOf = (text) => CHARACTER * text.length + 8;
 const shortened = (text, width) =>
