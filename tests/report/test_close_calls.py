@@ -89,6 +89,7 @@ def test_a_series_that_passes_by_chance_or_worse_than_without_wsp_says_so_everyw
         ("acceptance", "", True), ("acceptance", "k-wet", True)
     ]  # fmt: skip
     assert "K_wet is better with the WSP bypassed" in str(calls[0])
+    assert "locked" not in str(calls[0])  # the results hold no stop with the WSP bypassed
     assert "not certain, a limit lies inside the interval at another speed or rail" in calls[1].text
     assert series_tally([doubtful]) == "1 series: 1 pass; 1 of 1 criteria of series not certain"
     (judged,) = judged_criteria(doubtful)

@@ -16,6 +16,7 @@ from uictest.report.verdict_sentences import (
     tally,
     tone,
     value_and_limits,
+    verdict_sentence,
 )
 
 from .builders import make_result, make_verdict
@@ -91,6 +92,12 @@ def test_every_word_is_counted_and_is_one_field_of_a_line():
     assert len(counts_text(counts, 0).split(", ")) == len(CASE_WORDS)
     assert not any(" " in line_word(word) for word in CASE_WORDS)
     assert line_word("expected fail") == "expected-fail"
+
+
+def test_the_margin_of_a_share_is_in_points_and_no_share_of_its_limit():
+    share = make_verdict(value=100.0, unit="%", lower=90.0, upper=None, margin=10.0)
+    assert verdict_sentence(share).endswith("100 %, lower limit 90 %, margin 10 points")
+    assert verdict_sentence(make_verdict()).endswith("margin 24.75 m")
 
 
 def test_the_tally_counts_only_what_there_is():

@@ -333,7 +333,9 @@ def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(write, load
     assert (better.criteria, better.speeds, better.outcome) == (
         *(without.criteria, without.speeds, without.outcome),
     )
-    assert "K_wet is better with the WSP bypassed, 0.9524" in "\n".join(report.count_sentences(better))
+    said = "\n".join(report.count_sentences(better))
+    assert "K_wet is better with the WSP bypassed, 0.9524" in said
+    assert "a wheelset is locked for up to 0 s with it bypassed, 0 s with the tested one" in said
     worse = judge(planned, distances, bypassed=700.0)
     assert "bypassed" not in "\n".join(report.count_sentences(worse))
     (read,) = series.series_results_of(series.series_document([better]))

@@ -55,6 +55,11 @@ def limits(verdict: evaluation.Verdict, word: str = "limits ") -> str:
     return "no limit"
 
 
+def margin_text(verdict: evaluation.Verdict) -> str:
+    """Return the margin of a criterion; of a share in points, as per cent are those of its limit."""
+    return quantity(verdict.margin, "points" if verdict.unit == "%" else verdict.unit)
+
+
 def value_and_limits(verdict: evaluation.Verdict, word: str = "limits ") -> str:
     """Return the value of a criterion next to its limits, e.g. `0 % of the time, lower limit 35 %`."""
     measure = MEASURES.get(verdict.measure)
@@ -95,7 +100,7 @@ def missed_by_text(verdict: evaluation.Verdict, wheelsets: int) -> str:
 
 def verdict_sentence(verdict: evaluation.Verdict) -> str:
     """Return the verdict of a criterion on one line, with the reason, or with value, limits and margin."""
-    reason = verdict.reason or f"{value_and_limits(verdict)}, margin {quantity(verdict.margin, verdict.unit)}"
+    reason = verdict.reason or f"{value_and_limits(verdict)}, margin {margin_text(verdict)}"
     return printable(f"{verdict.id} ({verdict.layer}) {verdict.status.replace('_', ' ')}: {reason}")
 
 

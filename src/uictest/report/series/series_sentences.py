@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final
 
 from uictest.core import statistics
@@ -19,6 +19,7 @@ from uictest.report.verdict_sentences import (
     counts_text,
     limits,
     line_word,
+    margin_text,
     number,
     outcome_sentence,
     outcome_word,
@@ -27,7 +28,7 @@ from uictest.report.verdict_sentences import (
 )
 
 if TYPE_CHECKING:
-    from uictest.judging.series import SeriesResult, SeriesVerdict
+    from uictest.judging.series import SeriesResult, SeriesStop, SeriesVerdict
 
 _METHODS: Final[dict[Method, str]] = {
     "median": "median of {}",
@@ -155,7 +156,7 @@ def _substance(each: SeriesVerdict) -> str:
         return verdict.reason
     at_speed = f" from {each.place}" if each.place else ""
     value = f"{quantity(verdict.value, verdict.unit)}{of_dry_stop(each)}{at_speed}"
-    return f"{value}, {limits(verdict)}, margin {quantity(verdict.margin, verdict.unit)}"
+    return f"{value}, {limits(verdict)}, margin {margin_text(verdict)}"
 
 
 def of_dry_stop(each: SeriesVerdict) -> str:
@@ -180,7 +181,29 @@ def bypassed_is_better(result: SeriesResult) -> str:
     if bypassed is None or tested is None or bypassed.value <= tested.value:
         return ""
     values = (f"{short(each.value)} ({interval(each) or '-'})" for each in (bypassed, tested))
-    return "K_wet is better with the WSP bypassed, {}, than with the tested one, {}".format(*values)
+    better = "K_wet is better with the WSP bypassed, {}, than with the tested one, {}".format(*values)
+    return "; ".join([better, *_longest_locked(result)])
+
+
+def _longest_locked(result: SeriesResult) -> Iterator[str]:
+    """Yield how long a wheelset is locked without and with WSP on the rails that were run without."""
+    from uictest.judging.series import observed_stops  # here, for most runs hold no series
+
+    stops = [each for each in observed_stops(result.cases, result.speed_tolerance_kmh) if each.counts]
+    rails = {stop.rail for stop in stops if stop.role == "bypassed"}
+    without, tested = (
+        _longest(stop for stop in stops if stop.role == role and stop.rail in rails)
+        for role in ("bypassed", "wet")
+    )
+    if math.isfinite(without) and math.isfinite(tested):
+        times = quantity(without, "s"), quantity(tested, "s")
+        yield "a wheelset is locked for up to {} with it bypassed, {} with the tested one".format(*times)
+
+
+def _longest(stops: Iterable[SeriesStop]) -> float:
+    """Return the longest time that a wheelset of some stops is locked; NaN where none is known."""
+    times = [wheelset.get("locked_time_s", math.nan) for stop in stops for wheelset in stop.figures.wheelsets]
+    return max(filter(math.isfinite, times), default=math.nan)
 
 
 def not_counted_sentences(result: SeriesResult) -> Iterator[str]:

@@ -20,7 +20,7 @@ from uictest.report.series.series_sentences import (
     short,
 )
 from uictest.report.terminal.table_lines import document_lines, table_lines
-from uictest.report.verdict_sentences import counted, limits, quantity, tone
+from uictest.report.verdict_sentences import counted, limits, margin_text, quantity, tone
 
 _TONES: Final[Mapping[str, Tone]] = {"pass": "good", "fail": "bad", "inconclusive": "odd"}
 _REMARKS: Final = {"fail": "fail", "inconclusive": "inconclusive", "not_applicable": "not applicable"}
@@ -110,7 +110,7 @@ CRITERIA: Final[tuple[Column[Judged], ...]] = (
     ),
     Column(
         heading="margin",
-        text=lambda judged: quantity(judged.each.verdict.margin, judged.each.verdict.unit),
+        text=lambda judged: margin_text(judged.each.verdict),
         right=True,
     ),
     Column(

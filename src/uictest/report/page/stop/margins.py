@@ -14,6 +14,7 @@ from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS, WHEELSETS
 from uictest.report.traces.trace import PlotTrace
 from uictest.report.verdict_sentences import (
     MOST_URGENT,
+    margin_text,
     missed_by_text,
     quantity,
     rig_sentence,
@@ -91,7 +92,7 @@ class Margin:
         verdict = self.verdict
         if verdict.value is None and verdict.reason:
             return verdict.reason
-        margin = f", margin {quantity(verdict.margin, verdict.unit)}" if verdict.margin else ""
+        margin = f", margin {margin_text(verdict)}" if verdict.margin else ""
         return f"{value_and_limits(verdict, word='')}{margin}"
 
     @property
