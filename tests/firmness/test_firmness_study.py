@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from uictest.analysis.firmness import Drawn, Effort, FirmnessStudy
+from uictest.judging.evaluation import CaseResult
 from uictest.plans.scenario.yaml import Quantity, parse_quantity
 from uictest.plans.sweeps import RangedNumber
+from uictest.report.firmness_sentences import firmness_sentences
 
 SMALL = Effort(blocks=4, block=64, seeds=16, seeds_at_ends=4)
 
@@ -98,6 +100,8 @@ def test_what_turns_twice_on_the_way_to_an_end_has_no_turning_value():
 
 def test_what_turns_within_and_not_at_the_ends_turns_in_draws():
     firmness = study([A], lambda a: abs(a - 2.0) - 0.5)
+    result = CaseResult("stop", "stop.yaml", {}, "pass", "pass", firmness=firmness)
+    assert any("or by one between the ends of its range" in line for line in firmness_sentences(result))
     assert firmness.turned_by == ()
     assert firmness.status == "turns"
     assert firmness.share == pytest.approx(0.9, abs=0.02)

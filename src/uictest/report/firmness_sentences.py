@@ -80,7 +80,7 @@ def _turns(verdict: VerdictFirmness) -> Iterator[str]:
     if len(turns) > _MOST_TURNS:
         yield f"and by {len(turns) - _MOST_TURNS} more numbers alone"
     if verdict.turned and not turns and verdict.status == "turns":
-        yield "by no number alone, only by several together"
+        yield "by several numbers together, or by one between the ends of its range; by none alone at an end"
 
 
 def turn_text(turn: Turn) -> str:
