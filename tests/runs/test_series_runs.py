@@ -43,6 +43,20 @@ def test_a_series_that_is_interrupted_is_not_judged_and_none_follows():
     assert (len(batch.results), len(shown), batch.interrupted) == (2, 2, True)
 
 
+@pytest.mark.usefixtures("judged")
+def test_a_series_is_shown_where_an_interrupt_ends_the_question_how_firm_it_is():
+    def interrupt(planned, result):
+        raise KeyboardInterrupt
+
+    planned = [SimpleNamespace(met=True, cases=[], stops=()) for _ in range(2)]
+    shown = []
+    batch = run_series(
+        planned, lambda cases: campaign.BatchResult(), interrupt, maxfail=None, show=shown.append
+    )
+    assert batch.interrupted
+    assert batch.results == shown == planned[:1]
+
+
 @pytest.mark.parametrize("speed", [30, 62.5, 80, 120, 155.25, 180, 350])
 def test_the_speed_of_a_stop_has_the_digits_that_its_scenario_states(speed):
     case = SimpleNamespace(scenario=SimpleNamespace(initial_speed=speed * KILOMETRE_PER_HOUR))

@@ -288,11 +288,13 @@ def run_series(
         if done.interrupted:
             batch.interrupted = True
             break
-        batch.results.append(judging_series.judge_results(each, done.results))
+        result = judging_series.judge_results(each, done.results)
         try:
-            result = batch.results[-1] = complete(each, batch.results[-1])
+            result = complete(each, result)
         except KeyboardInterrupt:
             batch.interrupted = True
-            break
+        batch.results.append(result)
         show(result)
+        if batch.interrupted:
+            break
     return batch
