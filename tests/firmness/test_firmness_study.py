@@ -185,3 +185,9 @@ def test_a_part_of_the_range_without_a_test_is_no_place_where_a_verdict_turns():
 def test_without_numbers_nothing_is_shown():
     firmness = study([], lambda: 1.0)
     assert (firmness.status, firmness.draws) == ("not_shown", 0)
+
+
+def test_nothing_is_firm_that_could_not_be_run_at_an_end():
+    full = Effort(8, 128, 16, 4)
+    firmness = study([A, B], lambda a, b: 1.0, feasible=lambda a, b: a < 5.0, effort=full)
+    assert (firmness.turned, firmness.not_run, firmness.status) == (0, ("a",), "not_shown")

@@ -96,6 +96,8 @@ def test_numbers_of_a_part_that_the_scenario_replaces_are_not_varied(numbers):
 
 
 def test_a_number_of_the_scenario_may_state_a_range_of_its_own():
-    case = short_stop("rail.gradient={value: 0 permille, range: [-2 permille, 3 permille]}")
-    [gradient] = [each for each in ranged_numbers(case.scenario) if each.key == "rail.gradient"]
-    assert (gradient.mark, gradient.nominal_place) == ("user", pytest.approx(0.4))
+    friction = "rail.friction={value: 0.06, range: [0.05, 0.09]}"
+    case = short_stop("rail.gradient={value: 0 permille, range: [-2 permille, 3 permille]}", friction)
+    own = {each.key: each for each in ranged_numbers(case.scenario) if each.mark == "user"}
+    assert own["rail.gradient"].nominal_place == pytest.approx(0.4)
+    assert own["rail.friction"].nominal_place == pytest.approx(0.25)

@@ -98,6 +98,11 @@ class _Stops:
     joint: Sequence[Drawn]
     validity: frozenset[str]
 
+    @property
+    def not_run(self) -> list[_Place]:
+        """The ends at which no stop could be run."""
+        return [place for place, drawn in self.ends.items() if all(each.outcome == "error" for each in drawn)]
+
     def usual(self, criterion: str) -> str:
         """Return what a verdict is at the nominal values, under most seeds."""
         return _usual(self.nominal, criterion)
@@ -169,6 +174,7 @@ class FirmnessStudy:
             draws=len(stops.joint),
             infeasible=outcomes["error"],
             outcomes=dict(outcomes),
+            not_run=tuple(dict.fromkeys(self.numbers[number].key for number, _ in stops.not_run)),
             seeds=effort.seeds,
             on_four_calipers=on_four_calipers,
         )
@@ -195,9 +201,11 @@ class FirmnessStudy:
         shares = [_share(joint[first : first + size]) for first in range(0, len(joint), size)]
         known = [share for share in shares if share is not None]
         counted, turned = len(joint) - joint.count(None), joint.count(False)
-        noisy = any(each.status(criterion) != nominal for each in stops.nominal)
+        noisy = any(each.outcome != "error" and each.status(criterion) != nominal for each in stops.nominal)
         turning = [place for place in stops.ends if stops.turned_at(place, criterion)]
-        at_least = _DOUBT ** (1.0 / counted) if counted and not turned else None
+        # An end that cannot be run shows nothing, whatever the draws say.
+        shown = counted and not turned and not stops.not_run
+        at_least = _DOUBT ** (1.0 / counted) if shown else None
         return {
             "criterion": criterion,
             "nominal": nominal,

@@ -118,6 +118,7 @@ class Firmness(VerdictFirmness):
         numbers: all that were varied.
         draws: number of draws of all numbers together.
         infeasible: draws whose values do not fit together.
+        not_run: keys of the numbers at an end of whose range, all others being nominal, no stop could be run.
         outcomes: of all draws: outcome -> how many; `error` counts the infeasible ones.
         seeds: of the sensors' noise, under which the nominal stop was run.
         on_four_calipers: whether all of these stops were run on the rig with four calipers: numbers of the
@@ -129,6 +130,7 @@ class Firmness(VerdictFirmness):
     numbers: tuple[NumberEffect, ...]
     draws: int
     infeasible: int
+    not_run: tuple[str, ...] = ()
     outcomes: Mapping[str, int]
     seeds: int
     on_four_calipers: bool

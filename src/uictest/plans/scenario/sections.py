@@ -23,7 +23,9 @@ from uictest.plans.scenario.yaml.quantity_field import default, field, of_kind, 
 
 def _friction_form(value: object) -> str:
     points = isinstance(value, tuple) and any(isinstance(point, dict) for point in value)
-    return "profile" if points or isinstance(value, dict | FrictionProfile) else "number"
+    marked = isinstance(value, dict) and "value" in value
+    is_profile = isinstance(value, dict | FrictionProfile) and not marked
+    return "profile" if points or is_profile else "number"
 
 
 FrictionAlongTrack = Annotated[
