@@ -45,7 +45,7 @@ def test_the_parameter_that_changed_is_named(make_run):
     )
     assert found.to_dict()["parameters"][0]["second"] == "3 km/h"
     html = comparison_html(found)
-    assert "<td>4 km/h</td><td>3 km/h</td>" in html
+    assert '<td data-label="A">4 km/h</td><td data-label="B">3 km/h</td>' in html
     assert "var uPlot=" not in html  # nothing is drawn
 
 

@@ -50,7 +50,7 @@ def _shown(terminal, *, quiet=False):
     with redirect_stdout(terminal):
         display = chosen_display(Format.TEXT, quiet=quiet, verbose=False)
         for result in (MET, MISSED):
-            display.show(result)
+            display.show(result, ())
         display.end(RunContent("run", [MET, MISSED]), "{}")
     return terminal.getvalue()
 

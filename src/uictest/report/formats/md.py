@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from uictest.core.document import Column, Document, Lines, Table
 from uictest.judging import evaluation
-from uictest.judging.series import SeriesResult
 from uictest.report import series as series_views
 from uictest.report.case_table import cases_table
 from uictest.report.close_calls import close_lines
@@ -26,6 +25,9 @@ from uictest.report.part_wording import domain_notices
 from uictest.report.requirements import REQUIREMENT_TONES, VerifiedRequirement, verified_requirements
 from uictest.report.text_tables import document_markdown
 from uictest.report.verdict_sentences import listed, reading_sentences
+
+if TYPE_CHECKING:
+    from uictest.judging.series import SeriesResult
 
 _MOST: Final = 100
 """Requirements, readings and quantities out of tolerance that a reader is shown here."""
