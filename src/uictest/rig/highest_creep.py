@@ -78,7 +78,9 @@ def _fitted(
     highest = highest_shares(end * shares, *law)
     fitted = np.polynomial.Chebyshev.fit(shares, highest, FITTED_TERMS - 1, domain=[0.0, 1.0])
     powers = fitted.convert(kind=np.polynomial.Polynomial).coef
-    return end, tuple(round(float(power), _DIGITS) for power in powers)
+    # numpy drops the highest powers where they are zero, as for a friction that does not fall.
+    kept = np.pad(powers, (0, FITTED_TERMS - powers.size))
+    return end, tuple(round(float(power), _DIGITS) for power in kept)
 
 
 def highest_shares(
