@@ -218,6 +218,7 @@ MISSING = {
     "uses_module_air": "modelled air: it cannot run rig.compensation=thermal",
     "uses_pole_wheels": "pole wheels: it cannot run rig.sensors.speed.method=whole-teeth or an eccentricity",
     "cleans_rail": "rail that sliding cleans: it cannot run rail.cleaning",
+    "varies_friction": "friction that varies at random: it cannot run rail.variation",
     "fault_count": "faults: it cannot run a scenario with any",
     "varies_pad_friction": "pads that vary: it cannot run brake.pad other than constant",
     "models_disc_temperature": "discs that warm: it cannot run brake.disc_temperature=modelled",

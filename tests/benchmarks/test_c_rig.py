@@ -62,10 +62,13 @@ def test_c_rig_refuses_the_pole_wheels_that_it_lacks():
         run_to_end(c_stop(), stop)
 
 
-def test_c_rig_refuses_a_rail_that_sliding_cleans():
+@pytest.mark.parametrize(
+    ("feature", "key"), [("cleans_rail", r"rail\.cleaning"), ("varies_friction", r"rail\.variation")]
+)
+def test_c_rig_refuses_a_rail_that_sliding_cleans_or_that_varies(feature, key):
     stop = short_stop("dry-120")
-    stop.parameters.cleans_rail = 1.0
-    with pytest.raises(ValueError, match=r"rail\.cleaning"):
+    stop.parameters[feature] = 1.0
+    with pytest.raises(ValueError, match=key):
         run_to_end(c_stop(), stop)
 
 

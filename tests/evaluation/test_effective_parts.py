@@ -76,6 +76,10 @@ def test_a_friction_or_cleaning_of_the_scenario_stands_in_place_of_the_condition
     assert not any(key.startswith("rail.condition.cleaning") for key in parameters(of(given)))
     assert changed(of(given)) == {"rail.cleaning.energy": ("9 kJ/m", "5300 J/m")}
     assert parameters(of(alone))["rail.cleaning.carry_over"].value == 0.5
+    own = "{spread: 30 %, correlation_length: 10 m, left_right_correlation: 0.5}"
+    (varied,) = cases(f"rail: {{condition: wet-varied, variation: {own}}}\n")
+    assert not any(key.startswith("rail.condition.variation") for key in parameters(of(varied)))
+    assert changed(of(varied)) == {"rail.variation.spread": ("30 %", "20 %")}
 
 
 def test_the_mark_says_whose_number_it_is(cases):

@@ -88,7 +88,7 @@ Overrides = Annotated[
     ),
 ]
 Seed = Annotated[
-    int | None, option("--seed", "Seed of the sensor noise in every case.", min=0, max=2**32 - 1)
+    int | None, option("--seed", "Seed of sensor noise and random rails in every case.", min=0, max=2**32 - 1)
 ]
 InProcess = Annotated[
     bool,

@@ -13,18 +13,14 @@ from numpy.typing import NDArray
 from uictest.controllers import CONTROLLERS, Config, ControllerProgram
 from uictest.core.record import ScenarioValue, scenario_values
 from uictest.plans.scenario import Case, Scenario
-from uictest.rig.derived_parameters import (
-    DERIVED,
-    Assignment,
-    friction_along_track,
-    friction_factor_over_time,
-)
+from uictest.rig.derived_parameters import DERIVED, Assignment
 from uictest.rig.derived_wheelset_parameters import WHEELSET_ASSIGNMENTS
 from uictest.rig.disc_parameters import DISC_BRAKE, FAULTS
 from uictest.rig.model.controller import CHOICES, EXTERNAL
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.rail import FACTORS, FRICTIONS, PLACES, ROWS, TIMES
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
+from uictest.rig.rail_friction import RAIL_FRICTION, friction_along_track, friction_factor_over_time
 from uictest.rig.single_stop import StopInputs, noise_keys
 
 
@@ -139,6 +135,7 @@ ASSIGNMENTS: tuple[Assignment, ...] = (
     *DERIVED,
     *DISC_BRAKE,
     *FAULTS,
+    *RAIL_FRICTION,
     Assignment(_set_controller, ("controller",)),
 )
 """What sets all parameters but `noise_key`."""

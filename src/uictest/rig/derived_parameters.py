@@ -7,12 +7,10 @@ two cases, neither does what it sets. It sets fields of the parameters and reads
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from uictest.core.ensemble import Ensemble
 from uictest.core.physics import REFERENCE_DENSITY, coldness, orifice_law, stiffnesses
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.scenario import (
@@ -28,7 +26,6 @@ from uictest.rig.highest_creep import highest_creep_law, resampled_transfer_func
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail import MARGIN, POINTS
 
-_ALWAYS = 1.0
 _WHEELS = 8.0
 
 Set = Callable[[Parameters, Scenario], None]
@@ -236,12 +233,6 @@ def _highest_creep(p: Parameters, scenario: Scenario) -> None:
         setattr(p, f"highest_creep_{power}", coefficient)
 
 
-@_reads("rail")
-def _friction(p: Parameters, scenario: Scenario) -> None:
-    p.friction_points = len(friction_along_track(scenario))
-    p.friction_times = len(friction_factor_over_time(scenario))
-
-
 @_reads("rail", "vehicle.bogie", "vehicle.half_pivot_distance")
 def _cleaning(p: Parameters, scenario: Scenario) -> None:
     """Numbers of :mod:`uictest.core.physics.rail`; zero where nothing is cleaned."""
@@ -264,25 +255,3 @@ def _pole_wheels(p: Parameters, scenario: Scenario) -> None:
         return method != "momentary" or eccentricity > 0.0
 
     p.uses_pole_wheels = float(any(map(differs, WHEELSET_NUMBERS)))
-
-
-def friction_along_track(scenario: Scenario) -> list[tuple[float, float]]:
-    """Return places in m and friction coefficients, linear between them; a step is two points there."""
-    friction = scenario.rail.friction
-    if friction is None:
-        return [(0.0, scenario.rail.condition.friction)]
-    if isinstance(friction, float | Ensemble):
-        return [(0.0, friction)]
-    points = [(float(point.position), float(point.friction)) for point in friction.points]
-    if friction.interpolation == "linear":
-        return points
-    steps = points[:1]
-    for (_, before), (place, after) in pairwise(points):
-        steps += [(place, before), (place, after)]
-    return steps
-
-
-def friction_factor_over_time(scenario: Scenario) -> list[tuple[float, float]]:
-    """Return times in s and factors of the friction, linear between them."""
-    law = scenario.rail.friction_over_time
-    return [(0.0, _ALWAYS)] if law is None else [(float(p.time), float(p.factor)) for p in law.points]

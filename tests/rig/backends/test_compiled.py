@@ -85,6 +85,13 @@ SETTINGS = {
         ("initial_speed=120 km/h", "rail.condition=wet-cleaning", "rail.friction=0.005"),
         {**QUICK_BRAKE, "cycles": 60},
     ),
+    "a rail that varies at random, on slippery rail": (
+        (
+            *("initial_speed=120 km/h", "rail.condition=wet-cleaning", "rail.friction=0.01"),
+            "rail.variation={spread: 40 %, correlation_length: 1 km, left_right_correlation: 0.5}",
+        ),
+        {**QUICK_BRAKE, "cycles": 40},
+    ),
     "faults of every part, each for a while": (
         (
             *("rig.sensors=pole-wheel", "rail.condition=wet", "rail.friction=0.04", "initial_speed=30 km/h"),
@@ -166,7 +173,7 @@ def test_plain_and_compiled_code_give_the_same_bits(rig, setting):
 def test_the_settings_reach_what_they_say(rig):
     """Standstill, venting and locks happen within the short stops that are compared."""
     ends = {name: rig.stop(*overrides, **fields) for name, (overrides, fields) in SETTINGS.items()}
-    standstill, slides, band, air, counted, fading, blocks, downhill, cleaned, faulty = ends.values()
+    standstill, slides, band, air, counted, fading, blocks, downhill, cleaned, varied, faulty = ends.values()
     assert standstill.measures.stopped == 1.0
     assert slides.wheelset_measures.valve_actuations.all()
     assert slides.wheelset_measures.locked_time.any()
@@ -182,6 +189,7 @@ def test_the_settings_reach_what_they_say(rig):
     assert downhill.measures.end_speed > 0.0
     assert cleaned.wheelsets["cleaned_share"].min() > 0.01
     assert cleaned.car.position > 4.0 * rig.parameters()[0].half_wheelbase
+    assert len({*varied.wheelsets["rail_factor"]}) == 4
     assert faulty.car.begun_faults == 0b1111_1111
     assert faulty.car.ended_faults == 0b1101_0001
     assert faulty.car.leaked_air > 0.0

@@ -43,6 +43,7 @@ LEAKS = (
 )
 TEETH = "faults=[{at: 1 s, wheelset: 2, part: speed-sensor, kind: missing-teeth, value: 3}]"
 CLEANED = "rail.condition=wet-cleaning"
+VARIED = "rail.variation={spread: 30 %, correlation_length: 5 m, left_right_correlation: 0}"
 VARIANTS = (
     (),
     ("rig.compensation=none", *WET),
@@ -65,6 +66,8 @@ VARIANTS = (
     (CLEANED, "rail.friction=0.05"),
     (CLEANED, "rail.friction=0.05", "vehicle=crh380a", "rail.condition.cleaning.carry_over=1"),
     (CLEANED, STEPPED, "rig.wsp=bypassed"),
+    (VARIED, *WET),
+    (VARIED, CLEANED, "rail.friction=0.05"),
     ("brake.pad=composite-block", *WET),
     ("brake.pad=disc-pad", "brake.initial_disc_temperature=240 degC"),
     ("brake.disc_temperature=modelled", *WET),

@@ -126,6 +126,24 @@ def test_keys_inside_a_fault_of_the_base_vary(load):
         assert written.tobytes() == block.parameters[place].tobytes()
 
 
+def test_the_variation_of_the_rail_varies(load):
+    """Where its spread is nothing, its other numbers change nothing."""
+    varied = "rail.variation={spread: 20 %, correlation_length: 10 m, left_right_correlation: 0.5}"
+    plan = load(
+        "matrix:\n  rail.variation.spread: [0 %, 10 %]\n"
+        "sample:\n  method: sobol\n  size: 8\n  parameters:\n"
+        "    rail.variation.correlation_length: {log-uniform: [5 m, 100 m]}\n"
+        "    rail.variation.left_right_correlation: {uniform: [0, 1]}\n",
+        varied,
+    )
+    block = BlockAssembler(plan).block(np.arange(plan.size))
+    assert block.rejections == [""] * plan.size
+    assert sorted(block.parameters["varies_friction"]) == [0.0] * 8 + [1.0] * 8
+    for place in range(plan.size):
+        written = assemble(written_out(plan, place, varied)).parameters
+        assert written.tobytes() == block.parameters[place].tobytes()
+
+
 def test_cases_that_differ_in_numbers_are_assembled_together(load, monkeypatch):
     plan = load(SWEEPS["numbers"])
     assembler = BlockAssembler(plan)

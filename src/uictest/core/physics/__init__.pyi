@@ -59,6 +59,7 @@ from .rail import (
     cleaned_friction as cleaned_friction,
     cleaned_share as cleaned_share,
     interpolated as interpolated,
+    log_normal_factor as log_normal_factor,
     share_left_behind as share_left_behind,
 )
 from .sensors import (

@@ -16,7 +16,7 @@ form of the equations is ours.
 
 from collections.abc import Sequence
 
-from uictest.core.physics.arithmetic import exp, maximum
+from uictest.core.physics.arithmetic import exp, maximum, minimum
 
 
 def interpolated(at: float, places: Sequence[float], values: Sequence[float], count: int) -> float:
@@ -33,6 +33,17 @@ def interpolated(at: float, places: Sequence[float], values: Sequence[float], co
         return values[count - 1]
     share = (at - places[i]) / (places[i + 1] - places[i])
     return values[i] + share * (values[i + 1] - values[i])
+
+
+def log_normal_factor(deviation: float, log_spread: float) -> float:
+    """Factor of mean 1 whose logarithm has a normal distribution.
+
+    Args:
+        deviation: normal, of mean 0 and variance 1.
+        log_spread: standard deviation of the logarithm.
+    """
+    logarithm = log_spread * deviation - 0.5 * log_spread * log_spread
+    return exp(minimum(logarithm, 0.0)) / exp(minimum(-logarithm, 0.0))
 
 
 def cleaned_share(share: float, loss: float, distance: float, response: float, decay: float) -> float:

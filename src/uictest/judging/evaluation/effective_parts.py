@@ -18,7 +18,7 @@ _CONDITIONS: Final = ("brake.command", "brake.position", "rail.gradient", "rig.w
 """Keys that describe a recorded stop, besides rail condition, criteria and measures."""
 
 _SECTIONS: Final = ("brake", "rail", "rig", "simulation")
-_RAIL_OVERRIDES: Final = ("friction", "cleaning")
+_RAIL_OVERRIDES: Final = ("friction", "cleaning", "variation")
 """Keys of the rail that replace what the rail condition has under the same name."""
 
 

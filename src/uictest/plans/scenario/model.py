@@ -85,7 +85,7 @@ class Scenario(TestFile):
     expect: Literal["pass", "fail", "invalid", "skipped"] = field(
         "The expected outcome; skipped: no criterion is to judge the stop.", default="pass"
     )
-    seed: int = field("Seed of the sensors' noise.", default=0, ge=0, le=2**32 - 1, strict=True)
+    seed: int = field("Seed of noise and random rails.", default=0, ge=0, le=2**32 - 1, strict=True)
     repeat: Repeat = 1
     outcome_of_repeats: OutcomeOfRepeats = "all"
     firm: bool = field(

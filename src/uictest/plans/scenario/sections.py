@@ -15,6 +15,7 @@ from uictest.plans.scenario.parts.rail import (
     Friction,
     FrictionProfile,
     RailCondition,
+    Variation,
 )
 from uictest.plans.scenario.parts.wheelsets import Sensors
 from uictest.plans.scenario.yaml import Inconsistency, Model, PartReference, Quantity, quoted, suggestion
@@ -95,6 +96,9 @@ class Rail(Model):
         "Factor on the friction coefficient over time; 1 throughout if left out."
     )
     cleaning: Cleaning | None = optional("How sliding cleans the rail; as the condition says if left out.")
+    variation: Variation | None = optional(
+        "How friction varies at random along the track; as the condition says if left out."
+    )
     gradient: Quantity = quantity(
         "Gradient of the track, positive uphill.",
         "gradient",
@@ -110,6 +114,8 @@ class Rail(Model):
             if self.friction_over_time is None
             else max(at.factor for at in self.friction_over_time.points)
         )
+        variation = self.variation_in_force
+        factor *= 1.0 if variation is None else variation.highest_factor
         if isinstance(self.friction, FrictionProfile):
             return factor * max(at.friction for at in self.friction.points)
         return factor * (self.condition.friction if self.friction is None else self.friction)
@@ -118,6 +124,12 @@ class Rail(Model):
     def cleaning_in_force(self) -> Cleaning | None:
         """How sliding cleans the rail, or None where it does not."""
         return self.condition.cleaning if self.cleaning is None else self.cleaning
+
+    @property
+    def variation_in_force(self) -> Variation | None:
+        """How friction varies at random, or None where it does not."""
+        variation = self.condition.variation if self.variation is None else self.variation
+        return None if variation is None or variation.spread == 0.0 else variation
 
     @property
     def highest_friction_after_cleaning(self) -> float:

@@ -155,7 +155,7 @@ def _sources_at(scenario: Scenario, key: Key) -> Mapping[str, Source]:
 def _is_used(scenario: Scenario, key: Key) -> bool:
     """Return whether a stop depends on the number of a part, which the scenario may replace or leave out."""
     match key:
-        case ("rail", "condition", ("friction" | "cleaning") as name, *_):
+        case ("rail", "condition", ("friction" | "cleaning" | "variation") as name, *_):
             return getattr(scenario.rail, name) is None
         case ("brake", "system", "positions", position, *_):
             return bool(position == scenario.brake.position)

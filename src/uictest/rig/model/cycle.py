@@ -30,6 +30,7 @@ from uictest.core.physics import (
 from uictest.rig.model.disc_brake import set_pad_friction
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail import FACTORS, FRICTIONS, PLACES, TIMES
+from uictest.rig.model.random_rail import vary_friction
 from uictest.rig.model.state import Car, Wheelset
 
 CHANNELS = 16
@@ -67,6 +68,8 @@ def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: An
         wheelset = wheelsets[i]
         along = interpolated(car.position - wheelset.behind, rail[PLACES], rail[FRICTIONS], p.friction_points)
         wheelset.friction = along * factor
+    if p.varies_friction > 0.0:
+        vary_friction(car, wheelsets, p)
     set_pad_friction(wheelsets, p)
 
 

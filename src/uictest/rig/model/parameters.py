@@ -233,6 +233,12 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     highest_creep_7: float = derived()
     friction_points: int = derived()  # points of the friction along the track
     friction_times: int = derived()  # points of its factor over time
+    # friction that varies at random along the track: rig.model.random_rail
+    varies_friction: float = derived()  # 0 or 1; where 0, all of the following are zero
+    variation_points_per_metre: float = derived()
+    variation_persistence: float = derived()  # correlation of two neighbouring points
+    variation_renewal: float = derived()  # share of a point that its neighbour does not decide
+    variation_log_spread: float = derived()
     # rail cleaned by sliding: physics.rail
     cleans_rail: float = derived()  # 0 or 1
     cleaning_response: float = derived()  # cleaned share per energy per metre of track, m/J

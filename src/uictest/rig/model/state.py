@@ -171,6 +171,11 @@ class Wheelset(ControlledWheelset, WheelsetParameters):
     contact_loss: float  # J
     disc_heat: float  # of brake_heat, what has warmed the modelled discs, J
     disc_cooling: float  # from the discs to the air, J
+    # friction that varies at random: rig.model.random_rail
+    rail_point: float  # the last that it has passed, counted from far behind
+    rail_deviation: float  # of the logarithm of friction at the next point, over its spread
+    rail_factor: float  # of friction at the last point
+    next_rail_factor: float
 
 
 CAR = layout_of(Car, *(controller.train_memory for controller in CONTROLLERS.values()))

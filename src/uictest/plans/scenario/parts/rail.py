@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Final, Literal
 
 from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section
 from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional, quantity, schema_field
@@ -52,6 +52,38 @@ class Cleaning(Section):
     )
 
 
+_DEVIATIONS: Final = 6.0
+"""Standard deviations of the logarithm of friction beyond which no rail is expected to be; chosen."""
+
+
+class Variation(Section):
+    """How friction varies at random along the track: log-normal, with a correlation of exp(-distance / l).
+
+    The seed of a stop and the place on the track decide it, and nothing else.
+    """
+
+    spread: Quantity = quantity(
+        "Standard deviation of the friction of one rail as a share of its mean.", "share", "0 % .. 100 %"
+    )
+    correlation_length: Quantity = quantity(
+        "l: distance over which the correlation along the track falls to 1/e.", "length", "1 m .. 10 km"
+    )
+    left_right_correlation: Quantity = quantity(
+        "Correlation of the left and the right rail; a wheelset meets the mean of both.", "number", "0 .. 1"
+    )
+
+    @property
+    def log_spread(self) -> float:
+        """Standard deviation of the logarithm of the friction that a wheelset meets."""
+        of_both = self.spread**2 * 0.5 * (1.0 + self.left_right_correlation)
+        return math.sqrt(math.log1p(of_both))
+
+    @property
+    def highest_factor(self) -> float:
+        """The highest factor on friction that is expected anywhere."""
+        return math.exp(_DEVIATIONS * self.log_spread)
+
+
 class RailCondition(Part):
     """A condition of the rail surface."""
 
@@ -67,6 +99,7 @@ class RailCondition(Part):
     reduction_slip: Share = field("kS: reduction of the creep slope in the area of slip.")
     contact: Contact = field("The contact of one wheel.")
     cleaning: Cleaning | None = optional("How sliding cleans the rail; it does not if left out.")
+    variation: Variation | None = optional("How friction varies at random; it does not if left out.")
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield reduction factors in the wrong order."""

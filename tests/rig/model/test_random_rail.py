@@ -1,0 +1,135 @@
+"""Friction that varies at random: its distribution, and that seed and place alone decide it."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings, strategies as st
+
+from uictest.rig.model.random_rail import FAR_BEHIND, vary_friction
+
+POINTS = 100_000
+DEVIATIONS = 4.0
+"""Of an estimate from what it estimates, in its own standard deviations: one in 16 000 is farther away."""
+BEHIND = (0.0, 2.5, 17.5, 20.0)
+
+
+def variation(spread=20.0, length=10.0, left_right=1.0):
+    return (
+        f"rail.variation={{spread: {spread} %, correlation_length: {length} m,"
+        f" left_right_correlation: {left_right}}}"
+    )
+
+
+@pytest.fixture(name="numbers", scope="module")
+def _numbers(rig):
+    """Return the numbers of a rail that varies, under a seed."""
+
+    def numbers(seed=1, **values):
+        record, _ = rig.parameters(variation(**values), f"seed={seed}")
+        return SimpleNamespace(**{name: record[name].tolist() for name in record.dtype.names})
+
+    return numbers
+
+
+def met(p, positions, behind=BEHIND):
+    """Factors that wheelsets meet, shape (positions, wheelsets)."""
+    wheelsets = [SimpleNamespace(behind=each, friction=0.0) for each in behind]
+    rows = []
+    for cycle, position in enumerate(positions):
+        for wheelset in wheelsets:
+            wheelset.friction = 1.0
+        vary_friction(SimpleNamespace(position=float(position), cycle=cycle), wheelsets, p)
+        rows.append([wheelset.friction for wheelset in wheelsets])
+    return np.array(rows)
+
+
+@pytest.fixture(name="track", scope="module")
+def _track(numbers):
+    """Deviations at the points of a long track, their number and the parameters."""
+    p = numbers(spread=30.0)
+    places = np.arange(POINTS) / p.variation_points_per_metre - FAR_BEHIND
+    factors = met(p, places, (0.0, 5000.0, 5000.0, 5000.0))[:, 0]
+    return p, factors, (np.log(factors) + 0.5 * p.variation_log_spread**2) / p.variation_log_spread
+
+
+def test_mean_is_one(track):
+    p, factors, _ = track
+    rho = p.variation_persistence
+    deviation = 0.3 * math.sqrt((1.0 + rho) / (1.0 - rho) / POINTS)
+    assert factors.mean() == pytest.approx(1.0, abs=DEVIATIONS * deviation)
+
+
+def test_spread_is_that_of_the_file(track):
+    p, factors, z = track
+    rho = p.variation_persistence
+    deviation = math.sqrt(2.0 * (1.0 + rho**2) / (1.0 - rho**2) / POINTS)
+    assert z.var() == pytest.approx(1.0, abs=DEVIATIONS * deviation)
+    assert factors.std() == pytest.approx(0.3, rel=DEVIATIONS * deviation)
+
+
+@pytest.mark.parametrize("distance", [1.0, 5.0, 10.0, 20.0, 200.0])
+def test_correlation_falls_with_the_distance(track, distance):
+    p, _, z = track
+    rho, lag = p.variation_persistence, round(distance * p.variation_points_per_metre)
+    found = np.corrcoef(z[:-lag], z[lag:])[0, 1]
+    expected = math.exp(-distance / 10.0)
+    # Bartlett: of a process of first order.
+    bartlett = (1.0 + rho**2) * (1.0 - rho ** (2 * lag)) / (1.0 - rho**2) - 2.0 * lag * rho ** (2 * lag)
+    assert found == pytest.approx(expected, abs=DEVIATIONS * math.sqrt(bartlett / POINTS))
+
+
+def test_logarithm_is_normal(track):
+    """Skewness and kurtosis are within what as many independent points as the track is worth show."""
+    p, _, z = track
+    rho = p.variation_persistence
+    worth = POINTS * (1.0 - rho) / (1.0 + rho)
+    assert (z**3).mean() == pytest.approx(0.0, abs=DEVIATIONS * math.sqrt(15.0 / worth))
+    assert (z**4).mean() == pytest.approx(3.0, abs=DEVIATIONS * math.sqrt(96.0 / worth))
+
+
+@pytest.mark.parametrize("left_right", [0.0, 0.5])
+def test_mean_of_two_rails_varies_less_than_one(numbers, left_right):
+    one, both = numbers(left_right=1.0), numbers(left_right=left_right)
+    spreads = [math.sqrt(math.expm1(p.variation_log_spread**2)) for p in (one, both)]
+    assert spreads == pytest.approx([0.2, 0.2 * math.sqrt(0.5 * (1.0 + left_right))])
+
+
+def test_wheelsets_meet_the_same_friction_at_the_same_place(numbers):
+    p = numbers()
+    positions = np.arange(0.0, 60.0, 0.5)
+    factors = met(p, positions)
+    for wheelset, behind in enumerate(BEHIND):
+        later = factors[round(2 * behind) :, wheelset]
+        np.testing.assert_array_equal(later, factors[: len(later), 0])
+
+
+@settings(max_examples=20)
+@given(steps=st.lists(st.floats(0.0, 7.0), min_size=1, max_size=40), start=st.floats(-900.0, 900.0))
+def test_the_way_to_a_place_has_no_part_in_its_friction(numbers, steps, start):
+    p = numbers()
+    positions = start + np.cumsum(steps)
+    np.testing.assert_array_equal(met(p, positions)[-1], met(p, positions[-1:])[0])
+
+
+def test_only_the_seed_draws_another_rail(numbers):
+    p = numbers(seed=1)
+    places = np.arange(0.0, 400.0, 50.0)
+    rail = met(p, places)
+    for name in ("noise_key", "initial_speed", "controller", "commanded_pressure"):
+        vars(p)[name] += 1
+    np.testing.assert_array_equal(met(p, places), rail)
+    other = met(numbers(seed=2), places)[:, 0]
+    assert np.abs(other - rail[:, 0]).min() > 1e-4
+
+
+def test_no_spread_multiplies_by_one(numbers):
+    p = numbers()
+    p.variation_log_spread = 0.0
+    assert (met(p, np.arange(0.0, 50.0)) == 1.0).all()
+
+
+def test_a_train_that_is_longer_than_the_way_behind_it_has_friction(numbers):
+    first = met(numbers(), [0.0], (1000.0, 1500.0, 3000.0, 4000.0))[0]
+    assert (first == first[0]).all()
