@@ -1,0 +1,1 @@
+"""The public sources: each module defines one, named `SOURCE`."""

@@ -1,0 +1,144 @@
+"""What a full-scale roller rig found of wet adhesion, beside what a law of the cleaned rail gives."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from studies.stop_runner import StopRunner
+from uictest.core.physics import cleaned_friction, creep_force, share_left_behind
+from uictest.units import KILOMETRE_PER_HOUR
+from validation.half_space import Array
+from validation.source import Comparison, Findings, Source
+
+LAWS: Final = ("wet-cleaning",)
+"""Rails of the library that change as wheels slide."""
+FRICTION = 0.08
+"""Of the contaminated rail before anything slid: that of the slip-brake test of the library."""
+SPEED = 120.0 * KILOMETRE_PER_HOUR
+PASSES = (1, 20)
+"""Wheels that pass a place at one creepage: a roller meets the same place again and again."""
+CREEPAGES: Final = np.geomspace(0.001, 0.5, 250)
+_SETTLED = 1e-9
+"""Change of the cleaned share between two rounds that ends them."""
+
+
+@dataclass(frozen=True, slots=True)
+class CreepCurve:
+    """Adhesion F/Q at every creepage, while creepage rises and while it falls again."""
+
+    loading: Array
+    unloading: Array
+
+    @property
+    def first_peak(self) -> int:
+        """Index of the first peak; the last one where adhesion only rises."""
+        falls = np.flatnonzero(np.diff(self.loading) < 0.0)
+        return int(falls[0]) if falls.size else len(CREEPAGES) - 1
+
+    @property
+    def turn(self) -> int | None:
+        """Index at which adhesion rises again behind the first peak; None where it does not."""
+        rises = np.flatnonzero(np.diff(self.loading[self.first_peak :]) > 0.0)
+        return self.first_peak + int(rises[0]) if rises.size else None
+
+
+def creep_curve(rail: Any, passes: int) -> CreepCurve:
+    """Return the creep curve of a rail that sliding changes and that has settled at each creepage."""
+    rising, share = [], 0.0
+    for creepage in CREEPAGES:
+        adhesion, share = _settled(rail, creepage, passes, share)
+        rising.append(adhesion)
+    falling = []
+    for creepage in CREEPAGES[::-1]:
+        adhesion, share = _settled(rail, creepage, passes, share)
+        falling.append(adhesion)
+    return CreepCurve(np.array(rising), np.array(falling[::-1]))
+
+
+def _settled(rail: Any, creepage: float, passes: int, share: float) -> tuple[float, float]:
+    """Return F/Q and the cleaned share of the rail, from the share at the creepage before."""
+    contact, cleaning = rail.contact, rail.cleaning
+    load = contact.reference_wheel_load
+    stiffness = (
+        math.pi / 4.0 * contact.shear_modulus * contact.semi_axis_longitudinal * contact.semi_axis_lateral
+    ) * contact.kalker_coefficient
+    law = (rail.friction_ratio, rail.friction_decay, rail.reduction_adhesion, rail.reduction_slip)
+    while True:
+        friction = cleaned_friction(FRICTION, share, cleaning.recovered_friction)
+        force, _ = creep_force(creepage * SPEED, SPEED, load, stiffness, friction, *law)
+        # Both wheels of the wheelset clean, and the loss per metre is force times creepage.
+        own, share_now = 1.0 - math.exp(-2.0 * force * creepage / cleaning.energy), 0.0
+        for _ in range(passes):
+            share_now = share_left_behind(own, share_now, cleaning.carry_over)
+        if abs(share_now - share) < _SETTLED:
+            return force / load, share_now
+        share = share_now
+
+
+def run(stop_runner: StopRunner) -> Findings:
+    """Compare every law after one pass and after many; what no law holds is a row of its own."""
+    return Findings(
+        [*(each for name in LAWS for each in _of_law(stop_runner, name)), *_not_modelled()],
+        notes=(
+            (
+                f"Initial friction {FRICTION:g}, {SPEED / KILOMETRE_PER_HOUR:.0f} km/h, the contact and the "
+                "load of the library; each creepage is held until the rail under the wheel has settled. "
+                "Speed, load and friction of the rig are not in the abstracts."
+            ),
+        ),
+    )
+
+
+def _of_law(stop_runner: StopRunner, name: str) -> Iterator[Comparison]:
+    changes = {"rail.condition": name, "rail.friction": f"{FRICTION}"}
+    rail = stop_runner.cases("slip-120", changes)[0].scenario.rail.condition
+    for passes in PASSES:
+        curve = creep_curve(rail, passes)
+        turn, label = curve.turn, f"{name}, {passes} {'pass' if passes == 1 else 'passes'}"
+        second = None if turn is None else float(curve.loading[turn:].max())
+        first = float(curve.loading[curve.first_peak])
+        yield Comparison(
+            f"creepage of least adhesion, {label}",
+            "%",
+            (5.0, 8.0),
+            None if turn is None else 100.0 * float(CREEPAGES[turn]),
+            digits=1,
+        )
+        yield Comparison(
+            f"second peak over the first, {label}",
+            "",
+            (2.0, 3.0),
+            None if second is None else second / first,
+            digits=2,
+        )
+        yield Comparison(
+            f"peak on unloading over the second, {label}",
+            "",
+            2.0,
+            None if second is None else float(curve.unloading.max()) / second,
+            digits=2,
+        )
+
+
+def _not_modelled() -> Iterator[Comparison]:
+    yield Comparison("fall of adhesion with water at 0 °C", "%", (11.0, 15.0), None)
+    yield Comparison("water above which adhesion falls no further", "mL/min", 200.0, None)
+
+
+SOURCE = Source(
+    name="roller-rig",
+    title="Wet adhesion on a full-scale roller rig",
+    place="China Railway Science 2019(2), 2022(2) and 2024(6): abstracts alone, read second-hand",
+    kind="second-hand",
+    fitted="Nothing. The numbers of the law are chosen",
+    shows="Which of the found effects a law of the cleaned rail has at all, and where it lies.",
+    does_not_show=(
+        "How well a law fits the rig: curves, water, speed and load of the rig are not in the abstracts."
+    ),
+    run=run,
+)
