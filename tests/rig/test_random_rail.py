@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from uictest.rig.backends.lanes import run_in_lanes
+
 SLIPPERY = ("initial_speed=120 km/h", "rail.condition=wet", "rail.friction=0.08")
 
 
@@ -71,6 +73,30 @@ def test_seeds_stop_at_other_distances_around_that_of_the_mean(rig):
     )
     assert both.std() > 3.0 * noise.std()
     assert abs(both.mean() / mean - 1.0) < 0.1
+
+
+def in_lanes(rig, seeds, *overrides):
+    inputs = rig.inputs(*overrides)
+    parameters = np.repeat(inputs.parameters, len(seeds))
+    parameters["seed"] = seeds
+    same = (np.repeat(each[None], len(seeds), axis=0) for each in (inputs.wheelset_parameters, inputs.rail))
+    return run_in_lanes(parameters, *same).measures["end_distance"]
+
+
+@pytest.mark.parametrize("length", [5.0, 25.0])
+def test_where_friction_alone_decides_distances_vary_as_its_mean_along_them(rig, length):
+    """Locked wheels, friction that does not fall: the formula times the sensitivity of the distance."""
+    locked = ("rig.wsp=bypassed", "rail.condition={extends: wet, friction_ratio: 1}")
+    still, better = (rig.stop(*locked, f"rail.friction={mu}").measures.end_distance for mu in (0.06, 0.0606))
+    sensitivity = np.log(still / better) / np.log(0.0606 / 0.06)
+    share = length / still
+    of_mean = 0.2 * np.sqrt(2.0 * share * (1.0 - share * (1.0 - np.exp(-1.0 / share))))
+    varied = variation(length=length, left_right=1.0)
+    distances = in_lanes(rig, np.arange(192), *locked, "rail.friction=0.06", varied)
+    deviation = 1.0 / np.sqrt(2.0 * 191.0)
+    assert distances.std(ddof=1) / distances.mean() == pytest.approx(
+        sensitivity * of_mean, rel=3.0 * deviation
+    )
 
 
 def test_friction_over_time_and_cleaning_act_on_the_friction_of_the_place(rig):
