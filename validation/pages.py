@@ -13,7 +13,7 @@ _KINDS: Final = {
     "measured": "measurement",
     "tabulated": "design table",
     "computed": "other theory",
-    "second-hand": "abstracts, second-hand",
+    "second-hand": "text, second-hand",
 }
 
 
