@@ -123,7 +123,7 @@ def _overview_row(validation: Validation) -> str:
 def _worst(found: Agreement) -> str:
     if found.worst is None:
         return "-"
-    return f"{_percent(found.worst.difference)}: {found.worst.quantity}"
+    return f"{found.worst.quantity}: {_ours(found.worst)} against {_of_source(found.worst)}"
 
 
 def table(validations: Sequence[Validation]) -> str:

@@ -59,8 +59,9 @@ def run(stop_runner: StopRunner) -> Findings:
         [slope, *forces()],
         notes=(
             (
-                "Compared at kA = kS = 1, which is theory. The reductions of the library are Polach's fit to "
-                f"measured curves; they leave of the theory's slope at zero creepage: {', '.join(shares)}."
+                "Compared at kA = kS = 1, which is theory. The reductions of the library are Polach's "
+                f"fit to measured curves; they leave of the theory's slope at zero "
+                f"creepage: {', '.join(shares)}."
             ),
         ),
     )

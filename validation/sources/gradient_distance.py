@@ -112,8 +112,9 @@ def run(stop_runner: StopRunner) -> Findings:
         _, with_law = _fitted(_BrakedCar(stop_runner, train, _PAD_LAW), train)
         comparisons += (each for of_one in of_speed.values() for each in of_one)
         notes.append(
-            f"{train.title}: pad friction {friction:.3f}, position {train.position} of `{train.brake}`. Bias "
-            f"{_biases(of_speed)}; with the pad `{_PAD_LAW}`, fitted in the same way, {_biases(with_law)}."
+            f"{train.title}: pad friction {friction:.3f}, position {train.position} of `{train.brake}`. "
+            f"Bias {_biases(of_speed)}; with the pad `{_PAD_LAW}`, fitted in the same way, "
+            f"{_biases(with_law)}."
         )
     return Findings(comparisons, notes)
 
@@ -148,9 +149,9 @@ SOURCE = Source(
     title="Stopping distances over speed and gradient",
     place=(
         "ARTC, Train Braking Application Design ESD-05-03, brake tables, as digitised in "
-        "github.com/rafidmorshedi/train-brake-curves, revision 98a22cf8, `ESD-05-03_brake_tables.xlsx`: MSP "
-        "120, a self-propelled passenger train, HSP 160, the XPT, and GW 16, a freight train of 680 m; 51 "
-        "of 2 250 distances"
+        "github.com/rafidmorshedi/train-brake-curves, revision 98a22cf8, `ESD-05-03_brake_tables.xlsx`: "
+        "MSP 120, a self-propelled passenger train, HSP 160, the XPT, and GW 16, a freight train of 680 "
+        "m; 51 of 2 250 distances"
     ),
     kind="tabulated",
     fitted=(
@@ -159,15 +160,16 @@ SOURCE = Source(
         "trains, position G of `distributor`, 24 s, for the freight train; both chosen"
     ),
     shows=(
-        "That gradient, running resistance and rotating masses enter a stop as they should: from the speed of "
-        "the fit, and but for the freight train on steep falls, distances come out. And that one constant pad "
-        "friction does not do at other speeds: the trains of the table brake harder when slow. A pad whose "
-        "friction rises as speed falls explains half of that or more."
+        "That gradient, running resistance and rotating masses enter a stop as they should: from the "
+        "speed of the fit, and but for the freight train on steep falls, distances come out. And that one "
+        "constant pad friction does not do at other speeds: the trains of the table brake harder when "
+        "slow. A pad whose friction rises as speed falls comes nearer at most of them and goes too far at "
+        "some."
     ),
     does_not_show=(
         "That a real train stops so: the table is for the design of signals, its margins and the friction "
-        "behind it are not in the digitised copy. One car stands for each train, in which a command arrives "
-        "everywhere at once; along 680 m it does not."
+        "behind it are not in the digitised copy. One car stands for each train, in which a command "
+        "arrives everywhere at once; along 680 m it does not."
     ),
     run=run,
 )

@@ -91,8 +91,8 @@ SOURCE = Source(
         "the stiffness is the theory's"
     ),
     shows=(
-        "Whether two reductions can stand for a soft layer on the rail, and whether they carry over to other "
-        "speeds."
+        "Whether two reductions can stand for a soft layer on the rail, and whether they carry over to "
+        "other speeds."
     ),
     does_not_show=(
         "How near the program is to the locomotive: the measured points are not public in numbers. The wet "

@@ -43,8 +43,8 @@ SOURCE = Source(
     ),
     kind="measured",
     fitted=(
-        "Friction of the rail (0.1651), pressure of the emergency application, valves and thresholds of the "
-        "WSP: time and distance were targets of the calibration. The decelerations were not"
+        "Friction of the rail (0.1651), pressure of the emergency application, valves and thresholds of "
+        "the WSP: time and distance were targets of the calibration. The decelerations were not"
     ),
     shows="One setting of the rig meets the time and the distance of this stop at once.",
     does_not_show=(

@@ -86,9 +86,9 @@ def run(stop_runner: StopRunner) -> Findings:
         [*(each for name in LAWS for each in _of_law(stop_runner, name)), *_not_modelled()],
         notes=(
             (
-                f"Initial friction {FRICTION:g}, {SPEED / KILOMETRE_PER_HOUR:.0f} km/h, the contact and the "
-                "load of the library; each creepage is held until the rail under the wheel has settled. "
-                "Speed, load and friction of the rig are not in the abstracts."
+                f"Initial friction {FRICTION:g}, {SPEED / KILOMETRE_PER_HOUR:.0f} km/h, the contact and "
+                "the load of the library; each creepage is held until the rail under the wheel has "
+                "settled. Speed, load and friction of the rig are not in the abstracts."
             ),
         ),
     )
@@ -102,6 +102,13 @@ def _of_law(stop_runner: StopRunner, name: str) -> Iterator[Comparison]:
         turn, label = curve.turn, f"{name}, {passes} {'pass' if passes == 1 else 'passes'}"
         second = None if turn is None else float(curve.loading[turn:].max())
         first = float(curve.loading[curve.first_peak])
+        yield Comparison(
+            f"creepage from which adhesion falls, {label}",
+            "%",
+            0.5,
+            100.0 * float(CREEPAGES[curve.first_peak]),
+            digits=1,
+        )
         yield Comparison(
             f"creepage of least adhesion, {label}",
             "%",

@@ -54,8 +54,8 @@ SOURCE = Source(
     name="slide-order",
     title="Wheelsets that slide first",
     place=(
-        "Lee and Kang, PLoS ONE 10(8) e0135459, 2015, text on Fig 8: in one stop, slides of wheelsets 2 and 4 "
-        "alone; read in a copy of the text"
+        "Lee and Kang, PLoS ONE 10(8) e0135459, 2015, text on Fig 8: in one stop, slides of wheelsets 2 "
+        "and 4 alone; read in a copy of the text"
     ),
     kind="second-hand",
     fitted="Nothing. The height of the traction link was set so that all four slide in `slide-80`",
