@@ -16,7 +16,7 @@ from validation.pages import overview, page, table
 from validation.source import Source, Validation
 
 _FOLDER: Final = Path(__file__).parent
-_TABLE: Final = _FOLDER.parent / "src" / "uictest" / "selftest" / "validation.json"
+_TABLE: Final = _FOLDER.parent / "src" / "uictest" / "selftest" / "public_sources.json"
 
 
 def find_sources() -> dict[str, Source]:

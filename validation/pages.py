@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from validation.source import TOLERANCE, Agreement, Comparison, Validation
 
-SCHEMA: Final = "uictest/public-validation/1"
+SCHEMA: Final = "uictest/public-sources/1"
 _KINDS: Final = {
     "measured": "measurement",
     "tabulated": "design table",
@@ -99,7 +99,7 @@ def overview(validations: Sequence[Validation]) -> str:
             ),
             "The pages and this table are written by\n",
             "    python -m validation\n",
-            "which needs a checkout and no network, and is checked by a test. `selftest/validation.json` of",
+            "which needs a checkout and no network, and is checked by a test. `selftest/public_sources.json` of",
             "the package holds the table.\n",
         )
     )
