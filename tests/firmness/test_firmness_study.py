@@ -113,6 +113,18 @@ def test_a_verdict_that_turns_over_the_seeds_is_noise_whatever_the_numbers_do():
     assert outcome.turned_by == ()
 
 
+def test_every_draw_meets_a_random_rail_of_its_own():
+    """Draws on one rail, here that of seed 0, do not tell that every hundredth rail turns the verdict."""
+
+    def judge(columns, seeds):
+        statuses = ["fail" if seed and seed % 100 == 99 else "pass" for seed in seeds]
+        return [Drawn(each, {"limit": each}) for each in statuses]
+
+    fixed, varied = (FirmnessStudy([A], judge, random_rail=each).run() for each in (False, True))
+    assert (fixed.status, fixed.turned) == ("firm", 0)
+    assert (varied.status, varied.turned, varied.counted) == ("turns", 10, 1024)
+
+
 def test_draws_that_are_no_test_do_not_count_but_turn_the_criterion_of_validity():
     firmness = study([A, B], lambda a, b: 1.0, validity=lambda a, b: 3.0 - b)
     outcome, counts, limit = firmness, *firmness.criteria

@@ -88,6 +88,27 @@ def test_a_case_is_as_firm_however_many_threads_there_are():
     assert not one.on_four_calipers
 
 
+def test_draws_of_a_random_rail_meet_one_rail_each():
+    varied = "rail.variation={spread: {value: 20 %, range: [10 %, 40 %]}, correlation_length: 10 m, "
+    case = short_stop(f"{varied}left_right_correlation: 0.5}}")
+    assert "rail.variation.spread" in {each.key for each in ranged_numbers(case.scenario)}
+    seeds = []
+
+    class Noted(FirmnessRun):
+        def _study(self, cases, numbers, judge, profiles):
+            def noting(columns, of_stops):
+                seeds.append(list(of_stops))
+                return judge(columns, of_stops)
+
+            return super()._study(cases, numbers, noting, profiles)
+
+    Noted(1, effort=SMALL).of_case(case)
+    assert list(range(8)) in seeds
+    seeds.clear()
+    Noted(1, effort=SMALL).of_case(short_stop())
+    assert [0] * 8 in seeds
+
+
 def test_numbers_of_a_part_that_the_scenario_replaces_are_not_varied(numbers):
     assert "rail.condition.friction" not in numbers
     assert "brake.system.positions.R.maximum_pressure" in numbers

@@ -56,6 +56,19 @@ def test_a_stretch_that_begins_behind_the_brake_command_has_one_before_it(case):
     assert [each["position"] for each in points["points"]] == ["-21 m", "-20 m"]
 
 
+def test_a_fitted_rail_varies_no_more_at_random(tmp_path):
+    """What it was is in the friction that was found."""
+    path = tmp_path / "own.yaml"
+    path.write_text(HEAD.format(name="own") + "rail: {condition: wet-varied}\n", "utf-8")
+    [case] = load([path])
+    fitted = tmp_path / "fitted.yaml"
+    fitted.write_text(fitted_yaml(case, {}, fit(("found", 0.07)), path, tmp_path), "utf-8")
+    [read] = load([fitted])
+    assert case.scenario.rail.variation_in_force is not None
+    assert read.scenario.rail.variation_in_force is None
+    assert friction_of(fit(("at least", 0.2)), case.scenario) == 0.3
+
+
 @pytest.mark.parametrize("length", [5, 100])
 @pytest.mark.parametrize("stop", [None, ("t" * 100, "79 km/h")])
 def test_a_fitted_scenario_has_a_name_that_scenarios_can_have(tmp_path, length, stop):

@@ -19,7 +19,7 @@ _MOST_NUMBERS: Final = 12
 _WORDS: Final = {
     "firm": "firm",
     "turns": "not firm",
-    "noise": "not firm: it turns over the seeds of the sensors' noise at the nominal values, too",
+    "noise": "not firm: it turns over the seeds (noise, random rail) at the nominal values, too",
     "not_shown": "not shown to be firm",
 }
 

@@ -15,6 +15,9 @@ _VARIATION_SPACING: Final = 2.0
 _SHARE_OF_LENGTH: Final = 0.1
 """The same as a share of the correlation length: chosen, for a variance between points 3 % lower."""
 
+_DIGITS: Final = 12
+"""Decimals that are kept: they are alike on every machine."""
+
 
 def _friction(p: Parameters, scenario: Scenario) -> None:
     p.friction_points = len(friction_along_track(scenario))
@@ -30,11 +33,11 @@ def _variation(p: Parameters, scenario: Scenario) -> None:
     if variation is not None:
         length = float(variation.correlation_length)
         spacing = min(_VARIATION_SPACING, length * _SHARE_OF_LENGTH)
-        persistence = math.exp(-spacing / length)
+        persistence = round(math.exp(-spacing / length), _DIGITS)
         p.variation_points_per_metre = 1.0 / spacing
         p.variation_persistence = persistence
         p.variation_renewal = math.sqrt(1.0 - persistence**2)
-        p.variation_log_spread = variation.log_spread
+        p.variation_log_spread = round(variation.log_spread, _DIGITS)
 
 
 def friction_along_track(scenario: Scenario) -> list[tuple[float, float]]:

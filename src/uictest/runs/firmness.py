@@ -51,7 +51,7 @@ class FirmnessRun:
             results = stops.results(dict(zip(stops.numbers, columns, strict=True)), seeds)
             return [drawn(each.outcome, each.criteria) for [each] in results]
 
-        return self._study(stops.numbers, judge, case.scenario.judged_by, stops.on_four_calipers)
+        return self._study([stops], stops.numbers, judge, case.scenario.judged_by)
 
     def of_series(self, planned: series_plans.Series) -> Firmness:
         """Return how firm the verdicts of a series are; a number that several of its cases have is one."""
@@ -67,15 +67,14 @@ class FirmnessRun:
                 verdicts += [_judged(planned, each) for each in zip(*of_cases, strict=True)]
             return verdicts
 
-        four = any(each.on_four_calipers for each in cases)
-        return self._study(numbers, judge, planned.file.criteria, four)
+        return self._study(cases, numbers, judge, planned.file.criteria)
 
     def _study(
         self,
+        cases: Sequence[_VariedStops],
         numbers: Mapping[_Identity, RangedNumber],
         judge: Callable[[Sequence[Column], Sequence[int]], list[Drawn]],
         profiles: Sequence[scenario.Criteria],
-        on_four_calipers: bool,
     ) -> Firmness:
         validity = frozenset(
             criterion.id
@@ -83,8 +82,9 @@ class FirmnessRun:
             for criterion in profile.criteria
             if criterion.layer == "validity"
         )
-        study = FirmnessStudy(list(numbers.values()), judge, validity, self.effort)
-        return study.run(on_four_calipers=on_four_calipers)
+        random_rail = any(each.varied.case.scenario.rail.variation_in_force for each in cases)
+        study = FirmnessStudy(list(numbers.values()), judge, validity, self.effort, random_rail)
+        return study.run(on_four_calipers=any(each.on_four_calipers for each in cases))
 
 
 @dataclass(frozen=True)

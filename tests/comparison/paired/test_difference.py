@@ -1,6 +1,7 @@
 """Differences of pairs against SciPy, against statistics by hand, and against the truth they estimate."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,10 @@ from hypothesis import given, strategies as st
 from scipy import stats
 
 from uictest.analysis.comparison import Draw, paired_group
+from uictest.analysis.comparison.paired.drawn_stops import drawn_stops
+from uictest.judging.evaluation import EffectiveParts
+from uictest.plans.scenario import load
+from uictest.running.campaign import run_cases
 
 NUMBERS = st.floats(-1e6, 1e6, allow_nan=False)
 
@@ -90,6 +95,38 @@ def test_stops_under_other_conditions_that_met_the_same_noise_count_as_one_draw(
     sides = ({draw: {"locked_time_s": shift + draw.seed} for draw in draws} for shift in (0.0, 1.0))
     group = paired_group("x", *sides)
     assert (group.pairs, group.draws) == (6, 3)
+
+
+@pytest.mark.parametrize(("random_rail", "draws"), [(False, 6), (True, 3)])
+def test_stops_on_random_rails_are_one_draw_for_each_seed(random_rail, draws):
+    """Seed and place alone decide the rail, so that it is the same one under other sensor noise."""
+    sides = (
+        {
+            Draw("", key, seed, varies): {"locked_time_s": shift + seed}
+            for key in ("ab", "cd")
+            for seed in (1, 2, 3)
+        }
+        for shift, varies in ((0.0, False), (1.0, random_rail))
+    )
+    group = paired_group("x", *sides)
+    assert (group.pairs, group.draws) == (6, draws)
+
+
+@pytest.mark.parametrize(
+    ("rail", "varies"),
+    [
+        ("rail.condition=wet", False),
+        ("rail.condition=wet-varied", True),
+        ("rail.variation={spread: 9 %, correlation_length: 9 m, left_right_correlation: 0}", True),
+        ("rail.variation={spread: 0 %, correlation_length: 9 m, left_right_correlation: 0}", False),
+    ],
+)
+def test_a_result_tells_whether_its_rail_varies_at_random(tmp_path, rail, varies):
+    path = tmp_path / "stop.yaml"
+    path.write_text("schema: uictest/scenario/1\nname: stop\ninitial_speed: 9 km/h\n", "utf-8")
+    [case] = load([path], [rail])
+    [(draw, _)] = drawn_stops(replace(run_cases([case]).results[0], parts=EffectiveParts().of(case.scenario)))
+    assert draw.random_rail == varies
 
 
 @pytest.mark.parametrize(

@@ -102,14 +102,20 @@ def test_the_deceleration_of_a_constant_brake_is_constant_to_the_ends_of_what_wa
     assert np.isnan(deceleration(time, np.where(time < 5.0, speed, np.nan))[-1])
 
 
-@pytest.mark.parametrize(("share", "drawn"), [(0.0, False), (0.3, True)])
-def test_the_rail_is_drawn_only_where_sliding_has_cleaned_it(share, drawn):
+@pytest.mark.parametrize(
+    ("share", "rise", "drawn"),
+    [(0.0, 0.0, set()), (0.3, 0.0, {"friction", "cleaned_share"}), (0.0, 0.01, {"friction"})],
+)
+def test_the_rail_is_drawn_only_where_sliding_has_cleaned_it_or_it_varies(share, rise, drawn):
     """Elsewhere the friction that a wheelset meets is what was set, and the share is nothing."""
     plain = make_recording()
-    of_rail = {f"friction_{n}": np.full_like(plain["time"], 0.08 + 0.2 * share) for n in (1, 2, 3, 4)}
+    friction = 0.08 + 0.2 * share + rise * (plain["time"] > 0.0)
+    of_rail = {f"friction_{n}": friction for n in (1, 2, 3, 4)}
     of_rail |= {f"cleaned_share_{n}": np.full_like(plain["time"], share) for n in (1, 2, 3, 4)}
     units = dict.fromkeys(of_rail, "1")
     record = Recording({**plain.channels, **of_rail}, {**plain.units, **units}, plain.metadata)
     curves = trace_of(record).curves
-    assert {name for name in of_rail if name in curves} == (set(of_rail) if drawn else set())
+    assert {name for name in of_rail if name in curves} == {
+        f"{each}_{n}" for each in drawn for n in range(1, 5)
+    }
     assert set(trace_of(plain).curves) == set(curves) - set(of_rail)

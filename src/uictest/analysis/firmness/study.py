@@ -145,13 +145,14 @@ class FirmnessStudy:
         judge: runs stops.
         validity: ids of the criteria that say whether a stop is a test.
         effort: how many stops.
-
+        random_rail: whether friction varies at random, so that every draw has a seed of its own.
     """
 
     numbers: Sequence[RangedNumber]
     judge: JudgeDraws
     validity: frozenset[str] = frozenset()
     effort: Effort = field(default_factory=Effort)
+    random_rail: bool = False
 
     def run(self, *, on_four_calipers: bool = False) -> Firmness:
         """Run all stops and return what they show. Arguments as for :class:`Firmness`."""
@@ -162,7 +163,7 @@ class FirmnessStudy:
         stops = _Stops(
             self._drawn(np.full((effort.seeds, count), np.nan), range(effort.seeds)),
             dict(zip(places, at_ends, strict=True)),
-            self._drawn(points, [0] * len(points)),
+            self._drawn(points, range(len(points)) if self.random_rail else [0] * len(points)),
             self.validity,
         )
         criteria = [each for each in stops.nominal[0].statuses if stops.usual(each) in _DECIDED]

@@ -12,7 +12,7 @@ from uictest.judging.evaluation.json_values import OptionalNumber, absent_if_emp
 
 FirmnessStatus = Literal["firm", "turns", "noise", "not_shown"]
 """firm: no value at an end of its range, and no draw of all of them, turns the verdict. turns: one does.
-noise: it turns over the seeds of the sensors' noise at the nominal values, too. not_shown: nothing turned it,
+noise: it turns over the seeds at the nominal values, too. not_shown: nothing turned it,
 in too few draws that count."""
 
 

@@ -114,8 +114,6 @@ class Rail(Model):
             if self.friction_over_time is None
             else max(at.factor for at in self.friction_over_time.points)
         )
-        variation = self.variation_in_force
-        factor *= 1.0 if variation is None else variation.highest_factor
         if isinstance(self.friction, FrictionProfile):
             return factor * max(at.friction for at in self.friction.points)
         return factor * (self.condition.friction if self.friction is None else self.friction)
@@ -134,8 +132,8 @@ class Rail(Model):
     @property
     def highest_friction_after_cleaning(self) -> float:
         """The highest friction coefficient that a wheelset can meet."""
-        cleaning = self.cleaning_in_force
-        found = self.highest_friction
+        cleaning, variation = self.cleaning_in_force, self.variation_in_force
+        found = self.highest_friction * (1.0 if variation is None else variation.highest_factor)
         return found if cleaning is None else max(found, cleaning.recovered_friction)
 
 

@@ -16,7 +16,7 @@ from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import evaluation
 from uictest.plans import library
 from uictest.plans.scenario import EXPANSION_KEYS, PART_KEYS, Case, Cleaning, Scenario
-from uictest.plans.scenario.yaml import dotted
+from uictest.plans.scenario.yaml import dotted, quantities_in
 from uictest.recorded.field_data import RecordedStop, of_wheelsets
 from uictest.recorded.fitting.fit import CleaningFit, Fit
 from uictest.rig import SimulatedStop
@@ -115,6 +115,10 @@ def fitted_yaml(
     _assign(content, "rail.friction_over_time", None)
     if cleaning is not None:
         _assign(content, "rail.cleaning", _numbers_of(cleaning.in_force))
+    if (variation := case.scenario.rail.variation_in_force) is not None:
+        numbers = {dotted(key): value.text for key, value in quantities_in(variation)}
+        # What the rail was is fitted: nothing of it is left to chance.
+        _assign(content, "rail.variation", numbers | {"spread": "0 %"})
     if stop is not None:
         _assign(content, "initial_speed", stop[1])
     if fit.pad_factor is not None:

@@ -58,8 +58,8 @@ PLOT_QUANTITIES = {
 }
 """Channel, less the number of the wheelset -> how it is shown. The deceleration is derived from the speed."""
 
-OF_CLEANED_RAIL = ("friction", "cleaned_share")
-"""Quantities that are drawn only where sliding has cleaned the rail: elsewhere they are what was set."""
+OF_RAIL = ("friction", "cleaned_share")
+"""Quantities that are drawn where sliding has cleaned the rail; the first also where it varies otherwise."""
 
 
 @dataclass(frozen=True, slots=True)

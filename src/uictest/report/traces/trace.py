@@ -14,7 +14,7 @@ from uictest.judging import evaluation
 from uictest.report.causes import label_words
 from uictest.report.traces.moments import Moments, moments_of
 from uictest.report.traces.quantities import (
-    OF_CLEANED_RAIL,
+    OF_RAIL,
     PLOT_QUANTITIES,
     WHEELSETS,
     channel_names,
@@ -243,8 +243,9 @@ def _derived(record: recording.Recording) -> dict[str, Series]:
 
 
 def _in_units(channels: Mapping[str, Series]) -> dict[str, Series]:
-    shares = (channels[name] for name in channel_names("cleaned_share") if name in channels)
-    hidden = () if any(np.any(share > 0.0) for share in shares) else OF_CLEANED_RAIL
+    is_cleaned = any(np.any(share > 0.0) for share in _of(channels, "cleaned_share"))
+    varies = any(map(_changes, _of(channels, "friction")))
+    hidden = () if is_cleaned else OF_RAIL[varies:]
     with np.errstate(over="ignore"):
         return {
             name: (np.asarray(channels[name], dtype=np.float64) - quantity.zero) / quantity.scale
@@ -252,6 +253,15 @@ def _in_units(channels: Mapping[str, Series]) -> dict[str, Series]:
             for name in channel_names(key)
             if name in channels and key not in hidden
         }
+
+
+def _changes(samples: Series) -> bool:
+    known = samples[np.isfinite(samples)]
+    return bool(np.any(known != known[:1]))
+
+
+def _of(channels: Mapping[str, Series], key: str) -> list[Series]:
+    return [channels[name] for name in channel_names(key) if name in channels]
 
 
 def _drawn_rows(signals: Sequence[Series]) -> slice | Rows:

@@ -63,6 +63,7 @@ class PairedGroup:
     """The pairs of one case, or of the stops of a series from one speed.
 
     `draws` counts the draws of noise: fewer than `pairs` where stops under other conditions met the same one.
+    Stops on random rails meet the same one under the same seed, whatever else differs.
     `unpaired` counts the stops of the first and of the second side without a partner.
     """
 
@@ -79,11 +80,12 @@ def paired_group(name: str, first: Stops, second: Stops) -> PairedGroup:
     common = [draw for draw in first if draw in second and draw.noise_key and draw.seed is not None]
     if len(common) < FEWEST_PAIRS:
         raise ValueError(_why_too_few(first, second, len(common)))
+    random_rail = any(draw.random_rail for draw in (*first, *second))
     return PairedGroup(
         name,
         tuple(sorted({draw.seed for draw in common if draw.seed is not None})),
         len(common),
-        len({draw[1:] for draw in common}),
+        len({draw.seed if random_rail else (draw.noise_key, draw.seed) for draw in common}),
         (len(first) - len(common), len(second) - len(common)),
         tuple(_differences([(first[draw], second[draw]) for draw in common])),
     )
@@ -127,7 +129,8 @@ def _why_too_few(first: Stops, second: Stops, common: int) -> str:
             return f"no stop of the {side} side has measures"
         if not any(draw.noise_key for draw in stops):
             return f"the noise of the {side} side is not known: recorded, or run by an earlier version"
-    if not {draw[:2] for draw in first} & {draw[:2] for draw in second}:
+    met = ({(draw.conditions, draw.noise_key) for draw in stops} for stops in (first, second))
+    if not set.intersection(*met):
         return (
             "the stops met other noise: initial speed, pressure, wheel load, a wheelset's radius, brake force"
             " or pads, or the friction of the rail differ"

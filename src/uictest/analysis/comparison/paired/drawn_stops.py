@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Final, NamedTuple
+from dataclasses import dataclass, field
+from typing import Final
 
 from uictest.core.measures import column_unit
 from uictest.judging import evaluation
@@ -15,27 +16,43 @@ LARGEST: Final = "largest_"
 _BALANCES: Final = frozenset({"energy_residual", "air_residual", "air_energy_residual"})
 """Columns that check the simulation and say nothing of the stop."""
 
+_SPREADS: Final = ("rail.variation.spread", "rail.condition.variation.spread")
+"""Keys of the spread of a random rail; the first replaces the second."""
+
 Figures = Mapping[str, float]
 """Quantities of one stop -> number in the unit of the column, NaN where there is none."""
 
 
-class Draw(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Draw:
     """What two stops must share to be a pair.
 
     `conditions` tells the stops of a series apart; it is empty for the stops of one case. `noise_key` is
-    empty where it is not known.
+    empty where it is not known. `random_rail` says whether friction varies at random, by the seed alone.
     """
 
     conditions: str
     noise_key: str
     seed: int | None
+    random_rail: bool = field(default=False, compare=False)
 
 
 def drawn_stops(case: evaluation.CaseResult, conditions: str = "") -> Iterator[tuple[Draw, Figures]]:
     """Yield the stops of a case that have measures: a case without repeats is one stop."""
+    random_rail = _has_random_rail(case)
     for seed, measures, wheelsets in _stops(case):
         if measures is not None:
-            yield Draw(conditions, case.noise_key, seed), _figures(measures, wheelsets)
+            yield Draw(conditions, case.noise_key, seed, random_rail), _figures(measures, wheelsets)
+
+
+def _has_random_rail(case: evaluation.CaseResult) -> bool:
+    spreads = {
+        each.key: each.value
+        for part in case.parts.values()
+        for each in part.parameters
+        if each.key in _SPREADS
+    }
+    return next((bool(spreads[key]) for key in _SPREADS if key in spreads), False)
 
 
 def quantity_unit(quantity: str) -> str:
