@@ -99,8 +99,8 @@ def overview(validations: Sequence[Validation]) -> str:
             ),
             "The pages and this table are written by\n",
             "    python -m validation\n",
-            "which needs a checkout and no network, and is checked by a test. `selftest/public_sources.json` of",
-            "the package holds the table.\n",
+            "which needs a checkout and no network, and is checked by a test. The package holds the table as",
+            "`selftest/public_sources.json`.\n",
         )
     )
 
