@@ -80,7 +80,7 @@ class RigEnv(gymnasium.Env[Observation, NDArray[np.int64]]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
-        """Begin a stop; its sensor noise is drawn from the environment's generator, which `seed` sets."""
+        """Begin a stop; noise and random rail come from the environment's generator, which `seed` sets."""
         super().reset(seed=seed)
         inputs = self.rig.reset(int(self.np_random.integers(2**32)))
         return self._observation(inputs), _info(self.rig.state)

@@ -37,7 +37,7 @@ def load(
         paths: scenario files or folders [default: `scenarios`]; series in folders are left out.
         set: dotted key -> value in every scenario: a text as in a file (`90 %`), a number where a key is a
             pure number, or a list of them, which becomes an axis.
-        seed: of the sensor noise in every case, 0 to 2^32 - 1.
+        seed: of sensor noise and random rails in every case, 0 to 2^32 - 1.
         select: expression over ids, file names and tags, as `-k`.
         tag: expression over tags, as `-m`.
         trust: folders that scenarios may refer to, besides their own and the working folder.
@@ -97,7 +97,7 @@ def simulate(
         what: scenario file, or a case from :func:`uictest.load`.
         case: id of the case, where the file has several.
         set: dotted key -> value, as for :func:`uictest.load`; for files.
-        seed: of the sensor noise, 0 to 2^32 - 1 [default: the scenario's].
+        seed: of sensor noise and random rails, 0 to 2^32 - 1 [default: the scenario's].
         trust: folders that the scenario may refer to, besides its own and the working folder.
         record: samples per second, 1 to 100000.
 

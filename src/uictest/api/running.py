@@ -57,7 +57,7 @@ def run(
         what: scenario files, `*.series.yaml` files or folders, one or several [default: the folder
             `scenarios`]; or cases from :func:`uictest.load`.
         set: dotted key -> value or list of values in every scenario, as for :func:`uictest.load`.
-        seed: of the sensor noise in every case, 0 to 2^32 - 1.
+        seed: of sensor noise and random rails in every case, 0 to 2^32 - 1.
         repeat: run the stop of every case so many times, 1 to 1000, under its seed and those that follow.
         select: expression over ids, file names and tags, as `-k`.
         tag: expression over tags, as `-m`.

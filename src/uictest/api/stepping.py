@@ -124,8 +124,8 @@ class Rig:
         """Begin a stop and return what the sensors show at the brake command.
 
         Args:
-            seed: of the sensor noise, 0 to 2^32 - 1; None: that of the scenario. The same seed gives the same
-                stop, to the bit.
+            seed: of sensor noise and random rails, 0 to 2^32 - 1; None: that of the scenario. The same seed
+                gives the same stop, to the bit.
 
         Raises ValueError for another seed. The first call on a machine compiles the rig (about 15 s).
         """

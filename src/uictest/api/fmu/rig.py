@@ -81,7 +81,7 @@ VARIABLES: Final = (
         Variable("clamping_force", "stop.modules.clamping_force", "Clamping force of one caliper", "N"),
         Variable("brake_torque", "stop.modules.brake_torque", "Brake torque of the wheelset", "N.m"),
     ),
-    Variable("seed", "stop.parameters.seed", "Seed of the sensor noise", "", "integer", "parameter"),
+    Variable("seed", "stop.parameters.seed", "Seed of noise and random rails", "", "integer", "parameter"),
 )
 """In the order of their value references, from 0."""
 

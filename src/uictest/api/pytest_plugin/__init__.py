@@ -28,7 +28,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         metavar="KEY=VALUE",
         help="Set a key in every scenario, as `uictest run --set` does. May be repeated.",
     )
-    group.addoption("--uictest-seed", type=int, metavar="N", help="Seed of the sensor noise in every case.")
+    group.addoption(
+        "--uictest-seed", type=int, metavar="N", help="Seed of noise and random rail in all cases."
+    )
     group.addoption("--uictest-repeat", type=int, metavar="N", help="Run the stop of every case N times.")
     group.addoption(
         "--uictest-strict", action="store_true", help="Fail also where a verdict is not settled (--strict)."

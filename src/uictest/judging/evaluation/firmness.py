@@ -120,7 +120,7 @@ class Firmness(VerdictFirmness):
         infeasible: draws whose values do not fit together.
         not_run: keys of the numbers at an end of whose range, all others being nominal, no stop could be run.
         outcomes: of all draws: outcome -> how many; `error` counts the infeasible ones.
-        seeds: of the sensors' noise, under which the nominal stop was run.
+        seeds: under which the nominal stop was run.
         on_four_calipers: whether all of these stops were run on the rig with four calipers: numbers of the
             caliper, its tank or the valves vary, for which the compensation was not identified.
 
