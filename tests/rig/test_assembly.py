@@ -199,6 +199,14 @@ def test_cleaning_is_that_of_the_rail_condition_unless_given(rig):
     assert own == pytest.approx([1.0, 1e-4, 0.3, 0.5, 0.25])
 
 
+def test_what_a_random_rail_takes_of_libm_is_rounded(rig):
+    """The last bits of exponential and logarithm differ between machines."""
+    p = rig.parameters("rail.condition=wet-varied")[0]
+    assert p.variation_persistence == round(np.exp(-0.1), 12)
+    # Of 20 %, left and right correlated by half, the mean varies by 20 % x sqrt(3 / 4).
+    assert p.variation_log_spread == round(np.sqrt(np.log1p(0.03)), 12)
+
+
 @pytest.mark.parametrize("vehicle", ["intercity-180", "manchester-benchmark", "crh380a"])
 def test_the_memory_of_the_rail_reaches_from_each_wheelset_to_the_next(rig, vehicle):
     """Its ring holds the longest gap, and its points lie closer than the shortest."""

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from uictest.rig.model.random_rail import FAR_BEHIND, vary_friction
+from uictest.rig.model.cycle import sensor_noise
+from uictest.rig.model.random_rail import FAR_BEHIND, RAIL_KEY, innovation, vary_friction
 
 POINTS = 100_000
 DEVIATIONS = 4.0
@@ -122,6 +123,30 @@ def test_only_the_seed_draws_another_rail(numbers):
     np.testing.assert_array_equal(met(p, places), rail)
     other = met(numbers(seed=2), places)[:, 0]
     assert np.abs(other - rail[:, 0]).min() > 1e-4
+
+
+def test_deviations_follow_the_equation_from_the_first_point_on(track):
+    p, _, z = track
+    rho = p.variation_persistence
+    drawn = np.array([innovation(p, point) for point in range(4)])
+    np.testing.assert_allclose(z[0], drawn[0], rtol=1e-9)
+    np.testing.assert_allclose(z[1:4], rho * z[:3] + math.sqrt(1.0 - rho**2) * drawn[1:], rtol=1e-9)
+
+
+def test_friction_is_linear_between_two_points(numbers):
+    """Points are 1 m apart, on whole metres."""
+    first, quarter, last = met(numbers(), [10.0, 10.25, 11.0])[:, 0]
+    assert abs(last - first) > 1e-3
+    assert quarter == pytest.approx(0.75 * first + 0.25 * last)
+
+
+def test_no_sensor_has_the_draws_of_the_rail(numbers):
+    """Not even in a case whose key happens to be that of the rail."""
+    p = numbers()
+    p.noise_key = RAIL_KEY
+    of_rail = [innovation(p, point) for point in range(5)]
+    for channel in range(1024):
+        assert [sensor_noise(p, cycle, channel) for cycle in range(5)] != of_rail
 
 
 def test_no_spread_multiplies_by_one(numbers):

@@ -21,7 +21,7 @@ from uictest.rig.model.state import Car, Wheelset
 
 FAR_BEHIND = 1000.0
 """Distance from the first point to the first wheelset at the brake command, m; chosen: no train is longer."""
-_CASE = 0x7261696C
+RAIL_KEY = 0x7261696C
 """Key that stands where sensors have that of their case."""
 _CHANNEL = 1 << 31
 """Noise channel above those of all sensors."""
@@ -60,5 +60,5 @@ def _pass_point(wheelset: Wheelset, p: Parameters) -> None:
 
 def innovation(p: Parameters, point: int) -> float:
     """Return xi, of mean 0 and variance 1, for a point of the track under a seed."""
-    word_0, word_1 = threefry(p.seed, _CASE, point, _CHANNEL)
+    word_0, word_1 = threefry(p.seed, RAIL_KEY, point, _CHANNEL)
     return bell(word_0, word_1)
