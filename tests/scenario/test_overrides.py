@@ -172,9 +172,12 @@ def test_the_cleaning_of_a_condition_is_changed_key_by_key_that_of_the_rail_as_a
     ]
 
 
-def test_a_rail_that_cleaning_improves_is_long_enough_for_a_stop(loaded, refused, head):
+def test_a_rail_that_cleaning_or_chance_improves_is_long_enough_for_a_stop(loaded, refused, head):
     """Whether a stop can end is asked of the best friction that a wheelset may meet."""
     slippery = "rail: {condition: wet, friction: 0.002}\nsimulation: {maximum_duration: 100 s}\n"
     own = "{energy: 8 kJ/m, recovered_friction: 0.3, reach: 1 m, carry_over: 0}"
     assert any("cannot end" in diagnostic.message for diagnostic in refused(head + slippery))
     assert loaded(head + slippery, f"rail.cleaning={own}")
+    varied = "rail.variation={spread: %d %%, correlation_length: 1 km, left_right_correlation: 1}"
+    assert loaded(head + slippery, varied % 100)
+    assert any("cannot end" in each.message for each in refused(head + slippery, varied % 0))
