@@ -3,7 +3,8 @@
 import csv
 import io
 
-from hypothesis import given, settings, strategies as st
+import pytest
+from hypothesis import example, given, settings, strategies as st
 from markdown_it import MarkdownIt
 
 from uictest.core.document import Column, Document, Lines, Table
@@ -85,7 +86,16 @@ def test_prose_holds_no_markup(text):
     assert kinds <= {"text"}
 
 
+@pytest.mark.parametrize("text", ["--", "- a", "+ a", "1. a", "12) a", "===", " ---"])
+def test_a_sentence_begins_no_block(text):
+    tokens = _READER.parse(f"- {prose(text)}\n")
+    assert [each.type for each in tokens].count("list_item_open") == 1
+    [inline] = [each for each in tokens if each.type == "inline"]
+    assert "".join(child.content for child in inline.children or []) == text.strip()
+
+
 @given(st.lists(_TEXT, min_size=1, max_size=5))
+@example(["--"])
 def test_a_document_holds_no_markup_but_its_own(texts):
     kinds = {
         kind.removesuffix("_open").removesuffix("_close")

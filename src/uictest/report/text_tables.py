@@ -35,6 +35,7 @@ def _cell(value: Cell) -> str:
 _LONGEST = 300  # characters of one text in a cell
 _BACKTICKS = re.compile("`+")
 _ACTIVE = re.compile(r"[\\`*_{}\[\]<>#|~&@!$^]|:(?! |$)")
+_BEGINS_BLOCK = re.compile(r"^(?:[-+=]|\d(?=\d*[.)]))")
 _RESERVE = 200  # bytes kept for the line that says what was left out
 
 
@@ -140,7 +141,12 @@ def code(text: str) -> str:
 
 def prose(text: str) -> str:
     """Return a text with every character that Markdown or HTML could act upon as an entity."""
-    return _ACTIVE.sub(lambda match: f"&#{ord(match.group())};", _cut(printable(text)))
+    inert = _ACTIVE.sub(_entity, _cut(printable(text)).strip())
+    return _BEGINS_BLOCK.sub(_entity, inert)
+
+
+def _entity(match: re.Match[str]) -> str:
+    return f"&#{ord(match.group())};"
 
 
 def number_cell(value: float | None, form: str) -> str:
