@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from uictest.core.document import Cell, Column, Table
+from uictest.core.document import Cell, Column, Document, Lines, Table
 from uictest.report.escaping import printable
 
 if TYPE_CHECKING:
@@ -57,6 +58,31 @@ def firmness_property(result: CaseResult | SeriesResult) -> dict[str, str]:
         return {"firmness": "not_shown"}  # what was varied came to another outcome
     turns = [f"{each.key} {each.side} {each.value or each.stands_to}" for each in firmness.turned_by]
     return {"firmness": ": ".join(filter(None, (firmness.status, ", ".join(turns))))}
+
+
+class FirmPair(NamedTuple):
+    """How firm it is which of two stops, named by the ids of their cases, comes to less."""
+
+    first: str
+    second: str
+    firmness: Firmness
+
+    def document(self) -> Document:
+        """Return which comes to less of each quantity, what turns that, and the numbers by their effect."""
+        sentences = [*map(self._sentence, self.firmness.criteria), *_remarks(self.firmness)]
+        told = [f"{self.second} against {self.first}, under the same noise and the same draws", *sentences]
+        return Document(
+            "Firm or not", [Lines([printable(each) for each in told]), firmness_table(self.firmness)]
+        )
+
+    def _sentence(self, verdict: VerdictFirmness) -> str:
+        words = {"pass": f"less with {self.first}", "fail": f"less with {self.second}", "same": "the same"}
+        by = "" if verdict.margin is None else f" by {_percent(abs(verdict.margin))} of {self.first}"
+        said = (
+            f"{verdict.criterion}: {words[verdict.nominal]}{by}, which is {_status(verdict, self.firmness)}"
+        )
+        turns = tuple(replace(turn, to=words[turn.to]) for turn in verdict.turned_by)
+        return "; ".join([said, *_turns(replace(verdict, turned_by=turns))])
 
 
 def _status(verdict: VerdictFirmness, firmness: Firmness) -> str:

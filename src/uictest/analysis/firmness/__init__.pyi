@@ -1,3 +1,4 @@
+from .pair import COMPARED as COMPARED, compared as compared
 from .study import (
     Drawn as Drawn,
     Effort as Effort,

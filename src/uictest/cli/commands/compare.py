@@ -12,7 +12,9 @@ import typer
 from uictest import report, runs
 from uictest.analysis import comparison
 from uictest.cli.options import (
+    Jobs,
     ListFormat,
+    Overrides,
     PlainFormat,
     ToleranceTexts,
     Verbose,
@@ -21,7 +23,9 @@ from uictest.cli.options import (
     tolerances_of,
 )
 from uictest.cli.output import ExitCode, data, message, terminal_width
+from uictest.cli.progress import TerminalObserver
 from uictest.core import files
+from uictest.running import campaign
 
 
 def compare(
@@ -39,6 +43,15 @@ def compare(
             "Compare the variants of run A that differ in KEY, such as controller. May be repeated.",
         ),
     ] = None,
+    firm: Annotated[
+        bool,
+        option(
+            "--firm",
+            "With --over, of a scenario A: whether numbers nobody measured turn which variant is better.",
+        ),
+    ] = False,
+    overrides: Overrides = None,
+    jobs: Jobs = "auto",  # type: ignore[assignment]  # typer hands the text to the option's parser
     page: Annotated[
         Path | None,
         option("--html FILE", "Also write a page, with overlay plots of A and B."),
@@ -50,6 +63,8 @@ def compare(
 
     With --over, compare the variants of one run, stop by stop under the same noise.
     """
+    if firm or overrides:
+        return compare_firmly(first, second, over or (), overrides or (), jobs, shown, page)
     if over:
         _require_one_run(second, tolerance, channels)
         return compare_variants(first, over, shown, page)
@@ -133,6 +148,38 @@ def compare_variants(place: Path, keys: Sequence[str], shown: PlainFormat, page:
     counts = report.counted(groups, "group of stops", "groups of stops")
     message(f"uictest: {counts} of {report.counted(len(compared) + 1, 'variant')} paired")
     return ExitCode.MET if groups else ExitCode.NOTHING_SELECTED
+
+
+def compare_firmly(
+    place: Path,
+    second: Path | None,
+    keys: Sequence[str],
+    overrides: Sequence[str],
+    jobs: int,
+    shown: PlainFormat,
+    page: Path | None,
+) -> ExitCode:
+    """Print how firm it is which variant of a scenario is better; the exit code does not depend on it."""
+    if not keys:
+        raise typer.BadParameter(
+            "say which variants: --over KEY, such as --over controller", param_hint="--firm"
+        )
+    if second is not None or page is not None:
+        raise typer.BadParameter("takes one scenario and writes no page", param_hint="--firm")
+    if not runs.why_no_run(place):
+        raise runs.InvalidInputError(
+            f"{place}: --firm runs stops anew: name a scenario, not the folder of a run"
+        )
+    settings = campaign.RunSettings(jobs=jobs)
+    cases = runs.load_cases([place], overrides)
+    pairs = runs.firm_pairs(cases, keys, settings, TerminalObserver())
+    if shown is PlainFormat.JSON:
+        data(runs.firm_pairs_json(list(pairs)))
+        return ExitCode.MET
+    for pair in pairs:
+        for line in report.document_lines(pair.document(), terminal_width(sys.stdout)):
+            data(line)
+    return ExitCode.MET
 
 
 def _run(folder: Path) -> report.RunContent:
