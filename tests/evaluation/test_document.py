@@ -53,6 +53,7 @@ WHEELSET = [
     "valve_actuations",
     "maximum_clamping_force_n",
     "maximum_disc_temperature_degc",
+    "dynamic_energy_kj",
     "air_vented_nl",
 ]
 

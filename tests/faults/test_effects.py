@@ -28,6 +28,7 @@ NOTHING = {
     "pressure_offset": 0.0,
     "silent": 0.0,
     "release_time": math.inf,
+    "dynamic_failed": 0.0,
 }
 """Sensors that read true, valves that open and close as commanded, no leak, a controller that is heard."""
 NO_VALUE = ""
@@ -61,6 +62,7 @@ FAULTS = [
     ("brake", "cut-out", NO_VALUE, {"fill_at_most": 0.0, "vent_at_least": 1.0}),
     ("controller", "silent", "2 s", {"silent": 1.0, "release_time": 2.0}),
     ("controller", "silent", NO_VALUE, {"silent": 1.0}),
+    ("dynamic-brake", "failed", NO_VALUE, {"dynamic_failed": 1.0}),
 ]
 
 

@@ -47,14 +47,15 @@ NOT_OF_A_SENSOR = "brake-force-returns"
 
 def judged(tmp_path, part, kind, controller="threshold"):
     """The stop from 80 km/h on a slippery rail with a fault of wheelset 2 from 3 s on."""
-    own = "" if part in ("brake-line", "controller") else ", wheelset: 2"
+    own = "" if part in ("brake-line", "controller", "dynamic-brake") else ", wheelset: 2"
+    brake = "brake: {dynamic: {force: 60 kN, power: 1.6 MW}}\n" if part == "dynamic-brake" else ""
     value = f", value: {VALUES[part, kind]}" if (part, kind) in VALUES else ""
     sensors = "{speed: {method: whole-teeth}, extends: standard}" if kind == "missing-teeth" else "standard"
     path = tmp_path / "stop.yaml"
     path.write_text(
         "schema: uictest/scenario/1\nname: stop\ninitial_speed: 80 km/h\n"
         f"rail: {{condition: wet, friction: 0.09}}\nrig: {{sensors: {sensors}}}\ncontroller: {controller}\n"
-        f"criteria: [uictest-wsp-faults, uictest-stop]\n"
+        f"{brake}criteria: [uictest-wsp-faults, uictest-stop]\n"
         f"faults: [{{at: 3 s, part: {part}, kind: {kind}{own}{value}}}]\n"
     )
     [case] = load([path])

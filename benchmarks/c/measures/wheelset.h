@@ -17,7 +17,7 @@ static inline void begin_wheelset(WheelsetMeasures *m)
     m->sliding_duration = m->locked_time = m->longest_lock = m->lock = 0.0;
     m->valve_actuations = m->venting = m->maximum_clamping_force = 0.0;
     m->pressure_saturation = m->loadcell_saturation = 0.0;
-    m->air_vented = m->maximum_disc_temperature = NAN;
+    m->air_vented = m->dynamic_energy = m->maximum_disc_temperature = NAN;
     m->faulty = m->release = 0.0;
     m->longest_release = NAN;
 }

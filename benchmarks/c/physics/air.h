@@ -53,6 +53,11 @@ OURS real demanded_pressure(real time, real commanded_pressure, real dead_time, 
     return commanded_pressure * clamp((time - dead_time) * filling_rate, number(0.0), number(1.0));
 }
 
+OURS real friction_pressure(real pressure, real share, real zero_force_pressure)
+{
+    return pressure - share * maximum(pressure - zero_force_pressure, number(0.0));
+}
+
 OURS real relay_opening(real demanded_pressure, real pressure, real gain)
 {
     return clamp((demanded_pressure - pressure) * gain, number(-1.0), number(1.0));

@@ -64,15 +64,18 @@ static inline double rail_work(const Wheelset *wheelset, const Parameters *p)
 {
     double turned = kinetic_energy(p->wheelset_inertia, wheelset->rotation);
     double turned_first = kinetic_energy(p->wheelset_inertia, p->initial_speed / wheelset->wheel_radius);
-    return wheelset->brake_heat + wheelset->contact_loss + (turned - turned_first);
+    double braked = wheelset->brake_heat + wheelset->dynamic_energy;
+    return braked + wheelset->contact_loss + (turned - turned_first);
 }
 
 static inline double energy_residual(const Car *car, const Bogie *bogies, const Wheelset *wheelsets,
                                      const Parameters *p)
 {
     double lost = car->damper_loss + car->resistance_loss;
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < 4; i++) {
         lost += wheelsets[i].brake_heat + wheelsets[i].contact_loss;
+        lost += wheelsets[i].dynamic_energy;
+    }
     return (stored_energy(car, bogies, wheelsets, p) + lost - car->initial_energy) / car->initial_energy;
 }
 

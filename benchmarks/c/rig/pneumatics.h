@@ -109,7 +109,8 @@ OURS void fill_line(Car *car, Flows flows, real drawn, real drawn_enthalpy, cons
 
 OURS void step_air(Car *car, Wheelset *wheelsets, const Parameters *p)
 {
-    car->demanded_pressure = demanded_pressure(car->time, p->commanded_pressure, p->dead_time, p->filling_rate);
+    car->command_pressure = demanded_pressure(car->time, p->commanded_pressure, p->dead_time, p->filling_rate);
+    car->demanded_pressure = friction_pressure(car->command_pressure, car->blended_share, p->zero_force_pressure);
     Flows flows[4];
     for (int i = 0; i < 4; i++)
         flows[i] = step_valve(&wheelsets[i], car, p);

@@ -73,15 +73,20 @@ OURS real couple_wheelset(Wheelset *wheelset, Bogie *bogie, Car *car, const Para
     car->damper_loss += p->step * fma(p->primary_longitudinal_damping * rate, rate,
                                       p->primary_vertical_damping * rise_rate * rise_rate);
     wheelset->wheel_load = maximum(fma(-0.5, lift, p->static_wheel_load), LOWEST_LOAD * p->reference_load);
-    wheelset->torque =
+    real friction_torque =
         wheelset->brake_force * brake_torque(wheelset->clamping_force, p->calipers_per_wheelset, p->pads_per_caliper,
                                              wheelset->pad_friction, p->disc_radius);
+    wheelset->torque = friction_torque + wheelset->dynamic_torque;
     return -pull - gradient_force(p->wheelset_mass, p->gradient, p->gravity);
 }
 
-/* Returns the torque that the brake transmits, and the mean rotation of the discs over the step. */
-OURS real step_wheelset(Wheelset *wheelset, Bogie *bogie, real thrust, real sliding_force, const Slip *slip,
-                        real *disc_rotation, const Parameters *p)
+/* What the brakes of a wheelset do in a step: both torques, and the mean rotation of the discs. */
+typedef struct {
+    real friction, dynamic, rotation;
+} Braking;
+
+OURS Braking step_wheelset(Wheelset *wheelset, Bogie *bogie, real thrust, real sliding_force, const Slip *slip,
+                           const Parameters *p)
 {
     real speed = wheelset->speed;
     real rotation = wheelset->rotation;
@@ -102,16 +107,17 @@ OURS real step_wheelset(Wheelset *wheelset, Bogie *bogie, real thrust, real slid
     wheelset->position += p->step * wheelset->speed;
     real turning = 0.5 * (rotation + wheelset->rotation);
     wheelset->angle += p->step * turning;
-    *disc_rotation = turning + bogie->pitch_rate;
     wheelset->contact_loss += p->step * creep * (0.5 * (speed + wheelset->speed) - wheelset->wheel_radius * turning);
     bogie->moment -= braking;
-    return braking;
+    real dynamic = direction * wheelset->dynamic_torque;
+    return (Braking){braking - dynamic, dynamic, turning + bogie->pitch_rate};
 }
 
-OURS void heat_disc(Wheelset *wheelset, const Bogie *bogie, real braking, real rotation, const Parameters *p)
+OURS void account_for_brakes(Wheelset *wheelset, const Bogie *bogie, Braking braking, const Parameters *p)
 {
-    real rubbing = fma(number(0.5), bogie->pitch_change, rotation);
-    wheelset->brake_heat += p->step * braking * rubbing;
+    real rubbing = fma(number(0.5), bogie->pitch_change, braking.rotation);
+    wheelset->brake_heat += p->step * braking.friction * rubbing;
+    wheelset->dynamic_energy += p->step * braking.dynamic * rubbing;
 }
 
 OURS void step_body(Car *car, const Parameters *p)

@@ -178,6 +178,7 @@ _KINDS = (
     _kind("frequency", "Hz", _unit("Hz", 1)),
     _kind("inverse speed", "s/m", _unit("s/m", 1)),
     _kind("energy", "J", _unit("kJ", 1000), _unit("J", 1), _unit("MJ", 1_000_000)),
+    _kind("power", "W", _unit("kW", 1000), _unit("W", 1), _unit("MW", 1_000_000)),
     _kind("energy per length", "J/m", _unit("J/m", 1), _unit("kJ/m", 1000)),
     _kind("film coefficient", "W/(m2 K)", _unit("W/(m2 K)", 1)),
     _kind("heat conductance", "W/K", _unit("W/K", 1)),

@@ -16,6 +16,8 @@ MOST_FAULTS: Final = 8
 """Faults that a stop can have."""
 SPEED_SENSOR: Final = "speed-sensor"
 """The part without which the controller cannot protect a wheelset by its own speed."""
+DYNAMIC_BRAKE: Final = "dynamic-brake"
+"""The part that a car need not have."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +41,7 @@ class Effects:
         pressure_offset: added to it, gauge, Pa.
         silent: 1 where the valves keep the last command of the controller.
         release_time: silence after which they fill, s.
+        dynamic_failed: 1 where the dynamic brake of the car gives nothing.
     """
 
     speed_valid: float = 1.0
@@ -60,6 +63,7 @@ class Effects:
     pressure_offset: float = 0.0
     silent: float = 0.0
     release_time: float = math.inf
+    dynamic_failed: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,18 +216,8 @@ _ROWS: Final = (
         _valued(lambda value: Effects(fill_at_most=1.0 - value)),
         _SHARE_OF_AREA,
     ),
-    FaultKind(
-        "vent-valve",
-        "stuck-open",
-        "The exhaust never closes.",
-        _always(Effects(vent_at_least=1.0)),
-    ),
-    FaultKind(
-        "vent-valve",
-        "stuck-closed",
-        "The exhaust never opens.",
-        _always(Effects(vent_at_most=0.0)),
-    ),
+    FaultKind("vent-valve", "stuck-open", "The exhaust never closes.", _always(Effects(vent_at_least=1.0))),
+    FaultKind("vent-valve", "stuck-closed", "The exhaust never opens.", _always(Effects(vent_at_most=0.0))),
     FaultKind(
         "vent-valve",
         "blocked",
@@ -288,6 +282,13 @@ _ROWS: Final = (
         "No command reaches the valves: they keep the last one for `value`, then they fill.",
         _valued(lambda value: Effects(silent=1.0, release_time=value), Effects(silent=1.0)),
         FaultValue("time", "0 s", "3600 s", without="they keep it as long as the fault lasts"),
+        of_wheelset=False,
+    ),
+    FaultKind(
+        DYNAMIC_BRAKE,
+        "failed",
+        "The motors of the car stop braking at once; the friction brake takes over.",
+        _always(Effects(dynamic_failed=1.0)),
         of_wheelset=False,
     ),
 )

@@ -16,6 +16,7 @@ from uictest.plans.scenario import Case, Scenario
 from uictest.rig.derived_parameters import DERIVED, Assignment
 from uictest.rig.derived_wheelset_parameters import WHEELSET_ASSIGNMENTS
 from uictest.rig.disc_parameters import DISC_BRAKE, FAULTS
+from uictest.rig.dynamic_brake_parameters import DYNAMIC_BRAKE
 from uictest.rig.model.controller import CHOICES, EXTERNAL
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.rail import FACTORS, FRICTIONS, PLACES, ROWS, TIMES
@@ -136,6 +137,7 @@ ASSIGNMENTS: tuple[Assignment, ...] = (
     *DISC_BRAKE,
     *FAULTS,
     *RAIL_FRICTION,
+    *DYNAMIC_BRAKE,
     Assignment(_set_controller, ("controller",)),
 )
 """What sets all parameters but `noise_key`."""

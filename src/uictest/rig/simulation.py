@@ -13,6 +13,7 @@ from uictest.rig.model.trace import (
     CAR_CHANNELS,
     CONTROLLER_CHANNELS,
     DISC_CHANNELS,
+    DYNAMIC_BRAKE_CHANNELS,
     FAULT_CHANNELS,
     WHEELSET_CHANNELS,
 )
@@ -94,6 +95,7 @@ def _recorded(case: Case, *, from_outside: bool) -> tuple[dict[str, str], dict[s
     missing = {
         *(() if from_outside else CONTROLLER_CHANNELS),
         *(() if case.scenario.brake.models_disc_temperature else DISC_CHANNELS),
+        *(() if case.scenario.brake.dynamic else DYNAMIC_BRAKE_CHANNELS),
         *(() if case.scenario.faults else FAULT_CHANNELS),
     }
     return (

@@ -44,6 +44,8 @@ LEAKS = (
 TEETH = "faults=[{at: 1 s, wheelset: 2, part: speed-sensor, kind: missing-teeth, value: 3}]"
 CLEANED = "rail.condition=wet-cleaning"
 VARIED = "rail.variation={spread: 30 %, correlation_length: 5 m, left_right_correlation: 0}"
+MOTORS = "brake.dynamic={force: 60 kN, power: 1.6 MW, wheelsets: [1, 4]}"
+FAILING = "faults=[{at: 2 s, part: dynamic-brake, kind: failed}]"
 VARIANTS = (
     (),
     ("rig.compensation=none", *WET),
@@ -75,6 +77,8 @@ VARIANTS = (
     (LEAKS, *WET),
     (LEAKS, "rig.topology=four-caliper", "controller=slip-band", *WET),
     (TEETH, "rig.sensors=pole-wheel", *WET),
+    (MOTORS, *WET),
+    (MOTORS, FAILING, "rig.wsp=bypassed"),
 )
 
 WITHOUT_COMPILER = """

@@ -90,6 +90,7 @@ class WheelsetMeasures(Record):
     venting: float  # 1 while the vent is commanded open
     maximum_clamping_force: float  # of one caliper, N
     air_vented: float  # kg
+    dynamic_energy: float  # taken by the dynamic brake, where there is one, J
     pressure_saturation: float  # time for which its pressure sensor is limited by its range, s
     loadcell_saturation: float  # the same of the loadcells of its caliper, s
     maximum_disc_temperature: float  # of the friction surface, where modelled, K

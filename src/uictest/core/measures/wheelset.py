@@ -43,6 +43,7 @@ def begin_wheelset(measures: WheelsetMeasures) -> None:
     measures.pressure_saturation = 0.0
     measures.loadcell_saturation = 0.0
     measures.maximum_disc_temperature = NAN
+    measures.dynamic_energy = NAN
     measures.faulty = 0.0
     measures.release = 0.0
     measures.longest_release = NAN

@@ -46,6 +46,7 @@ from .disc_brake import (
     relaxed_share as relaxed_share,
     torque as torque,
 )
+from .dynamic_brake import dynamic_force as dynamic_force, friction_pressure as friction_pressure
 from .polach import (
     FITTED_TERMS as FITTED_TERMS,
     contact_stiffness as contact_stiffness,

@@ -70,6 +70,7 @@ from .parts.compensation import (
     ModuleAir as ModuleAir,
 )
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion
+from .parts.dynamic_brake import DynamicBrake as DynamicBrake
 from .parts.external_controller import ExternalController as ExternalController
 from .parts.fault import Fault as Fault
 from .parts.measures import MeasureDefinitions as MeasureDefinitions

@@ -12,6 +12,7 @@ from typing import Any, Final, NamedTuple
 from uictest.core import physics
 from uictest.core.physics import REFERENCE_DENSITY, orifice_law
 from uictest.core.units import STANDARD_GRAVITY
+from uictest.plans.faults import DYNAMIC_BRAKE
 from uictest.plans.scenario.files import Files
 from uictest.plans.scenario.parts.brake import BrakeSystem, Caliper, Disc
 from uictest.plans.scenario.parts.compensation import Compensation
@@ -81,6 +82,12 @@ def impossible_faults(scenario: Any) -> Iterator[Inconsistency]:
                 f"the train never runs at {fault.at.text}: it begins to brake at"
                 f" {scenario.initial_speed.text}",
                 "write a lower speed, or `at: 0 s` for a fault throughout the stop",
+            )
+        if fault.part == DYNAMIC_BRAKE and scenario.brake.dynamic is None:
+            yield Inconsistency(
+                ("faults", place, "part"),
+                "this car has no dynamic brake",
+                "give it one: brake.dynamic: {force: 60 kN, power: 1.6 MW}",
             )
         if fault.wheelset is not None and fault.effects.lost_teeth > 0.0:
             yield from _without_teeth(scenario, place, fault)

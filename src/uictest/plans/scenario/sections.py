@@ -1,5 +1,6 @@
 """The sections of a scenario: brake, rail, rig and simulation."""
 
+import math
 from collections.abc import Iterator
 from typing import Annotated, Final, Literal
 
@@ -8,6 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from uictest.plans.scenario.parts.brake import BrakeSystem, Caliper
 from uictest.plans.scenario.parts.compensation import Compensation
+from uictest.plans.scenario.parts.dynamic_brake import DynamicBrake
 from uictest.plans.scenario.parts.pad import DiscTemperature, Pad
 from uictest.plans.scenario.parts.rail import (
     Cleaning,
@@ -48,6 +50,9 @@ class Brake(Model):
     pad: Annotated[Pad, PartReference(Pad, "constant")] = field(
         "How pad friction varies: a library name, a relative path or an inline mapping."
     )
+    dynamic: DynamicBrake | None = optional(
+        "The dynamic brake, blended with the friction brake; none if left out."
+    )
     disc_temperature: Literal["constant", "modelled"] | None = optional(
         "Whether the discs warm up; if left out, they do where the pad's friction depends on it."
     )
@@ -59,6 +64,11 @@ class Brake(Model):
     def commanded_pressure(self) -> float:
         """Pressure of the brake line once the brake is fully applied, gauge, Pa."""
         return self.command * self.system.positions[self.position].maximum_pressure
+
+    @property
+    def developed_pressure(self) -> float:
+        """Pressure of the brake line that shows a developed brake, Pa; NaN beside a dynamic brake."""
+        return float(self.commanded_pressure) if self.dynamic is None else math.nan
 
     @property
     def models_disc_temperature(self) -> bool:

@@ -85,7 +85,7 @@ def observe(stop: RecordedStop, judged_under: scenario.Scenario) -> Observed:
     replay = Replay(
         samples_of(recording.channels, highest_forces),
         definition,
-        float(judged_under.brake.commanded_pressure),
+        judged_under.brake.developed_pressure,
     )
     for _ in replay.pass_samples(inf if stop.standstill is None else stop.standstill[0]):
         pass

@@ -153,13 +153,14 @@ def _torque(recording: Recording, scenario: Scenario, part: slice, width: int) -
     """Return the brake torque by the clamping forces and the scenario's pads, else as recorded.
 
     It is averaged like the speeds, so that both sides of a balance are. Of pads that vary with speed or
-    temperature the forces alone do not say the torque.
+    temperature, and beside a dynamic brake, the forces alone do not say the torque.
     """
     disc = scenario.brake.system.disc
     pads = of_wheelsets(scenario, "pad_friction") * of_wheelsets(scenario, "brake_force")
     per_force = disc.calipers_per_wheelset * disc.pads_per_caliper * disc.mean_radius * pads
     sources = (("clamping_force", per_force), ("brake_torque", np.ones_like(per_force)))
-    for kind, factor in sources[1:] if scenario.brake.pad.varies else sources:
+    by_torque_alone = scenario.brake.pad.varies or scenario.brake.dynamic is not None
+    for kind, factor in sources[1:] if by_torque_alone else sources:
         names = [f"{kind}_{n}" for n in WHEELSETS]
         if all(name in recording.channels and np.isfinite(recording[name]).all() for name in names):
             samples = [_smoothed(np.asarray(recording[name])[part], width) for name in names]

@@ -46,6 +46,7 @@ PLOT_QUANTITIES = {
     "tank_pressure": PlotQuantity("tank", "bar", BAR, of_wheelsets=True, decimals=2),
     "cylinder_pressure": PlotQuantity("cylinder", "bar", BAR, of_wheelsets=True, decimals=2),
     "clamping_force": PlotQuantity("clamping force", "kN", KILONEWTON, of_wheelsets=True, decimals=2),
+    "dynamic_torque": PlotQuantity("dynamic brake", "N m", of_wheelsets=True, decimals=0),
     "deceleration": PlotQuantity("deceleration", "g", decimals=3),
     "adhesion": PlotQuantity("adhesion", "1", of_wheelsets=True, decimals=3),
     "friction": PlotQuantity("friction", "1", of_wheelsets=True, decimals=3),
@@ -88,6 +89,7 @@ PANELS = (
         1.3,
     ),
     Panel("force", "Clamping force of one caliper", "kN", ("clamping_force",)),
+    Panel("torque", "Torque of the dynamic brake on one wheelset", "N m", ("dynamic_torque",)),
     Panel("deceleration", "Deceleration (bold) and adhesion", "g", ("adhesion", "deceleration"), 1.2),
     Panel("rail", "Friction met (cleaned share dotted)", "dimensionless", ("cleaned_share", "friction")),
     Panel(

@@ -11,6 +11,7 @@ from uictest.core.lanes import align_stack, copy_from_lane, copy_to_lane, lane, 
 from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import command_valves, read_pole_wheels, read_sensors, start_cycle
 from uictest.rig.model.disc_brake import warm_discs
+from uictest.rig.model.dynamic_brake import brake_dynamically, demand_dynamic_brake
 from uictest.rig.model.faults import (
     falsify_readings,
     let_air_leak,
@@ -135,6 +136,7 @@ def _run_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> None:
     follows_air = False
     warms_discs = False
     leaks = False
+    brakes_dynamically = False
     _update_faults(lanes, cases, running)
     read_sensors(car, wheelsets, settings)
     if _any_pole_wheel(cases, running):
@@ -155,13 +157,18 @@ def _run_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> None:
             follows_air = follows_air or p.uses_module_air > 0.0
             warms_discs = warms_discs or p.models_disc_temperature > 0.0
             leaks = leaks or p.has_leaks > 0.0
+            brakes_dynamically = brakes_dynamically or p.has_dynamic_brake > 0.0
     command_valves(car, wheelsets, settings)
+    if brakes_dynamically:
+        _demand_dynamic_brakes(lanes, cases, running)
     _limit_valves(lanes, cases, running)
     for _ in range(steps):
         if follows_air:
             follow_module_air(car, wheelsets, settings)
         if leaks:
             let_air_leak(car, wheelsets, settings)
+        if brakes_dynamically:
+            brake_dynamically(wheelsets, settings)
         step(car, bogies, wheelsets, settings)
     if warms_discs:
         warm_discs(wheelsets, settings)
@@ -175,6 +182,15 @@ def _update_faults(lanes: Lanes, cases: Cases, running: Any) -> None:
         if case != _IDLE and cases.parameters[case].fault_count > 0:
             car, wheelsets = lane(lanes.rig.car, k), lane(lanes.rig.wheelsets, k)
             update_faults(car, wheelsets, cases.parameters[case], cases.wheelset_parameters[case])
+
+
+def _demand_dynamic_brakes(lanes: Lanes, cases: Cases, running: Any) -> None:
+    """Divide lane by lane the force between both brakes."""
+    for k in range(running.size):
+        case = running[k]
+        if case != _IDLE and cases.parameters[case].has_dynamic_brake > 0.0:
+            car, wheelsets = lane(lanes.rig.car, k), lane(lanes.rig.wheelsets, k)
+            demand_dynamic_brake(car, wheelsets, cases.parameters[case])
 
 
 def _limit_valves(lanes: Lanes, cases: Cases, running: Any) -> None:

@@ -22,6 +22,7 @@ from uictest.rig.backends.machine_code import Entries, Unit, address, native_fun
 from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.cycle import command_valves, read_pole_wheels, read_sensors
 from uictest.rig.model.disc_brake import warm_discs
+from uictest.rig.model.dynamic_brake import brake_dynamically
 from uictest.rig.model.faults import let_air_leak
 from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.parameters import PARAMETERS
@@ -207,6 +208,7 @@ def _translated() -> tuple[Any, Any, Any, Any]:
         command_valves,
         follow_module_air,
         let_air_leak,
+        brake_dynamically,
         step,
         warm_discs,
         observe_cycle,

@@ -76,22 +76,25 @@ def _wheelset_energy(wheelset: Wheelset, bogie: Bogie, p: Parameters) -> float:
 def rail_work(wheelset: Wheelset, p: Parameters) -> float:
     """Work of the rail on a wheelset since the brake command, against its motion, J.
 
-    What the rail takes from the motion of the wheelset becomes heat of its contacts, heat of its brake or
-    rotation. The heat that the brake draws from the pitching of the bogie, some ten joules, is in it as well.
+    What the rail takes from the motion of the wheelset becomes heat of its contacts, work of its brakes or
+    rotation. What the brakes draw from the pitching of the bogie, some ten joules, is in it as well.
     """
     turned = kinetic_energy(p.wheelset_inertia, wheelset.rotation)
     turned_first = kinetic_energy(p.wheelset_inertia, p.initial_speed / wheelset.wheel_radius)
-    return wheelset.brake_heat + wheelset.contact_loss + (turned - turned_first)
+    braked = wheelset.brake_heat + wheelset.dynamic_energy
+    return braked + wheelset.contact_loss + (turned - turned_first)
 
 
 def energy_residual(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> float:
     """Energy that is not accounted for, as a share of the energy at the start.
 
-    kinetic + springs + height = initial - (disc heat + contact loss + dampers + running resistance)
+    kinetic + springs + height = initial - (disc heat + work of the dynamic brake + contact loss + dampers +
+    running resistance)
     """
     lost = car.damper_loss + car.resistance_loss
     for i in range(4):
         lost += wheelsets[i].brake_heat + wheelsets[i].contact_loss
+        lost += wheelsets[i].dynamic_energy
     residual: float = stored_energy(car, bogies, wheelsets, p) + lost - car.initial_energy
     return residual / float(car.initial_energy)
 

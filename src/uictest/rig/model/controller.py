@@ -60,7 +60,7 @@ def write_inputs(exchange: Any, car: Car, wheelsets: Sequence[Wheelset], p: Para
     """Write what the sensors show, and outputs that fill every tank."""
     exchange.cycle = car.cycle
     exchange.time = car.cycle * p.cycle_time
-    exchange.brake_demand = car.demanded_pressure * p.demand_per_pressure
+    exchange.brake_demand = car.command_pressure * p.demand_per_pressure
     exchange.reference_speed = _NAN
     exchange.diagnosis = 0
     exchange.guard = GUARD

@@ -48,4 +48,5 @@ class FaultTables(Record):
     fault_pressure_factor: FaultTable = derived()
     fault_pressure_offset: FaultTable = derived()  # Pa
     fault_silent: FaultTable = derived()
+    fault_dynamic_failed: FaultTable = derived()  # 0 or 1
     fault_release_cycles: FaultTable = derived()  # controller cycles of silence after which the valves fill

@@ -24,11 +24,13 @@ def update_faults(
     """Decide which faults are active in the coming cycle, and set what they change in the wheelsets."""
     _decide_activity(car, p)
     car.line_leak = 0.0
+    car.dynamic_failed = 0.0
     for i in range(4):
         _make_sound(wheelsets[i], wheelset_parameters[i])
     for k in range(p.fault_count):
         if is_active(car, k):
             car.line_leak += p.fault_line_leak[k]
+            car.dynamic_failed = maximum(car.dynamic_failed, p.fault_dynamic_failed[k])
             _act(wheelsets[int(p.fault_wheelset[k])], p, k)
 
 

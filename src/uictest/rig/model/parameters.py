@@ -16,6 +16,7 @@ from uictest.core.record import derived, from_scenario, layout_of
 from uictest.rig.model.fault_tables import FaultTables
 
 PadTable = Annotated[MutableSequence[float], MOST_PAD_POINTS]
+MotorTable = Annotated[MutableSequence[float], 4]
 
 
 def inverse(value: float) -> float:
@@ -51,6 +52,16 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     controller_step: int = derived()
     controller_handle: int = derived()
     controller_exchange: int = derived()
+    # dynamic brake: physics.dynamic_brake; all zero without one
+    has_dynamic_brake: float = derived()  # 0 or 1
+    motor_forces: MotorTable = derived()  # of each wheelset, N
+    motor_powers: MotorTable = derived()  # W
+    motor_response: float = derived()  # share of the missing effort that a motor gains in a controller cycle
+    fade_end: float = derived()  # m/s
+    fade_rate: float = derived()  # s/m
+    blending_change: float = derived()  # largest change of the blended share in a controller cycle
+    zero_force_pressure: float = derived()  # gauge, Pa
+    force_per_pressure: float = derived()  # of the car at the rims above that, N/Pa
     # brake operating unit, reservoir, compressor, brake line
     commanded_pressure: float = derived()  # demanded once the brake is fully applied, gauge, Pa
     dead_time: float = derived()  # from the command to the first demand, s

@@ -92,25 +92,26 @@ def couple_wheelset(wheelset: Wheelset, bogie: Bogie, car: Car, p: Parameters) -
         p.primary_longitudinal_damping * rate, rate, p.primary_vertical_damping * rise_rate * rise_rate
     )
     wheelset.wheel_load = maximum(fma(-0.5, lift, p.static_wheel_load), LOWEST_LOAD * p.reference_load)
-    wheelset.torque = wheelset.brake_force * torque(
+    friction_torque = wheelset.brake_force * torque(
         wheelset.clamping_force,
         p.calipers_per_wheelset,
         p.pads_per_caliper,
         wheelset.pad_friction,
         p.disc_radius,
     )
+    wheelset.torque = friction_torque + wheelset.dynamic_torque
     return -pull - gradient_force(p.wheelset_mass, p.gradient, p.gravity)
 
 
 def step_wheelset(
     wheelset: Wheelset, bogie: Bogie, thrust: float, sliding_force: float, slip: Slip, p: Parameters
-) -> tuple[float, float]:
+) -> tuple[float, float, float]:
     """Advance speed and rotation under rail and brake; the brake torque reacts on the bogie.
 
     Where the full brake torque would turn the wheelset against its sense of rotation the brake holds it: it
     stands, and its brake carries just the torque of the rail. It stays so until the rail's torque exceeds the
     brake's, without chatter. A locked wheelset slides as fast as it did, so that its force is the one found
-    at the last slip speed.
+    at the last slip speed. The dynamic brake has faded out long before, so that friction alone holds.
 
     Args:
         wheelset: its record.
@@ -121,8 +122,8 @@ def step_wheelset(
         p: parameter record.
 
     Returns:
-        The torque that the brake transmits, against a positive rotation, N m, and the mean rotation of the
-        discs over the step against the bogie at its beginning, rad/s.
+        The torques that friction and motor transmit, against a positive rotation, N m, and the mean rotation
+        of the discs over the step against the bogie at its beginning, rad/s.
     """
     speed = wheelset.speed
     rotation = wheelset.rotation
@@ -147,7 +148,8 @@ def step_wheelset(
         p.step * creep * (0.5 * (speed + wheelset.speed) - wheelset.wheel_radius * turning)
     )
     bogie.moment -= braking
-    return braking, turning + bogie.pitch_rate
+    dynamic = direction * wheelset.dynamic_torque
+    return braking - dynamic, dynamic, turning + bogie.pitch_rate
 
 
 def step_frame(
@@ -164,13 +166,17 @@ def step_frame(
     frame.pitch += p.step * frame.pitch_rate
 
 
-def heat_disc(wheelset: Wheelset, bogie: Bogie, braking: float, rotation: float, p: Parameters) -> None:
-    """Add the work of the pads, which pitch with the bogie: known once its pitch rate has been advanced.
+def account_for_brakes(
+    wheelset: Wheelset, bogie: Bogie, torques: tuple[float, float, float], p: Parameters
+) -> None:
+    """Add the work of pads and motor, which pitch with the bogie: known once its pitch rate is advanced.
 
-    Torque of the brake in N m and rotation of the discs in rad/s are those of :func:`step_wheelset`.
+    The torques in N m and the rotation in rad/s are those of :func:`step_wheelset`.
     """
+    friction, dynamic, rotation = torques
     rubbing = fma(0.5, bogie.pitch_change, rotation)
-    wheelset.brake_heat += p.step * braking * rubbing
+    wheelset.brake_heat += p.step * friction * rubbing
+    wheelset.dynamic_energy += p.step * dynamic * rubbing
 
 
 def step_body(car: Car, p: Parameters) -> None:

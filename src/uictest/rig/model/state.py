@@ -41,7 +41,11 @@ class Car(Frame, TrainMemory):
     line_temperature: float
     line_coldness: float  # physics.coldness of its air
     line_pressure_error: float  # momentary noise of its sensor, Pa
-    demanded_pressure: float  # at present, gauge, Pa
+    demanded_pressure: float  # of the friction brake at present, gauge, Pa
+    command_pressure: float  # that the command alone would demand, gauge, Pa
+    blended_share: float  # of the commanded force that the dynamic brake is to give
+    dynamic_dropped: float  # 1 once a controller that cannot reduce it has acted
+    dynamic_failed: float  # 1 while it has a fault
     line_saturated_steps: float  # in which its sensor was read and limited by its range
     # ledgers
     compressor_air: float  # delivered, kg
@@ -146,7 +150,11 @@ class Wheelset(ControlledWheelset, WheelsetParameters):
     loadcell_saturated_steps: float  # in which the loadcells of its caliper were
     # brake and rail
     clamping_force: float  # as the vehicle simulation receives it
-    torque: float
+    torque: float  # largest of all brakes together, N m
+    dynamic_torque: float  # part of it, N m
+    motor_force: float  # largest force of the dynamic brake at the rims, N
+    motor_power: float  # W
+    motor_effort: float  # share of what the motor could give at present
     pad_friction: float  # held for a controller cycle
     disc_temperature: float  # of the discs' bulk, K
     disc_surface_temperature: float  # K
@@ -167,7 +175,8 @@ class Wheelset(ControlledWheelset, WheelsetParameters):
     rotation: float
     angle: float  # turned since the brake command, rad
     # ledgers
-    brake_heat: float  # J
+    brake_heat: float  # of the friction brake, J
+    dynamic_energy: float  # taken by the dynamic brake, J
     contact_loss: float  # J
     disc_heat: float  # of brake_heat, what has warmed the modelled discs, J
     disc_cooling: float  # from the discs to the air, J

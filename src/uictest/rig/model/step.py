@@ -6,10 +6,10 @@ from uictest.rig.model.clamping import step_clamping
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.pneumatics import step_air
 from uictest.rig.model.running_gear import (
+    account_for_brakes,
     clear_forces,
     couple_body,
     couple_wheelset,
-    heat_disc,
     step_body,
     step_frame,
     step_wheelset,
@@ -48,14 +48,14 @@ def _step_vehicle(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelse
     thrust_2 = couple_wheelset(wheelsets[2], trailing, car, p)
     thrust_3 = couple_wheelset(wheelsets[3], trailing, car, p)
     slips, forces = find_slips(wheelsets, (thrust_0, thrust_1, thrust_2, thrust_3), p)
-    braking_0, rotation_0 = step_wheelset(wheelsets[0], leading, thrust_0, forces[0], slips[0], p)
-    braking_1, rotation_1 = step_wheelset(wheelsets[1], leading, thrust_1, forces[1], slips[1], p)
-    braking_2, rotation_2 = step_wheelset(wheelsets[2], trailing, thrust_2, forces[2], slips[2], p)
-    braking_3, rotation_3 = step_wheelset(wheelsets[3], trailing, thrust_3, forces[3], slips[3], p)
+    torques_0 = step_wheelset(wheelsets[0], leading, thrust_0, forces[0], slips[0], p)
+    torques_1 = step_wheelset(wheelsets[1], leading, thrust_1, forces[1], slips[1], p)
+    torques_2 = step_wheelset(wheelsets[2], trailing, thrust_2, forces[2], slips[2], p)
+    torques_3 = step_wheelset(wheelsets[3], trailing, thrust_3, forces[3], slips[3], p)
     step_frame(leading, p.bogie_mass, p.bogie_mass_response, p.bogie_pitch_response, 0.0, p)
     step_frame(trailing, p.bogie_mass, p.bogie_mass_response, p.bogie_pitch_response, 0.0, p)
-    heat_disc(wheelsets[0], leading, braking_0, rotation_0, p)
-    heat_disc(wheelsets[1], leading, braking_1, rotation_1, p)
-    heat_disc(wheelsets[2], trailing, braking_2, rotation_2, p)
-    heat_disc(wheelsets[3], trailing, braking_3, rotation_3, p)
+    account_for_brakes(wheelsets[0], leading, torques_0, p)
+    account_for_brakes(wheelsets[1], leading, torques_1, p)
+    account_for_brakes(wheelsets[2], trailing, torques_2, p)
+    account_for_brakes(wheelsets[3], trailing, torques_3, p)
     step_body(car, p)

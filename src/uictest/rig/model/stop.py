@@ -10,6 +10,11 @@ from uictest.rig.model.balance import stored_air, stored_air_energy, stored_ener
 from uictest.rig.model.controller import FROM_OUTSIDE, begin, decide, read_outputs, write_inputs
 from uictest.rig.model.cycle import command_valves, read_pole_wheels, read_sensors, start_cycle
 from uictest.rig.model.disc_brake import start_disc, warm_discs
+from uictest.rig.model.dynamic_brake import (
+    brake_dynamically,
+    demand_dynamic_brake,
+    start_dynamic_brake,
+)
 from uictest.rig.model.faults import (
     falsify_readings,
     let_air_leak,
@@ -56,6 +61,7 @@ def start(
         copy_wheelset_parameters(wheelsets[i], wheelset_parameters[i])
         _start_wheelset(wheelsets[i], p)
         start_disc(wheelsets[i], p)
+        start_dynamic_brake(wheelsets[i], i, p)
         start_module(wheelsets[i], select(i < p.calipers, 1.0, 0.0), p)
         wheelsets[i].ahead = side * p.half_wheelbase
         wheelsets[i].behind = p.half_pivot_distance - bogie.ahead + p.half_wheelbase * (1.0 - side)
@@ -192,6 +198,8 @@ def finish_cycle(
     if p.fault_count > 0:
         silence_controller(car, wheelsets, p)
     command_valves(car, wheelsets, p)
+    if p.has_dynamic_brake > 0.0:
+        demand_dynamic_brake(car, wheelsets, p)
     if p.fault_count > 0:
         limit_valves(car, wheelsets, p)
     if steps_per_sample > 0 and rows == 0:
@@ -202,6 +210,8 @@ def finish_cycle(
             follow_module_air(car, wheelsets, p)
         if p.has_leaks > 0.0:
             let_air_leak(car, wheelsets, p)
+        if p.has_dynamic_brake > 0.0:
+            brake_dynamically(wheelsets, p)
         step(car, bogies, wheelsets, p)
         steps += 1
         if steps_per_sample > 0 and steps % steps_per_sample == 0:

@@ -39,7 +39,8 @@ def begin_stop_measures(
 ) -> None:
     """Start the measures of a stop that are one number."""
     begin_train(measures, car.time, car.position, car.speed, car.reservoir_pressure - p.atmospheric_pressure)
-    begin_build_up(measures, p.commanded_pressure, car.line_pressure - p.atmospheric_pressure)
+    developed = NAN if p.has_dynamic_brake > 0.0 else p.commanded_pressure
+    begin_build_up(measures, developed, car.line_pressure - p.atmospheric_pressure)
     begin_utilisation(measures)
     measures.compensation_misfit = p.compensation_misfit
     for i in range(4):
@@ -206,5 +207,7 @@ def close_stop_measures(
     measures.air_energy_residual = air_energy_residual(car, wheelsets, p)
     for i in range(4):
         wheelset_measures[i].air_vented = wheelsets[i].vented_air
+        motored = p.has_dynamic_brake > 0.0
+        wheelset_measures[i].dynamic_energy = wheelsets[i].dynamic_energy if motored else NAN
         if p.models_disc_temperature == 0.0:
             wheelset_measures[i].maximum_disc_temperature = NAN

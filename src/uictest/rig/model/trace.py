@@ -43,7 +43,8 @@ class WheelsetSample(Record):
     caliper_force: float = channel("N")  # that a caliper gives at the tank's pressure
     computed_force: float = channel("N")
     clamping_force: float = channel("N")  # as the vehicle received it
-    brake_torque: float = channel("N m")
+    brake_torque: float = channel("N m")  # of all brakes
+    dynamic_torque: float = channel("N m")  # part of it
     pad_friction: float = channel("1")
     disc_temperature: float = channel("K")  # of the bulk
     disc_surface_temperature: float = channel("K")
@@ -55,6 +56,8 @@ WHEELSET_CHANNELS = units_of(WheelsetSample)
 """Channels of each wheelset and their units."""
 DISC_CHANNELS = ("disc_temperature", "disc_surface_temperature")
 """Channels of each wheelset that mean something only where the temperature of the discs is modelled."""
+DYNAMIC_BRAKE_CHANNELS = ("dynamic_torque",)
+"""Channels of each wheelset that mean something only where the car has a dynamic brake."""
 CONTROLLER_CHANNELS = ("diagnosis",)
 """Channels of the train that mean something only where the controller comes from outside."""
 FAULT_CHANNELS = ("active_faults", "speed_valid")
@@ -114,6 +117,7 @@ def _sample_wheelset(row: WheelsetSample, wheelset: Wheelset, car: Car, p: Param
     row.computed_force = wheelset.computed_force
     row.clamping_force = wheelset.clamping_force
     row.brake_torque = wheelset.torque
+    row.dynamic_torque = wheelset.dynamic_torque
     row.pad_friction = wheelset.pad_friction
     row.disc_temperature = wheelset.disc_temperature
     row.disc_surface_temperature = wheelset.disc_surface_temperature

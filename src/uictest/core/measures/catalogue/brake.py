@@ -29,6 +29,13 @@ def _disc_temperatures(wheelsets: Wheelsets) -> MeasureValue:
     return MeasureValue(temperatures)
 
 
+def _dynamic_energies(wheelsets: Wheelsets) -> MeasureValue:
+    energies = tuple(float(wheelset.dynamic_energy) for wheelset in wheelsets)
+    if all(map(math.isnan, energies)):
+        return unavailable("the car has no dynamic brake: brake.dynamic")
+    return MeasureValue(energies)
+
+
 MEASURES = (
     Measure(
         name="valve_actuations",
@@ -79,6 +86,18 @@ MEASURES = (
         column=WheelsetColumn(
             "maximum_disc_temperature_degc", "degC", read=lambda wheelset: wheelset.maximum_disc_temperature
         ),
+    ),
+    Measure(
+        name="dynamic_energy",
+        kind="energy",
+        unit="kJ",
+        course="grows",
+        meaning="energy that the dynamic brake took, where there is one",
+        read=lambda stop, wheelsets, definition: _dynamic_energies(wheelsets),
+        decided=ShownWhen(how="end", plot="torque"),
+        of_wheelsets=True,
+        recorded=RecordedData(("torque of the motors",), when="never"),
+        column=WheelsetColumn("dynamic_energy_kj", "kJ", read=lambda wheelset: wheelset.dynamic_energy),
     ),
     Measure(
         name="reservoir_minimum_pressure",

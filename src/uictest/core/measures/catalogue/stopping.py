@@ -17,7 +17,10 @@ from uictest.core.measures.measure import (
 )
 from uictest.core.measures.records import StopMeasures
 
-_NEVER = "the pressure of the brake line never reached `developed_share` of what is commanded"
+_NEVER = (
+    "the pressure of the brake line never reached `developed_share` of what is commanded, or says nothing"
+    " beside a dynamic brake"
+)
 _OF_BUILD_UP = ("rising_share", "developed_share")
 _SINCE_BUILD_UP = ShownWhen(
     how="span",

@@ -1,0 +1,166 @@
+"""The dynamic brake and its blending with the friction brake: closed forms, limits, what takes over when."""
+
+import numpy as np
+import pytest
+
+MOTORS = "brake.dynamic={force: 60 kN, power: 1.6 MW}"
+WEAK = "brake.dynamic={force: 24 kN, power: 400 kW, wheelsets: [1, 3]}"
+BYPASSED = ("rig.wsp=bypassed", "rig.topology=four-caliper")
+COASTING = (
+    *BYPASSED,
+    (
+        "vehicle.wheelsets={1: {brake_force: 0 %}, 2: {brake_force: 0 %}, 3: {brake_force: 0 %},"
+        " 4: {brake_force: 0 %}}"
+    ),
+    "vehicle.running_resistance={constant: 0 N, linear: 0 N s/m, quadratic: 0 N s2/m2}",
+    "simulation.maximum_duration=120 s",
+)
+"""Nothing but the motors slows this car."""
+SLIPPERY = ("rail.condition=wet", "rail.friction=0.08")
+FAILING = "faults=[{at: 60 km/h, part: dynamic-brake, kind: failed}]"
+
+
+def bits(stop):
+    return bytes(stop.measures.tobytes() + stop.wheelset_measures.tobytes())
+
+
+def when_at(columns, speed):
+    """Time and distance at which the train comes down to a speed in m/s, between two samples."""
+    order = slice(None, None, -1)
+    falling = columns["speed"][order]
+    return tuple(float(np.interp(speed, falling, columns[name][order])) for name in ("time", "distance"))
+
+
+def force_at_rims(columns, channel):
+    return columns[channel].sum(axis=1) / 0.43
+
+
+def test_a_car_braked_at_constant_power_follows_the_closed_form_down_to_10_kmh(rig):
+    """t = m (v0^2 - v1^2) / (2 P) and s = m (v0^3 - v1^3) / (3 P), with the mass of what turns."""
+    power = 120e3
+    stop = rig.columns(
+        *COASTING, "initial_speed=80 km/h", f"brake.dynamic={{force: 900 kN, power: {power} W}}"
+    )
+    mass = rig.case().scenario.vehicle.total_mass + 4.0 * 123.0 / 0.43**2
+    fast, slow = 60.0 / 3.6, 10.0 / 3.6
+    (t_0, s_0), (t_1, s_1) = when_at(stop, fast), when_at(stop, slow)
+    assert t_1 - t_0 == pytest.approx(mass * (fast**2 - slow**2) / (2.0 * power), rel=2e-3)
+    assert s_1 - s_0 == pytest.approx(mass * (fast**3 - slow**3) / (3.0 * power), rel=2e-3)
+
+
+def test_it_never_stops_a_car_alone(rig):
+    stop = rig.stop(*COASTING, "initial_speed=20 km/h", "brake.dynamic={force: 60 kN, power: 1.6 MW}")
+    assert stop.measures.stopped == 0.0
+    assert stop.measures.end_speed == pytest.approx(5.0 / 3.6, rel=1e-3)
+
+
+@pytest.mark.parametrize("motors", [MOTORS, WEAK])
+def test_both_brakes_together_are_asked_for_what_the_friction_brake_alone_would_be(rig, motors):
+    """Where nothing slides: the share off the demanded force is what the motors can give of it."""
+    blended = rig.columns(*BYPASSED, motors)
+    p, _ = rig.parameters(*BYPASSED, motors)
+    p_0, slope = p["zero_force_pressure"], p["force_per_pressure"]
+    full = float(rig.columns(*BYPASSED)["demanded_pressure"].max())
+    steady = (blended["speed"] < 70 / 3.6) & (blended["speed"] > 15 / 3.6)
+    friction = slope * (blended["demanded_pressure"][steady] - p_0)
+    dynamic = force_at_rims(blended, "dynamic_torque")[steady]
+    assert friction + dynamic == pytest.approx(slope * (full - p_0), rel=1e-3)
+
+
+def test_the_blended_force_lies_within_the_loop_of_the_friction_brake(rig):
+    """About 0.5 bar of hysteresis: a friction brake that is relieved follows its releasing line."""
+    alone, blended = rig.columns(*BYPASSED), rig.columns(*BYPASSED, WEAK)
+    p, _ = rig.parameters(*BYPASSED, WEAK)
+    full = np.median(force_at_rims(alone, "brake_torque")[alone["speed"] < 20.0])
+    steady = (blended["speed"] < 70 / 3.6) & (blended["speed"] > 15 / 3.6)
+    difference = force_at_rims(blended, "brake_torque")[steady] - full
+    assert np.abs(difference).max() < 0.6e5 * p["force_per_pressure"]
+
+
+def test_friction_alone_holds_the_train_below_the_fade_out(rig):
+    stop = rig.columns(*BYPASSED, MOTORS)
+    slow = stop["speed"] < 5.0 / 3.6 - 0.05
+    assert np.all(stop["dynamic_torque"][slow] == 0.0)
+    assert np.all(stop["dynamic_torque"][stop["speed"] > 10.0 / 3.6][-1] > 0.0)
+
+
+def test_after_a_failure_the_friction_brake_takes_over(rig):
+    stop = rig.columns(*BYPASSED, MOTORS, FAILING)
+    failed = stop["speed"] < 60.0 / 3.6 - 0.02
+    assert np.all(stop["dynamic_torque"][failed] == 0.0)
+    later = failed & (stop["time"] > stop["time"][failed][0] + 2.0)
+    full = rig.columns(*BYPASSED)["demanded_pressure"].max()
+    assert stop["demanded_pressure"][later] == pytest.approx(full)
+
+
+def test_a_controller_that_cannot_reduce_it_loses_it_with_its_first_hold_or_vent(rig):
+    stop = rig.columns(*SLIPPERY, MOTORS)
+    acted = np.flatnonzero((stop["valve_command"] > 0.0).any(axis=1))[0]
+    assert stop["dynamic_torque"][acted].sum() > 0.0
+    gone = stop["time"] > stop["time"][acted] + 3.0
+    assert stop["dynamic_torque"][gone].max() < 1e-3 * stop["dynamic_torque"].max()
+    assert stop["demanded_pressure"][gone][-1] == pytest.approx(rig.columns()["demanded_pressure"].max())
+
+
+@pytest.mark.parametrize("rail", [(), SLIPPERY])
+@pytest.mark.parametrize("wsp", ["active", "bypassed"])
+def test_energy_and_air_close(rig, rail, wsp):
+    measures = rig.stop(*rail, f"rig.wsp={wsp}", MOTORS).measures
+    assert abs(measures.energy_residual) < 1e-9
+    assert abs(measures.air_residual) < 1e-9
+
+
+def test_wheelsets_without_a_motor_are_braked_by_friction_alone(rig):
+    stop = rig.columns(*BYPASSED, WEAK)
+    assert np.all(stop["dynamic_torque"][:, [1, 3]] == 0.0)
+    assert np.all(stop["dynamic_torque"].max(axis=0)[[0, 2]] > 0.0)
+
+
+def test_motors_that_give_next_to_nothing_change_next_to_nothing(rig):
+    without = rig.stop(*BYPASSED).measures
+    weakest = rig.stop(*BYPASSED, "brake.dynamic={force: 100 N, power: 1 kW}").measures
+    assert weakest.end_distance == pytest.approx(without.end_distance, rel=2e-3)
+    assert weakest.end_distance != without.end_distance
+
+
+def test_a_fault_of_a_brake_that_the_car_has_not_is_refused(rig):
+    with pytest.raises(Exception, match="this car has no dynamic brake"):
+        rig.case(FAILING)
+
+
+@pytest.mark.parametrize(
+    ("section", "message"),
+    [
+        ("{force: 60 kN, power: 1 MW, fade_out: [5 km/h, 10 km/h]}", "10 km/h is not below 5 km/h"),
+        ("{force: 60 kN, power: 1 MW, wheelsets: [1, 1]}", "wheelset 1 is named twice"),
+        ("{force: 60 kN, power: 1 MW, wheelsets: [5]}", "wheelsets"),
+        ("{force: 60 kN}", "power"),
+        ("{force: 60, power: 1 MW}", "unit"),
+    ],
+)
+def test_what_cannot_be_is_refused(rig, section, message):
+    with pytest.raises(Exception, match=message):
+        rig.case(f"brake.dynamic={section}")
+
+
+def test_the_motors_alone_make_a_wheelset_slide_and_never_lock_it(rig):
+    """Faded out they hold nothing; on a better rail it rolls again."""
+    places = (
+        "{position: 0 m, friction: 0.02}, {position: 200 m, friction: 0.02}, {position: 202 m, friction: 0.3}"
+    )
+    stop = rig.columns(
+        *BYPASSED,
+        *("initial_speed=60 km/h", "rail.condition=wet", f"rail.friction={{points: [{places}]}}"),
+        *("brake.command=30 %", MOTORS),
+    )
+    on_bad_rail, later = stop["distance"] < 190.0, (stop["distance"] > 230.0) & (stop["speed"] > 3.0)
+    assert 5.0 / 3.6 < stop["wheel_speed"][on_bad_rail].min() < 10.0 / 3.6
+    assert stop["slide"][later][-1].max() < 0.1
+
+
+def test_the_share_of_the_energy_that_the_motors_take_is_what_they_turn(rig):
+    """Force over distance, from the recording, against the ledger inside the energy balance."""
+    stop = rig.columns(*BYPASSED, MOTORS)
+    turned = np.trapezoid((stop["dynamic_torque"] * stop["wheel_speed"]).sum(axis=1) / 0.43, stop["time"])
+    whole = 0.5 * rig.case().scenario.vehicle.total_mass * stop["speed"][0] ** 2
+    assert 0.6 < turned / whole < 1.05
