@@ -76,6 +76,13 @@ def test_a_monotone_number_turns_it_at_its_limit():
     assert firmness.status == "turns"
 
 
+def test_a_place_is_not_rounded_past_the_nominal_value():
+    fine = number("fine", "100.004 N", "95 N", "105 N")
+    near = fine.nominal_place
+    assert fine.rounded_text(near - 1e-5, up=True) == "100.004 N"
+    assert fine.rounded_text(near + 1e-5, up=False) == "100.004 N"
+
+
 def test_each_value_said_of_a_turn_is_one_that_was_tried():
     [turn] = study([A], lambda a: 2.0 - a, noise=1.0).turned_by
     stands_to, value, turned_from = (

@@ -172,7 +172,7 @@ _NOT_DRAWN = make_verdict(id="short-flats", measure="flat_length", status="fail"
             "sensitive to definitions: braking-distance",
         ),
         (make_content(*_GRID), "rail.friction (down) against brake.command (across)"),
-        (make_content(make_result(), complete=False), "selected cases were not run"),
+        (make_content(make_result(), complete=False), "not all that was selected was run"),
         (make_content(make_result(), manifest=_COMMAND), "uictest run -k 'a and b'"),
         (
             make_content(

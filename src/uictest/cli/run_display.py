@@ -130,7 +130,10 @@ class VerdictTable(Display):
         for result in shown:
             if self.verbose or not content.passes(result):
                 console.print(report.explanation_text(content, result, every_criterion=self.verbose))
-            for line in (*report.domain_lines(result), *report.firmness_lines(result)):
+            # The explanation of a case that is not met for it has said how firm it is.
+            told = result.lacks_firmness and not self.verbose
+            firmness = () if told else report.firmness_lines(result)
+            for line in (*report.domain_lines(result), *firmness):
                 console.print(line, markup=False)
         judged = [each for each in content.series if not (self.quiet and each.met)]
         for line in report.series_table(judged, console.width) if judged else ():

@@ -85,7 +85,7 @@ class RunContent:
         name: name of the run.
         results: every case.
         manifest: where the results come from.
-        complete: False where selected cases are missing from the results.
+        complete: False where an interrupt ended the run, or selected cases are missing from the results.
         subjects: descriptions of cases, by id; a case may have none.
         traces: what the plots are drawn from, by id.
         baseline: the comparison with the baseline; None without one.

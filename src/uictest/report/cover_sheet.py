@@ -241,7 +241,7 @@ def _provenance(content: RunContent) -> Iterator[Line]:
     yield "uictest", manifest.versions.get("uictest", "")
     yield "command", shlex.join(manifest.command)
     yield "seed", "of each scenario" if manifest.seed is None else str(manifest.seed)
-    yield "complete", "yes" if content.complete else "no: some selected cases did not run"
+    yield "complete", "yes" if content.complete else "no: not all that was selected was run"
 
 
 def _style(cell: str | int, heading: bool, styles: Styles) -> Format | None:

@@ -59,13 +59,15 @@ class Batch:
         results: Sequence[evaluation.CaseResult],
         judged: Sequence[judging_series.SeriesResult],
         name: str = "",
+        *,
+        interrupted: bool = False,
     ) -> report.RunContent:
         """Return what reports show of results of the cases and series, but for traces and the baseline."""
         return report.RunContent(
             name,
             results,
             self.manifest,
-            complete=(len(results), len(judged)) == (len(self.cases), len(self.series)),
+            complete=not interrupted and (len(results), len(judged)) == (len(self.cases), len(self.series)),
             subjects=self.subjects,
             series=judged,
             drawn_first=self.drawn_first,
@@ -163,21 +165,19 @@ def run_batch(
     )
     runner = _CaseRunner(batch, observer, drawing, keep)
     done = runner.run(batch.cases, settings, observer.case)
-    judged: campaign.BatchResult[judging_series.SeriesResult]
-    judged = campaign.BatchResult(interrupted=done.interrupted)
+    judged = campaign.BatchResult[judging_series.SeriesResult](interrupted=done.interrupted)
     if not done.interrupted:
         missed = sum(not result.met for result in done.results)
+        # A series is firm as a whole: of its cases it is not asked.
+        of_series = replace(settings, maxfail=None, firm=False)
         judged = run_series(
             batch.series,
-            # A series is firm as a whole: of its cases it is not asked.
-            lambda cases: runner.run(
-                cases, replace(settings, maxfail=None, firm=False), observer.case_of_series
-            ),
+            lambda cases: runner.run(cases, of_series, observer.case_of_series),
             lambda each, result: _with_firmness(each, result, settings, observer),
             maxfail=None if settings.maxfail is None else settings.maxfail - missed,
             show=observer.series,
         )
-    content = batch.content(done.results, judged.results, name)
+    content = batch.content(done.results, judged.results, name, interrupted=judged.interrupted)
     traces = drawing.finish(content.all_results, settings.jobs, interrupted=judged.interrupted)
     content = replace(content, traces=traces)
     if batch.baseline is not None:
@@ -225,7 +225,7 @@ def simulate_cases(
         return campaign.BatchResult()
     if settings.in_process and any(case.scenario.controller.program for case in cases):
         observer.foreign_in_process()
-    asked = {case.id: case for case in cases if settings.firm or case.scenario.firm}
+    asked = {case.id: case for case in cases if settings.asks_firmness_of(case)}
     varied = 0
     if asked:
         from uictest.runs.firmness import firmness_run, stops_of_case  # which few runs need

@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import pytest
 
 from uictest.analysis.firmness import Effort
+from uictest.cli import run_display
 from uictest.runs import firmness
 
 STOP = "rail: {condition: wet, friction: 0.06}\ncriteria: uictest-stop\n"
@@ -98,3 +99,36 @@ def test_nothing_is_said_where_it_was_not_asked(call, scenario):
     assert "firmness" not in case
     assert "firm" not in answer.out
     assert not Path("reports/latest/firmness.csv").exists()
+
+
+def test_an_interrupt_of_the_question_leaves_an_incomplete_run(call, scenario, monkeypatch):
+    def interrupt(own, case):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(firmness.FirmnessRun, "of_case", interrupt)
+    _, [case] = run(call, scenario("stop", STOP), "--firm", code=2)
+    assert "firmness" not in case
+    assert json.loads(Path("reports/latest/results.json").read_text("utf-8"))["complete"] is False
+    assert "Incomplete" in Path("reports/latest/summary.md").read_text("utf-8")
+
+
+def test_of_the_cases_of_a_series_it_is_not_asked(call, scenario, monkeypatch):
+    monkeypatch.delattr(firmness.FirmnessRun, "of_case")
+    text = "rail: {condition: dry}\ncriteria: uictest-stop\nfirm: true\n"
+    scenario("dry", text)
+    scenario("wet", STOP)
+    series = Path("scenarios/small.series.yaml")
+    series.write_text(
+        "schema: uictest/series/1\nname: small\nrepeat: 1\ndry: dry.yaml\nwet: wet.yaml\n"
+        "criteria: uictest-wsp\n"
+    )
+    answer = call("run", series)
+    assert answer.code in (0, 1)
+    assert "firm" not in answer.out
+
+
+def test_a_terminal_tells_once_what_a_strict_case_lacks(call, scenario, monkeypatch):
+    monkeypatch.setattr(run_display, "interactive", lambda stream: True)
+    monkeypatch.setenv("COLUMNS", "500")
+    answer, _ = run(call, scenario("stop", TURNED), "--firm", "--strict", code=1)
+    assert answer.out.count("run with a caliper in every module") == 1

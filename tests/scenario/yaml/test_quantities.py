@@ -29,6 +29,7 @@ WITH_UNITS = [(kind.name, symbol) for kind in KINDS.values() for symbol in kind.
     ("text", "kind", "value"),
     [
         ("36 km/h", "speed", 10.0),
+        ("36.0000000000000000000 km/h", "speed", 10.0),
         ("120km/h", "speed", 120 / 3.6),
         ("4.2 bar", "pressure", 4.2e5),
         ("20 degC", "temperature", 293.15),

@@ -105,7 +105,7 @@ def run(
         in_process=in_process,
         real_time=real_time,
         strict=strict,
-        firm=firm,
+        firm=firm or None,
     )
     batch = runs.batch_of(
         *(selected, of_series, context.obj, seed, settings),

@@ -89,7 +89,10 @@ class RangedNumber:
         )
 
     def rounded_text(self, place: float, *, up: bool) -> str:
-        """Return the value at a place of the range, rounded up or down to about a hundredth of the range."""
+        """Return the value at a place of the range, rounded up or down to about a hundredth of the range.
+
+        It stays on its side of the nominal value.
+        """
         import numpy as np
 
         if place in (0.0, 1.0):
@@ -101,6 +104,8 @@ class RangedNumber:
         size = min(number, high - low) if self.is_logarithmic else high - low
         step = Decimal(10) ** (math.floor(math.log10(size)) - 2)
         rounded = (Decimal(number) / step).to_integral_value(ROUND_CEILING if up else ROUND_FLOOR) * step
+        nominal = float(parse_decimal_quantity(self.value.text).number)
+        low, high = (low, nominal) if place < self.nominal_place else (nominal, high)
         return f"{min(max(float(rounded), low), high):.10g} {self._unit}".rstrip()
 
     def _drawn(self, places: NDArray[np.float64]) -> Column:

@@ -60,7 +60,7 @@ def append_step_summary(content: RunContent) -> None:
 
 def _about(content: RunContent) -> Iterator[str]:
     if not content.complete:
-        yield "Incomplete: selected cases were not run."
+        yield "Incomplete: not all that was selected was run."
     if content.controllers:
         yield f"WSP controller: {content.controllers}."
     yield from (f"{line}." for line in domain_notices(content.all_results))

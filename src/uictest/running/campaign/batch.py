@@ -152,7 +152,7 @@ class RunSettings:
         real_time: whether their cycles are paced by the clock; all must be programs at a socket.
         strict: whether a case is met only if all of its verdicts are settled, too, and it is firm where that
             was asked.
-        firm: whether it is asked how firm all verdicts are; else of the scenarios that say `firm`.
+        firm: whether it is asked how firm all verdicts are; None: of the scenarios that say `firm`.
         firmness: returns how firm the verdicts of the case of an id are, None where that was not asked.
         parts: effective parts by case id.
         domains: whether cases, by id, lie in the domain of a validation; of those for which it was asked.
@@ -165,10 +165,14 @@ class RunSettings:
     in_process: bool = False
     real_time: bool = False
     strict: bool = False
-    firm: bool = False
+    firm: bool | None = None
     firmness: Callable[[str], evaluation.Firmness | None] | None = None
     parts: PartsOfCases = field(default_factory=dict)
     domains: Mapping[str, evaluation.DomainOfValidity] = field(default_factory=dict)
+
+    def asks_firmness_of(self, case: scenario.Case) -> bool:
+        """Return whether it is asked how firm the verdicts of a case are."""
+        return case.scenario.firm if self.firm is None else self.firm
 
     def completed(self, result: evaluation.CaseResult) -> evaluation.CaseResult:
         """Return the result of a case with what it says besides: its parts, its domain and `strict`."""
