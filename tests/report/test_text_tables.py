@@ -86,7 +86,7 @@ def test_prose_holds_no_markup(text):
     assert kinds <= {"text"}
 
 
-@pytest.mark.parametrize("text", ["--", "- a", "+ a", "1. a", "12) a", "===", " ---"])
+@pytest.mark.parametrize("text", ["--", "- a", "+ a", "+", "1. a", "12) a", "3.", " ---", "- - -"])
 def test_a_sentence_begins_no_block(text):
     tokens = _READER.parse(f"- {prose(text)}\n")
     assert [each.type for each in tokens].count("list_item_open") == 1

@@ -35,7 +35,7 @@ def _cell(value: Cell) -> str:
 _LONGEST = 300  # characters of one text in a cell
 _BACKTICKS = re.compile("`+")
 _ACTIVE = re.compile(r"[\\`*_{}\[\]<>#|~&@!$^]|:(?! |$)")
-_BEGINS_BLOCK = re.compile(r"^(?:[-+=]|\d(?=\d*[.)]))")
+_BEGINS_BLOCK = re.compile(r"^(?:[-+](?=[-\s]*$|\s)|\d(?=\d*[.)](?:\s|$)))")
 _RESERVE = 200  # bytes kept for the line that says what was left out
 
 
