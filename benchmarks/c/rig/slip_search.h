@@ -33,15 +33,15 @@ OURS Slip bracket_slip(Wheelset *wheelset, real thrust, const Parameters *p)
 
 OURS void find_friction_limit(Slip *s, const Wheelset *wheelset, const Parameters *p)
 {
-    s->friction_limit = friction_limit(s->estimate, wheelset->wheel_load, wheelset->friction, p->friction_ratio,
-                                       p->friction_decay, &s->limit_slope);
+    s->friction_limit = friction_limit(s->estimate, wheelset->wheel_load, wheelset->friction, wheelset->friction_ratio,
+                                       wheelset->friction_decay, &s->limit_slope);
 }
 
 OURS void find_stress_gradient(Slip *s, const Wheelset *wheelset, const Parameters *p)
 {
     s->gradient = stress_gradient(s->estimate, maximum(size_of(wheelset->speed), number(SLOWEST_CREEP)),
-                                  s->friction_limit, wheelset->contact_stiffness, p->reduction_adhesion,
-                                  p->reduction_slip);
+                                  s->friction_limit, wheelset->contact_stiffness, wheelset->reduction_adhesion,
+                                  wheelset->reduction_slip);
 }
 
 /* One Newton step towards the slip speed; returns the creep force of both wheels before it. */
@@ -49,8 +49,8 @@ OURS real refine_slip(Slip *s, const Wheelset *wheelset, const Parameters *p)
 {
     real slope;
     real force = force_and_slope(s->gradient, maximum(size_of(wheelset->speed), number(SLOWEST_CREEP)),
-                                 s->friction_limit, s->limit_slope, wheelset->contact_stiffness, p->reduction_adhesion,
-                                 p->reduction_slip, &slope);
+                                 s->friction_limit, s->limit_slope, wheelset->contact_stiffness, wheelset->reduction_adhesion,
+                                 wheelset->reduction_slip, &slope);
     s->estimate =
         refined_slip(s->estimate, &s->lowest, &s->highest, s->free, wheelset->slip_response, force, slope);
     return 2.0 * force;

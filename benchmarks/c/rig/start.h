@@ -23,6 +23,10 @@ static inline void start_wheelset(Wheelset *wheelset, const Parameters *p)
     wheelset->speed_valid = 1;
     wheelset->held_speed = p->initial_speed;
     wheelset->pad_friction = wheelset->reference_pad_friction;
+    wheelset->friction_ratio = p->friction_ratio;
+    wheelset->friction_decay = p->friction_decay;
+    wheelset->reduction_adhesion = p->reduction_adhesion;
+    wheelset->reduction_slip = p->reduction_slip;
     wheelset->disc_temperature = p->initial_disc_temperature;
     wheelset->disc_surface_temperature = p->initial_disc_temperature;
 }

@@ -21,7 +21,7 @@ from uictest.rig.model.controller import CHOICES, EXTERNAL
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.rail import FACTORS, FRICTIONS, PLACES, ROWS, TIMES
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
-from uictest.rig.rail_friction import RAIL_FRICTION, friction_along_track, friction_factor_over_time
+from uictest.rig.rail_friction import RAIL, friction_along_track, friction_factor_over_time
 from uictest.rig.single_stop import StopInputs, noise_keys
 
 
@@ -136,7 +136,7 @@ ASSIGNMENTS: tuple[Assignment, ...] = (
     *DERIVED,
     *DISC_BRAKE,
     *FAULTS,
-    *RAIL_FRICTION,
+    *RAIL,
     *DYNAMIC_BRAKE,
     Assignment(_set_controller, ("controller",)),
 )

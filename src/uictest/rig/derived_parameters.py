@@ -22,9 +22,8 @@ from uictest.plans.scenario import (
     rig_differences,
     wheelset_value,
 )
-from uictest.rig.highest_creep import highest_creep_law, resampled_transfer_function
+from uictest.rig.highest_creep import resampled_transfer_function
 from uictest.rig.model.parameters import Parameters
-from uictest.rig.model.rail import MARGIN, POINTS
 
 _WHEELS = 8.0
 
@@ -223,28 +222,6 @@ def _weight(p: Parameters, scenario: Scenario) -> None:
 @_reads("rail.condition.contact")
 def _contact(p: Parameters, scenario: Scenario) -> None:
     p.creep_stiffness = scenario.rail.condition.contact.creep_stiffness
-
-
-@_reads("rail.condition")
-def _highest_creep(p: Parameters, scenario: Scenario) -> None:
-    """Numbers of :mod:`uictest.core.physics.polach`."""
-    p.highest_creep_scale, coefficients = highest_creep_law(scenario.rail.condition)
-    for power, coefficient in enumerate(coefficients):
-        setattr(p, f"highest_creep_{power}", coefficient)
-
-
-@_reads("rail", "vehicle.bogie", "vehicle.half_pivot_distance")
-def _cleaning(p: Parameters, scenario: Scenario) -> None:
-    """Numbers of :mod:`uictest.core.physics.rail`; zero where nothing is cleaned."""
-    cleaning = scenario.rail.cleaning_in_force
-    wheelbase = 2.0 * scenario.vehicle.bogie.half_wheelbase
-    largest = max(wheelbase, 2.0 * scenario.vehicle.half_pivot_distance - wheelbase)
-    p.rail_points_per_metre = (POINTS - MARGIN) / largest
-    p.cleans_rail = float(cleaning is not None)
-    p.cleaning_response = 0.0 if cleaning is None else 1.0 / cleaning.energy
-    p.cleaning_decay = 0.0 if cleaning is None else 1.0 / cleaning.reach
-    p.recovered_friction = 0.0 if cleaning is None else cleaning.recovered_friction
-    p.carry_over = 0.0 if cleaning is None else cleaning.carry_over
 
 
 @_reads("rig.sensors.speed", "vehicle.wheelsets")

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.core.physics import FITTED_TERMS, contact_stiffness, highest_creep_force
-from uictest.plans.scenario import RailCondition
+from uictest.plans.scenario import CreepCurve, RailCondition
 from uictest.rig.model.running_gear import LOWEST_LOAD
 from uictest.rig.model.slip_search import HIGHEST_LOAD
 
@@ -27,7 +27,7 @@ _DIGITS: Final = 9
 """Decimals that are kept: they are alike on every machine."""
 
 
-def highest_creep_law(condition: RailCondition) -> tuple[float, tuple[float, ...]]:
+def highest_creep_law(condition: RailCondition | CreepCurve) -> tuple[float, tuple[float, ...]]:
     """Return the scale B / u1^2 in s/m and the coefficients, lowest power first."""
     law = condition.friction_ratio, condition.reduction_adhesion, condition.reduction_slip
     end, coefficients = _fitted(*map(float, law))

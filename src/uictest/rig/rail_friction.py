@@ -1,4 +1,4 @@
-"""Friction of the rail as it is found: along the track, over time and at random."""
+"""The rail: friction as it is found along the track, over time and at random; how sliding cleans it."""
 
 import math
 from itertools import pairwise
@@ -7,7 +7,9 @@ from typing import Final
 from uictest.core.ensemble import Ensemble
 from uictest.plans.scenario import Scenario
 from uictest.rig.derived_parameters import Assignment
+from uictest.rig.highest_creep import highest_creep_law
 from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.rail import MARGIN, POINTS
 
 _ALWAYS: Final = 1.0
 _VARIATION_SPACING: Final = 2.0
@@ -40,6 +42,33 @@ def _variation(p: Parameters, scenario: Scenario) -> None:
         p.variation_log_spread = round(variation.log_spread, _DIGITS)
 
 
+def _cleaning(p: Parameters, scenario: Scenario) -> None:
+    """Numbers of :mod:`uictest.core.physics.rail`; zero where nothing is cleaned."""
+    cleaning = scenario.rail.cleaning_in_force
+    wheelbase = 2.0 * scenario.vehicle.bogie.half_wheelbase
+    largest = max(wheelbase, 2.0 * scenario.vehicle.half_pivot_distance - wheelbase)
+    p.rail_points_per_metre = (POINTS - MARGIN) / largest
+    p.cleans_rail = float(cleaning is not None)
+    p.cleaning_response = 0.0 if cleaning is None else cleaning.response
+    p.cleaning_decay = 0.0 if cleaning is None else 1.0 / cleaning.reach
+    p.recovered_friction = 0.0 if cleaning is None else cleaning.recovered_friction
+    p.carry_over = 0.0 if cleaning is None else cleaning.carry_over
+    p.spent_share = 0.0 if cleaning is None else round(cleaning.spent_share, _DIGITS)
+
+
+def _creep_curves(p: Parameters, scenario: Scenario) -> None:
+    """Numbers of :mod:`uictest.core.physics.polach` for a clean rail, and of both for the largest force."""
+    found, cleaning = scenario.rail.condition, scenario.rail.cleaning_in_force
+    clean = found if cleaning is None or cleaning.clean_curve is None else cleaning.clean_curve
+    for name in ("friction_ratio", "friction_decay", "reduction_adhesion", "reduction_slip"):
+        setattr(p, f"clean_{name}", getattr(clean, name))
+    for prefix, curve in (("", found), ("clean_", clean)):
+        scale, coefficients = highest_creep_law(curve)
+        setattr(p, f"{prefix}highest_creep_scale", scale)
+        for power, coefficient in enumerate(coefficients):
+            setattr(p, f"{prefix}highest_creep_{power}", coefficient)
+
+
 def friction_along_track(scenario: Scenario) -> list[tuple[float, float]]:
     """Return places in m and friction coefficients, linear between them; a step is two points there."""
     friction = scenario.rail.friction
@@ -62,5 +91,10 @@ def friction_factor_over_time(scenario: Scenario) -> list[tuple[float, float]]:
     return [(0.0, _ALWAYS)] if law is None else [(float(p.time), float(p.factor)) for p in law.points]
 
 
-RAIL_FRICTION: Final = (Assignment(_friction, ("rail",)), Assignment(_variation, ("rail",)))
-"""What sets the parameters of the friction of the rail as it is found."""
+RAIL: Final = (
+    Assignment(_friction, ("rail",)),
+    Assignment(_variation, ("rail",)),
+    Assignment(_cleaning, ("rail", "vehicle.bogie", "vehicle.half_pivot_distance")),
+    Assignment(_creep_curves, ("rail",)),
+)
+"""What sets the parameters of the rail that follow from several values."""

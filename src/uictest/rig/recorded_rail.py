@@ -36,6 +36,8 @@ class RecordedRail:
         self._parameters = np.zeros(1, PARAMETERS)
         for name, value in assigned(ASSIGNMENTS, scenario).items():
             self._parameters[name] = value
+        assert scenario.rail.cleaning_in_force is not None
+        self._cleaning = scenario.rail.cleaning_in_force
         self._behind = place[0, 0] - place[:, 0]
         self._motion = np.zeros((len(time), _WHEELSETS), RECORDED_MOTION)
         self._motion["duration"] = np.diff(time, prepend=time[0])[:, None]
@@ -54,7 +56,7 @@ class RecordedRail:
             energy: Wc, J/m.
             recovered_friction: mur.
         """
-        self._parameters["cleaning_response"] = 1.0 / energy
+        self._parameters["cleaning_response"] = self._cleaning.response_to(energy)
         self._parameters["recovered_friction"] = recovered_friction
         self._motion["found"] = found.T
         self._motion["slip"] = 0.5 * (slip + np.concatenate((slip[:, :1], slip[:, :-1]), axis=1)).T
@@ -62,6 +64,8 @@ class RecordedRail:
         wheelsets = np.zeros(_WHEELSETS, WHEELSET)
         wheelsets["behind"] = self._behind
         wheelsets["friction"] = found[:, 0]
+        for name in ("friction_ratio", "friction_decay", "reduction_adhesion", "reduction_slip"):
+            wheelsets[name] = self._parameters[name]
         car, memory, rows = np.zeros(1, CAR), np.zeros(1, RAIL_MEMORY), len(met)
         native_function(_UNIT, _NAME, len(_ARGUMENTS))(
             address(car, CAR, (1,)),

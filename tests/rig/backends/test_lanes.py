@@ -68,6 +68,8 @@ VARIANTS = (
     (CLEANED, "rail.friction=0.05"),
     (CLEANED, "rail.friction=0.05", "vehicle=crh380a", "rail.condition.cleaning.carry_over=1"),
     (CLEANED, STEPPED, "rig.wsp=bypassed"),
+    ("rail.condition=wet-curves", "rail.friction=0.06"),
+    ("rail.condition=leaf-layer", "rail.condition.cleaning.spent=40 kJ/m", "rig.wsp=bypassed"),
     (VARIED, *WET),
     (VARIED, CLEANED, "rail.friction=0.05"),
     ("brake.pad=composite-block", *WET),

@@ -27,12 +27,14 @@ class Track:
 
     def __init__(self, losses, advance, **numbers):
         settings = {"cleaning_response": 1 / 5300, "cleaning_decay": 2.0, "recovered_friction": 0.28}
+        curve = ("friction_ratio", "friction_decay", "reduction_adhesion", "reduction_slip")
+        settings |= {name: 0.4 for each in curve for name in (each, f"clean_{each}")} | {"spent_share": 0.0}
         p = SimpleNamespace(rail_points_per_metre=1.0 / GRID, carry_over=1.0, **settings)
         vars(p).update(numbers)
         car = SimpleNamespace(position=0.0)
         wheelsets = [SimpleNamespace(behind=behind, contact_loss=0.0, cleaned_share=0.0) for behind in BEHIND]
         memory = np.full(1, 9.0, RAIL_MEMORY)[0]
-        forget_rail(memory)
+        forget_rail(memory, p)
         rows = [[], [], []]
         for cycle in range(round(60.0 / advance)):
             for wheelset, loss in zip(wheelsets, losses, strict=True):

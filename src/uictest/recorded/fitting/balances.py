@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,7 +35,12 @@ _FOR_ARRAYS: dict[Any, Any] = {fma: lambda a, b, c: a * b + c, maximum: np.maxim
 
 
 def wheelset_creep(
-    slip: Array, speed: Array, load: Array, friction: Array, rail: scenario.RailCondition
+    slip: Array,
+    speed: Array,
+    load: Array,
+    friction: Array,
+    rail: scenario.RailCondition,
+    clean: tuple[scenario.CreepCurve, Array] | None = None,
 ) -> Array:
     """Return the force of the rail on a wheelset of two wheels, N.
 
@@ -45,6 +50,7 @@ def wheelset_creep(
         load: of one wheel, N.
         friction: initial friction coefficient under the wheelset.
         rail: the other parameters of the law.
+        clean: those of a clean rail and the cleaned share, where they differ.
 
     """
     contact = rail.contact
@@ -57,14 +63,22 @@ def wheelset_creep(
         load,
         _of_arrays(contact_stiffness)(float(reference), load_ratio),
         friction,
-        float(rail.friction_ratio),
-        float(rail.friction_decay),
-        float(rail.reduction_adhesion),
-        float(rail.reduction_slip),
+        *(_blended(float(getattr(rail, name)), name, clean) for name in _SHAPE),
     )
     wheels = 2.0
     total: Array = wheels * force
     return total
+
+
+_SHAPE: Final = ("friction_ratio", "friction_decay", "reduction_adhesion", "reduction_slip")
+
+
+def _blended(found: float, name: str, clean: tuple[scenario.CreepCurve, Array] | None) -> float | Array:
+    """Return a number of the creep curve, which goes over to that of a clean rail with the cleaned share."""
+    if clean is None:
+        return found
+    curve, share = clean
+    return found + share * (float(getattr(curve, name)) - found)
 
 
 @cache
@@ -117,13 +131,17 @@ class Balances:
     windows: Windows
     scenario: Scenario
 
-    def rail_impulse(self, friction: Array) -> Array:
-        """Return the impulse of the rail on each wheelset by the creep law, N s, (4, k)."""
-        s = self.samples
+    def rail_impulse(self, friction: Array, share: Array | None = None) -> Array:
+        """Return the impulse of the rail on each wheelset by the creep law, N s, (4, k).
+
+        Arguments are those of :meth:`residuals`.
+        """
+        s, rail = self.samples, self.scenario.rail
+        curve = None if rail.cleaning_in_force is None else rail.cleaning_in_force.clean_curve
+        clean = None if curve is None or share is None else (curve, share)
         slip = np.maximum(s.slip, 0.0)
-        return over(
-            self.windows, s, wheelset_creep(slip, s.speed, s.load, friction, self.scenario.rail.condition)
-        )
+        force = wheelset_creep(slip, s.speed, s.load, friction, rail.condition, clean)
+        return over(self.windows, s, force)
 
     def brake_impulse(self, brake_factor: float | Array) -> Array | None:
         """Return the impulse of the rail by the balance of each wheelset, N s, (4, k); else None."""
@@ -134,16 +152,19 @@ class Balances:
         impulse: Array = (torque + wheelset.rotational_inertia * self._turned) / self._radius
         return impulse
 
-    def residuals(self, friction: Array, brake_factor: float | Array) -> tuple[Array, Array]:
+    def residuals(
+        self, friction: Array, share: Array | None, brake_factor: float | Array
+    ) -> tuple[Array, Array]:
         """Return the residuals of the balances of sliding wheelsets, and of the train.
 
         The train's are those of windows in which all impulses are known.
 
         Args:
             friction: initial friction coefficient under each wheelset, (4, n).
+            share: cleaned share of the rail under it, (4, n); None where nothing is cleaned.
             brake_factor: on the torque of the brakes, one or (4, 1).
         """
-        return self.residuals_by(self.rail_impulse(friction), brake_factor)
+        return self.residuals_by(self.rail_impulse(friction, share), brake_factor)
 
     def residuals_by(self, by_rail: Array, brake_factor: float | Array) -> tuple[Array, Array]:
         """Return the residuals with the impulse of the rail, N s, (4, k)."""

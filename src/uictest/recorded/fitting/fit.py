@@ -92,7 +92,7 @@ def _solve(rail: RailUnderStop, *, with_pads: bool) -> tuple[list[float], list[f
     count, balances = len(rail.free), rail.stretches.balances
 
     def residuals(x: Array) -> Groups:
-        return balances.residuals(rail.met_as_stated(x[:count]), float(x[-1]) if with_pads else 1.0)
+        return balances.residuals(*rail.met_as_stated(x[:count]), float(x[-1]) if with_pads else 1.0)
 
     start = np.array(rail.stretches.start + [1.0] * with_pads)
     if not len(start):

@@ -157,12 +157,12 @@ class RailUnderStop:
             self.found(levels), recorded if slip is None else slip, energy, recovered_friction
         )
 
-    def met_as_stated(self, levels: Array) -> Array:
-        """Return the friction that each wheelset met, (4, n), with the cleaning that the scenario states."""
+    def met_as_stated(self, levels: Array) -> tuple[Array, Array | None]:
+        """Return friction and cleaned share under each wheelset, (4, n), with the cleaning as stated."""
         cleaning = self.stretches.balances.scenario.rail.cleaning_in_force
         if cleaning is None:
-            return self.found(levels)
-        return self.met(levels, float(cleaning.energy), float(cleaning.recovered_friction))[0]
+            return self.found(levels), None
+        return self.met(levels, float(cleaning.energy), float(cleaning.recovered_friction))
 
 
 _UNCLEANED_SHARE = 0.7
@@ -238,8 +238,8 @@ class CleanedStop:
         def found(of_rail: tuple[float, ...], energy: float, recovered: float) -> tuple[Balances, Array]:
             *levels, delay = of_rail
             balances = self._without_delay(delay)
-            friction, _ = self.rail.met(np.array(levels), energy, recovered, balances.samples.slip)
-            return balances, balances.rail_impulse(friction)
+            met = self.rail.met(np.array(levels), energy, recovered, balances.samples.slip)
+            return balances, balances.rail_impulse(*met)
 
         return found
 

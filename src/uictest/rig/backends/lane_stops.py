@@ -109,7 +109,7 @@ def _start_next_case(
     _set_to_start(lanes, blank, cases, case, k)
     begin_tables(cases.measures[case], cases.wheelset_measures[case])
     if cases.parameters[case].cleans_rail > 0.0:
-        forget_rail(memories[k])
+        forget_rail(memories[k], cases.parameters[case])
     return started + 1
 
 

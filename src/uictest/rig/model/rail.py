@@ -57,14 +57,14 @@ RAIL_MEMORY = layout_of(RailMemory)
 """Layout of :class:`RailMemory`."""
 
 
-def forget_rail(memory: RailMemory) -> None:
-    """Set the memory to a rail that no wheelset has cleaned, at the instant of the brake command."""
+def forget_rail(memory: RailMemory, p: Parameters) -> None:
+    """Set the memory to a rail that only earlier stops have cleaned, at the instant of the brake command."""
     memory.position = 0.0
     for i in range(_WHEELSETS):
         memory.loss[i] = 0.0
         memory.cleaned[i] = 0.0
     for k in range(_RINGS):
-        memory.points[k] = 0.0
+        memory.points[k] = p.spent_share
 
 
 def clean_rail(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, memory: RailMemory) -> None:
@@ -77,7 +77,7 @@ def clean_rail(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, memory: R
         memory: of the rail; it is written up to the present place of each wheelset.
     """
     distance = car.position - memory.position
-    arrived = 0.0
+    arrived = p.spent_share  # by earlier stops: what is before the first wheelset
     for i in range(_WHEELSETS):
         wheelset = wheelsets[i]
         if distance > 0.0:
@@ -91,7 +91,19 @@ def clean_rail(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, memory: R
             write_passed(memory, i, start, place, wheelset.cleaned_share, left)
         wheelset.cleaned_share = left
         wheelset.friction = cleaned_friction(wheelset.friction, left, p.recovered_friction)
+        set_creep_curve(wheelset, p)
     memory.position = car.position
+
+
+def set_creep_curve(wheelset: Wheelset, p: Parameters) -> None:
+    """Set the shape of the creep curve: that of the rail as found goes over to that of a clean one."""
+    share = wheelset.cleaned_share
+    wheelset.friction_ratio = p.friction_ratio + share * (p.clean_friction_ratio - p.friction_ratio)
+    wheelset.friction_decay = p.friction_decay + share * (p.clean_friction_decay - p.friction_decay)
+    wheelset.reduction_adhesion = p.reduction_adhesion + share * (
+        p.clean_reduction_adhesion - p.reduction_adhesion
+    )
+    wheelset.reduction_slip = p.reduction_slip + share * (p.clean_reduction_slip - p.reduction_slip)
 
 
 def _slide_on(wheelset: Wheelset, distance: float, p: Parameters, memory: RailMemory, i: int) -> None:
@@ -177,10 +189,10 @@ def slide_by_creep_law(wheelset: Wheelset, motion: RecordedMotion, p: Parameters
         motion.load,
         contact_stiffness(p.creep_stiffness, motion.load * p.load_scale),
         wheelset.friction,
-        p.friction_ratio,
-        p.friction_decay,
-        p.reduction_adhesion,
-        p.reduction_slip,
+        wheelset.friction_ratio,
+        wheelset.friction_decay,
+        wheelset.reduction_adhesion,
+        wheelset.reduction_slip,
     )
     wheelset.contact_loss += _WHEELS * force * slip * motion.duration
     wheelset.friction = motion.found

@@ -104,7 +104,11 @@ def bracket_slip(wheelset: Wheelset, thrust: float, p: Parameters) -> Slip:
 def _friction_limit(slip: Slip, wheelset: Wheelset, p: Parameters) -> Limit:
     """Friction limit at the estimated slip speed, and how it changes."""
     return friction_limit(
-        slip.estimate, wheelset.wheel_load, wheelset.friction, p.friction_ratio, p.friction_decay
+        slip.estimate,
+        wheelset.wheel_load,
+        wheelset.friction,
+        wheelset.friction_ratio,
+        wheelset.friction_decay,
     )
 
 
@@ -115,8 +119,8 @@ def _stress_gradient(slip: Slip, limit: Limit, wheelset: Wheelset, p: Parameters
         maximum(abs(wheelset.speed), SLOWEST_CREEP),
         limit[0],
         wheelset.contact_stiffness,
-        p.reduction_adhesion,
-        p.reduction_slip,
+        wheelset.reduction_adhesion,
+        wheelset.reduction_slip,
     )
 
 
@@ -130,8 +134,8 @@ def _refine(
         limit[0],
         limit[1],
         wheelset.contact_stiffness,
-        p.reduction_adhesion,
-        p.reduction_slip,
+        wheelset.reduction_adhesion,
+        wheelset.reduction_slip,
     )
     estimate, lowest, highest = refined_slip(
         slip.estimate, slip.lowest, slip.highest, slip.free, wheelset.slip_response, force, slope

@@ -165,6 +165,10 @@ class Wheelset(ControlledWheelset, WheelsetParameters):
     disc_mode_5: float
     disc_mode_6: float
     friction: float
+    friction_ratio: float  # this and the next three: shape of the creep curve of the rail under it
+    friction_decay: float  # s/m
+    reduction_adhesion: float
+    reduction_slip: float
     cleaned_share: float  # of the rail under the wheelset and behind it
     wheel_load: float
     contact_stiffness: float

@@ -24,7 +24,7 @@ from uictest.rig.model.faults import (
 )
 from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.parameters import Parameters
-from uictest.rig.model.rail import RailMemory, clean_rail, forget_rail
+from uictest.rig.model.rail import RailMemory, clean_rail, forget_rail, set_creep_curve
 from uictest.rig.model.state import Bogie, Car, Wheelset
 from uictest.rig.model.step import step
 from uictest.rig.model.stop_measures import (
@@ -62,6 +62,7 @@ def start(
         _start_wheelset(wheelsets[i], p)
         start_disc(wheelsets[i], p)
         start_dynamic_brake(wheelsets[i], i, p)
+        set_creep_curve(wheelsets[i], p)
         start_module(wheelsets[i], select(i < p.calipers, 1.0, 0.0), p)
         wheelsets[i].ahead = side * p.half_wheelbase
         wheelsets[i].behind = p.half_pivot_distance - bogie.ahead + p.half_wheelbase * (1.0 - side)
@@ -158,7 +159,7 @@ def begin_stop(
     begin_stop_measures(car, measures, wheelset_measures, p)
     begin_tables(measures, wheelset_measures)
     if p.cleans_rail > 0.0:
-        forget_rail(memory)
+        forget_rail(memory, p)
 
 
 def begin_cycle(

@@ -153,8 +153,26 @@ def observe_faults(
 
 
 def _highest_force(wheelset: Wheelset, speed: float, p: Parameters) -> float:
-    """Largest creep force of both wheels on the rail as it is, N."""
-    return 2.0 * highest_creep_force(
+    """Largest creep force of both wheels on the rail as it is, N.
+
+    Between that of the rail as found and that of a clean one, both with the friction that is met.
+    """
+    clean = highest_creep_force(
+        speed,
+        wheelset.wheel_load,
+        wheelset.friction,
+        wheelset.contact_stiffness,
+        p.clean_highest_creep_scale,
+        p.clean_highest_creep_0,
+        p.clean_highest_creep_1,
+        p.clean_highest_creep_2,
+        p.clean_highest_creep_3,
+        p.clean_highest_creep_4,
+        p.clean_highest_creep_5,
+        p.clean_highest_creep_6,
+        p.clean_highest_creep_7,
+    )
+    found = highest_creep_force(
         speed,
         wheelset.wheel_load,
         wheelset.friction,
@@ -169,6 +187,7 @@ def _highest_force(wheelset: Wheelset, speed: float, p: Parameters) -> float:
         p.highest_creep_6,
         p.highest_creep_7,
     )
+    return 2.0 * (found + wheelset.cleaned_share * (clean - found))
 
 
 def _highest_cylinder_pressure(wheelsets: Sequence[Wheelset]) -> float:

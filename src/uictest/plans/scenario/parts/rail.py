@@ -33,14 +33,36 @@ class Contact(Section):
         return 0.25 * self.shear_modulus * area * self.kalker_coefficient
 
 
+_RATIO: Final = "A: friction at infinite slip speed over mu0."
+_DECAY: Final = "B: how fast friction falls with slip speed."
+_ADHESION: Final = "kA: reduction of the creep slope in the area of adhesion."
+_SLIP: Final = "kS: reduction of the creep slope in the area of slip."
+Decay = Annotated[Quantity, of_kind("inverse speed", "0 s/m .. 100 s/m")]
+
+
+class CreepCurve(Section):
+    """The shape of a creep curve (Polach 2005); its friction coefficient stands elsewhere."""
+
+    friction_ratio: Share = field(_RATIO)
+    friction_decay: Decay = field(_DECAY)
+    reduction_adhesion: Share = field(_ADHESION)
+    reduction_slip: Share = field(_SLIP)
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield reduction factors in the wrong order."""
+        yield from super().inconsistencies()
+        yield from _reductions_out_of_order(self)
+
+
+Energy = Annotated[Quantity, of_kind("energy per length", "1 J/m .. 1e9 J/m")]
+_CONTACTS: Final = 2.0
+"""Of a wheelset."""
+
+
 class Cleaning(Section):
     """How sliding cleans the rail, for itself and for the wheelsets that follow."""
 
-    energy: Quantity = quantity(
-        "Wc: contact loss of a wheelset per metre of track that cleans 63 % of the rail.",
-        "energy per length",
-        "1 J/m .. 1e9 J/m",
-    )
+    energy: Energy = field("Wc: contact loss of a wheelset per metre of track that cleans 63 % of the rail.")
     recovered_friction: Friction = field(
         "Initial friction coefficient of a clean rail; where the rail is better, nothing changes."
     )
@@ -50,6 +72,32 @@ class Cleaning(Section):
     carry_over: Quantity = quantity(
         "Part of what a wheelset has cleaned that the next one finds at the same place.", "number", "0 .. 1"
     )
+    clean_curve: CreepCurve | None = optional(
+        "Shape of the creep curve of a clean rail, to which that of the condition goes over; the condition's"
+        " own if left out."
+    )
+    loss: Literal["wheelset", "contact"] = field(
+        "Whose loss the energy is compared with: that of both contacts of a wheelset, or of one.",
+        default="wheelset",
+    )
+    spent: Energy | None = optional(
+        "Contact loss per metre that all wheelsets of earlier stops together have spent on the rail; none if"
+        " left out."
+    )
+
+    @property
+    def response(self) -> float:
+        """Cleaned share per contact loss of a wheelset and metre, where little is cleaned, m/J."""
+        return self.response_to(self.energy)
+
+    @property
+    def spent_share(self) -> float:
+        """Share of the rail that earlier stops have cleaned."""
+        return 0.0 if self.spent is None else -math.expm1(-float(self.response * self.spent))
+
+    def response_to(self, energy: float) -> float:
+        """The same for another energy, J/m."""
+        return 1.0 / energy if self.loss == "wheelset" else 1.0 / _CONTACTS / energy
 
 
 _DEVIATIONS: Final = 6.0
@@ -91,12 +139,10 @@ class RailCondition(Part):
 
     schema_id: Literal["uictest/rail/1"] = schema_field("uictest/rail/1")
     friction: Friction = field("Initial friction coefficient mu0, at zero slip speed.")
-    friction_ratio: Share = field("A: friction at infinite slip speed over mu0.")
-    friction_decay: Quantity = quantity(
-        "B: how fast friction falls with slip speed.", "inverse speed", "0 s/m .. 100 s/m"
-    )
-    reduction_adhesion: Share = field("kA: reduction of the creep slope in the area of adhesion.")
-    reduction_slip: Share = field("kS: reduction of the creep slope in the area of slip.")
+    friction_ratio: Share = field(_RATIO)
+    friction_decay: Decay = field(_DECAY)
+    reduction_adhesion: Share = field(_ADHESION)
+    reduction_slip: Share = field(_SLIP)
     contact: Contact = field("The contact of one wheel.")
     cleaning: Cleaning | None = optional("How sliding cleans the rail; it does not if left out.")
     variation: Variation | None = optional("How friction varies at random; it does not if left out.")
@@ -104,12 +150,16 @@ class RailCondition(Part):
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield reduction factors in the wrong order."""
         yield from super().inconsistencies()
-        if self.reduction_slip > self.reduction_adhesion:
-            yield Inconsistency(
-                ("reduction_slip",),
-                f"kS = {self.reduction_slip.text} exceeds kA = {self.reduction_adhesion.text}",
-                "the law needs reduction_slip <= reduction_adhesion <= 1",
-            )
+        yield from _reductions_out_of_order(self)
+
+
+def _reductions_out_of_order(curve: CreepCurve | RailCondition) -> Iterator[Inconsistency]:
+    if curve.reduction_slip > curve.reduction_adhesion:
+        yield Inconsistency(
+            ("reduction_slip",),
+            f"kS = {curve.reduction_slip.text} exceeds kA = {curve.reduction_adhesion.text}",
+            "the law needs reduction_slip <= reduction_adhesion <= 1",
+        )
 
 
 MOST_POINTS = 64
