@@ -165,11 +165,11 @@ def run_batch(
     )
     runner = _CaseRunner(batch, observer, drawing, keep)
     done = runner.run(batch.cases, settings, observer.case)
-    judged = campaign.BatchResult[judging_series.SeriesResult](interrupted=done.interrupted)
+    judged: campaign.BatchResult[judging_series.SeriesResult]  # not evaluated: few runs have series
+    judged = campaign.BatchResult(interrupted=done.interrupted)
     if not done.interrupted:
         missed = sum(not result.met for result in done.results)
-        # A series is firm as a whole: of its cases it is not asked.
-        of_series = replace(settings, maxfail=None, firm=False)
+        of_series = replace(settings, maxfail=None, firm=False)  # asked of a series as a whole
         judged = run_series(
             batch.series,
             lambda cases: runner.run(cases, of_series, observer.case_of_series),
