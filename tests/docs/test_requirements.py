@@ -1,4 +1,4 @@
-"""The requirements of the tool are numbered without a gap, and the tests that they name exist."""
+"""Requirements are numbered without a gap; the tests that they and the error analysis name exist."""
 
 import ast
 import re
@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 PAGE = Path(__file__).parents[2] / "docs" / "requirements.md"
+ERRORS = PAGE.with_name("tool-errors.md")
 _ROW = re.compile(r"^\| (TOOL-\d+): ([^|]+) \| ([^|]+) \|$", re.MULTILINE)
 _TEST = re.compile(r"\[(test_\w+)\]\(([^)]+\.py)\)")
 ROWS = {match[1]: (match[2], match[3]) for match in _ROW.finditer(PAGE.read_text("utf-8"))}
@@ -31,3 +32,21 @@ def test_the_tests_of_a_requirement_exist(requirement):
     assert len(named) == ROWS[requirement][1].count("[")
     for name, link in named:
         assert name in names_in((PAGE.parent / link).resolve()), f"{requirement}: no {name} in {link}"
+
+
+FUNCTIONS = [line for line in ERRORS.read_text("utf-8").splitlines() if line.startswith("| ")][1:]
+_COLUMNS = 4
+_UNTESTED = {"self-test and dossier"}
+"""What nothing but studies and closed forms can find."""
+
+
+def test_every_function_of_the_tool_says_how_it_could_lie_what_finds_it_and_what_remains():
+    cells = [[cell.strip() for cell in row.strip("|").split("|")] for row in FUNCTIONS]
+    assert len(cells) > 15
+    assert all(len(row) == _COLUMNS and all(row) for row in cells)
+    assert {row[0] for row in cells if not _TEST.search(row[2])} == _UNTESTED
+
+
+def test_the_tests_that_the_error_analysis_names_exist():
+    for name, link in _TEST.findall(ERRORS.read_text("utf-8")):
+        assert name in names_in((ERRORS.parent / link).resolve()), f"no {name} in {link}"

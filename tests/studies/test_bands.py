@@ -11,7 +11,9 @@ from studies.slip_brake_tests import CLEANED
 from studies.study import STUDIES, run_study
 
 QUICK = ("bench-loops", "four-phase-lines", "command-level", "slide-test", "valve-actuations", "appendix-b")
-_SLOW = frozenset({"compensation-domain", "field-against-rig", "random-rail", "robustness"})
+_SLOW = frozenset(
+    {"compensation-domain", "field-against-rig", "independent-integration", "random-rail", "robustness"}
+)
 
 BOUNDED = [
     pytest.param(name, quantity.key, id=f"{name}-{quantity.key}", marks=[pytest.mark.slow] * (name in _SLOW))

@@ -38,6 +38,12 @@ def test_studies_import_the_public_interface_and_few_rooms_behind_it():
     assert found - {"uictest", "uictest.units"} == BEHIND
 
 
+def test_the_independent_rig_has_no_code_of_the_rig():
+    files = sorted((STUDIES / "independent").glob("*.py"))
+    assert len(files) > 3
+    assert {name for path in files for name in imported(path)} == {"uictest"}
+
+
 def test_public_names_are_those_that_the_package_offers():
     names = {
         each.name

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import sys
+from datetime import UTC, datetime
 from pathlib import Path
-from typing import Final
+from typing import Annotated, Final
 
 from uictest import report, selftest as known_answers
 from uictest.cli import options
+from uictest.cli.commands.schema import SchemaKind, schema_text
 from uictest.cli.output import ExitCode, data, terminal_width
 from uictest.cli.progress import compilation_shown
 from uictest.core import files
+from uictest.selftest import dossier as assessor
 
 _CODES: Final = {"fail": ExitCode.MISSED, "error": ExitCode.ERROR}
 """Worst finding -> exit code; any other is `ExitCode.MET`."""
@@ -19,15 +22,22 @@ _CODES: Final = {"fail": ExitCode.MISSED, "error": ExitCode.ERROR}
 def selftest(
     junit: options.JUnitFile = None,
     shown: options.ListFormat = options.PlainFormat.TEXT,
+    dossier: Annotated[
+        Path | None, options.option("--dossier FILE", "Also write an archive for an assessor (zip) to FILE.")
+    ] = None,
 ) -> ExitCode:
     """Check that this installation gives known answers: stored bits, closed forms, verdicts, controllers.
 
     Exit code 1: an answer differs; 3: a check failed to run. What this machine cannot check is listed.
     """
-    file = options.junit_file(junit, Path())
+    file, archive = options.junit_file(junit, Path()), options.junit_file(dossier, Path(), "--dossier")
     stops = known_answers.KnownStops()
     with compilation_shown():
         examination = known_answers.examine(stops)
+    if archive is not None:
+        schemas = {f"{kind.value}.schema.json": schema_text(kind) for kind in SchemaKind}
+        contents = assessor.dossier_files(examination, schemas, datetime.now(UTC))
+        files.write_to(archive, assessor.packed(contents))
     return show_findings(examination, shown, file)
 
 

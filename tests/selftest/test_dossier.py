@@ -1,0 +1,152 @@
+"""The dossier: complete, the same for the same installation, its links whole, no place of the machine."""
+
+import hashlib
+import io
+import json
+import re
+import tempfile
+import zipfile
+from dataclasses import replace
+from datetime import UTC, datetime
+from pathlib import Path, PurePosixPath
+from posixpath import normpath
+
+import pytest
+
+from uictest import selftest
+from uictest.selftest import dossier
+from uictest.selftest.findings import Examination, Finding
+
+REPOSITORY = Path(__file__).parents[2]
+MADE = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
+PASSED = Finding("tank", "physics", "a tank", "pass", 1.0, 1.0, 0.0, "K")
+FAILED = replace(PASSED, id="stop", status="fail", found=2.0, reason="1 differs")
+SCHEMAS = {"scenario.schema.json": "{}\n"}
+_LINK = re.compile(r'(?:href|src)="([^"]*)"')
+_ID = re.compile(r'id="([^"]*)"')
+
+
+def files_of(*findings, about=None):
+    examination = Examination("selftest", "", about or {"python": "CPython 3.11"}, findings)
+    return dossier.dossier_files(examination, SCHEMAS, MADE)
+
+
+@pytest.fixture(scope="module")
+def files():
+    return files_of(PASSED)
+
+
+@pytest.fixture(scope="module")
+def whole(files):
+    return json.loads(files["dossier.json"])
+
+
+def text(files, name):
+    return files[name].decode("utf-8")
+
+
+def test_it_holds_every_page_of_the_manual_and_what_an_assessor_asks_for(files):
+    pages = {path.stem for path in REPOSITORY.glob("docs/*.md")} - {"index"} | {"CHANGELOG"}
+    assert {f"manual/{page}.html" for page in pages} <= set(files)
+    parts = {"known-answers.html", "studies.html", "materials.cdx.json", "constraints.txt", "questions.html"}
+    assert parts <= set(files)
+    assert "Apache License" in text(files, "LICENSE.txt")
+    assert files["schema/scenario.schema.json"] == b"{}\n"
+
+
+def test_every_link_leads_to_a_place_in_it(files):
+    anchors = {name: set(_ID.findall(text(files, name))) for name in files if name.endswith(".html")}
+    checked = 0
+    for page in anchors:
+        for target in _LINK.findall(text(files, page)):
+            if "://" in target or target.startswith(("#main", "data:")):
+                continue
+            name, _, anchor = target.partition("#")
+            place = normpath(str(PurePosixPath(page).parent / name)) if name else page
+            assert place in {*files, "SHA256SUMS"}, f"{page}: {target}"
+            assert not anchor or anchor in anchors[place], f"{page}: {target}"
+            checked += 1
+    assert checked > 300
+
+
+def test_the_same_installation_makes_the_same_bytes():
+    assert dossier.packed(files_of(PASSED)) == dossier.packed(files_of(PASSED))
+
+
+def test_the_archive_lists_the_digest_of_each_file(files):
+    archive = zipfile.ZipFile(io.BytesIO(dossier.packed(files)))
+    names = [PurePosixPath(name).name for name in archive.namelist()[:2]]
+    assert names == ["index.html", "dossier.json"]
+    folder = PurePosixPath(archive.namelist()[0]).parent
+    for line in archive.read(f"{folder}/SHA256SUMS").decode().splitlines():
+        digest, _, name = line.partition("  ")
+        assert hashlib.sha256(archive.read(f"{folder}/{name}")).hexdigest() == digest
+    assert len(archive.namelist()) == len(files) + 1
+    assert {each.date_time for each in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+
+
+def test_a_failed_self_test_stands_on_the_cover():
+    failed = files_of(PASSED, FAILED)
+    assert "FAILED: 2 checks of the self-test, 1 pass, 1 fail" in text(failed, "index.html")
+    assert json.loads(failed["dossier.json"])["status"] == "fail"
+    assert "FAILED" not in text(files_of(PASSED), "index.html")
+
+
+def test_no_folder_of_the_machine_is_named():
+    places = [str(Path.home()), str(Path.cwd()), tempfile.gettempdir(), str(REPOSITORY)]
+    reason = "; ".join(f"no file {place}/x" for place in places)
+    files = files_of(replace(FAILED, status="error", reason=reason, expected=reason), about={"cache": reason})
+    assert "no file &lt;" in text(files, "known-answers.html")
+    for name, content in files.items():
+        for place in places:
+            assert len(place) < 2 or f"{place}/" not in content.decode("utf-8"), name
+
+
+def test_programs_find_requirements_with_tests_errors_studies_and_packages(whole):
+    assert whole["schema"] == "uictest/dossier/1"
+    assert [each["id"] for each in whole["requirements"]] == [
+        f"TOOL-{number}" for number in range(1, len(whole["requirements"]) + 1)
+    ]
+    assert all(each["tests"] for each in whole["requirements"])
+    page = (REPOSITORY / "docs/known-errors.md").read_text("utf-8")
+    assert len(whole["known_errors"]) == sum(line.startswith("| ") for line in page.splitlines()) - 1
+    assert {each["name"] for each in whole["packages"]} >= {"uictest", "numpy", "numba", "pydantic"}
+    assert {each["licence"] for each in whole["packages"]} & {"", "not stated"} == set()
+    assert re.fullmatch(r"[0-9a-f]{64}", whole["installed_sha256"])
+
+
+def test_studies_that_are_kept_are_those_of_the_catalogue_and_misses_stand_first(files, whole):
+    from studies.study import STUDIES
+
+    for kept in whole["studies"]:
+        quantities = {each.key: each for each in STUDIES[kept["name"]].quantities}
+        assert [each["key"] for each in kept["quantities"]] == list(quantities)
+        for each in kept["quantities"]:
+            now = quantities[each["key"]]
+            assert each["status"] == now.status
+            assert (each["band"] or {}).get("upper") == (now.band and now.band.upper)
+            assert each["declared_miss"] == now.declared_miss
+            assert not each["fails"], f"{kept['name']}: {each['key']}"
+    shown = re.findall(r">(misses|holds|shown)<", text(files, "studies.html"))
+    assert shown == sorted(shown, key=("misses", "holds", "shown").index)
+
+
+@pytest.mark.slow
+def test_a_release_keeps_the_results_of_every_study(whole):
+    """Run ./reproduce and scripts/dossier_studies.py."""
+    from studies.study import STUDIES
+
+    assert [each["name"] for each in whole["studies"]] == list(STUDIES)
+
+
+def test_twenty_questions_and_more_have_an_answer_with_its_place(files):
+    rows = re.findall(r"<tr>\s*<td>(\d+)</td>(.*?)</tr>", text(files, "questions.html"), re.DOTALL)
+    assert [int(number) for number, _ in rows] == list(range(1, len(rows) + 1))
+    assert len(rows) >= 20
+    assert all(_LINK.search(row) for _, row in rows)
+
+
+def test_the_real_self_test_is_in_it(stops):
+    examination = selftest.examine(stops, list(selftest.all_checks(stops))[:2])
+    found = json.loads(dossier.dossier_files(examination, {}, MADE)["dossier.json"])["self_test"]
+    assert [each["status"] for each in found] == ["pass", "pass"]
