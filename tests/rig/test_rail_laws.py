@@ -79,18 +79,18 @@ def test_the_whole_curve_goes_over_to_that_of_a_clean_rail(rig):
 
 
 @pytest.mark.parametrize("share", [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0])
-def test_the_largest_force_between_both_curves_is_known_to_four_per_cent(rig, share):
+def test_the_largest_force_between_both_curves_is_known_to_a_per_cent_and_a_half(rig, share):
     """Blended between those of both curves; exactly known at the ends, to the error of the fit there."""
     found = rig.case(*CURVES).scenario.rail.condition
     clean = found.cleaning.clean_curve
-    load = float(found.contact.reference_wheel_load)
-    stiffness = contact_stiffness(float(found.contact.creep_stiffness), 1.0)
     curve = [
         float(getattr(found, name) + share * (getattr(clean, name) - getattr(found, name))) for name in SHAPE
     ]
     errors = []
     for speed in (5.0, 15.0, 33.0):
-        for friction in (0.06, 0.12, 0.25):
+        for friction, load_ratio in ((0.06, 1.0), (0.12, 0.6), (0.25, 1.6)):
+            load = load_ratio * float(found.contact.reference_wheel_load)
+            stiffness = contact_stiffness(float(found.contact.creep_stiffness), load_ratio)
             slips = np.geomspace(1e-4, speed, 3000)
             exact = max(creep_force(w, speed, load, stiffness, friction, *curve)[0] for w in slips)
             ends = [
@@ -98,4 +98,4 @@ def test_the_largest_force_between_both_curves_is_known_to_four_per_cent(rig, sh
                 for scale, coefficients in map(highest_creep_law, (found, clean))
             ]
             errors.append((ends[0] + share * (ends[1] - ends[0])) / exact - 1.0)
-    assert np.abs(errors).max() < 0.04
+    assert np.abs(errors).max() < 0.015

@@ -37,13 +37,22 @@ def test_exact_records_give_the_shares_of_the_rig(wsp):
     assert np.abs(difference).mean() < 0.003
 
 
-def steady_slide(seconds):
+def steady_slide(seconds, *rail):
     """The rail under a train at 20 m/s, and ones for each wheelset and sample."""
-    case = stated_case("stop", 20.0, ["rail.condition=wet-cleaning"])
+    case = stated_case("stop", 20.0, [*(rail or ["rail.condition=wet-cleaning"])])
     time = np.arange(0.0, seconds, 0.01)
     place = 20.0 * time - np.array([[0.0], [2.5], [17.5], [20.0]])
     full = np.ones_like(place)
     return RecordedRail(case.scenario, time, 20.0 * full[0], place, 5.5e4 * full), full
+
+
+@pytest.mark.parametrize(("energy", "share"), [(60e3, 0.393469), (120e3, 0.221199), (np.inf, 0.0)])
+def test_what_earlier_stops_spent_belongs_to_the_energy_that_is_sought(energy, share):
+    """1 - exp(-30 / 60), 1 - exp(-30 / 120), none: under every wheelset from the first sample on."""
+    rail, full = steady_slide(2.0, "rail.condition=leaf-layer", "rail.condition.cleaning.spent=30 kJ/m")
+    friction, found = rail.met(0.05 * full, 0.0 * full, energy, 0.28)
+    np.testing.assert_allclose(found, share, atol=1e-6)
+    np.testing.assert_allclose(friction, 0.05 + share * 0.23, atol=1e-6)
 
 
 def test_a_rail_that_nothing_cleans_is_as_it_was_found():

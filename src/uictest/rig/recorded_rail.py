@@ -58,6 +58,7 @@ class RecordedRail:
         """
         self._parameters["cleaning_response"] = self._cleaning.response_to(energy)
         self._parameters["recovered_friction"] = recovered_friction
+        self._parameters["spent_share"] = self._cleaning.spent_share_with(energy)
         self._motion["found"] = found.T
         self._motion["slip"] = 0.5 * (slip + np.concatenate((slip[:, :1], slip[:, :-1]), axis=1)).T
         met = np.zeros(self._motion.shape, MET_RAIL)
@@ -67,6 +68,7 @@ class RecordedRail:
         for name in ("friction_ratio", "friction_decay", "reduction_adhesion", "reduction_slip"):
             wheelsets[name] = self._parameters[name]
         car, memory, rows = np.zeros(1, CAR), np.zeros(1, RAIL_MEMORY), len(met)
+        memory["points"] = self._parameters["spent_share"]
         native_function(_UNIT, _NAME, len(_ARGUMENTS))(
             address(car, CAR, (1,)),
             address(wheelsets, WHEELSET, (_WHEELSETS,)),

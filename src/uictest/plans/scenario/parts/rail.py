@@ -64,7 +64,7 @@ class Cleaning(Section):
 
     energy: Energy = field("Wc: contact loss of a wheelset per metre of track that cleans 63 % of the rail.")
     recovered_friction: Friction = field(
-        "Initial friction coefficient of a clean rail; where the rail is better, nothing changes."
+        "Initial friction coefficient of a clean rail; where the rail is better, its friction stays."
     )
     reach: Quantity = quantity(
         "Length of track over which the cleaned share follows the contact loss.", "length", "1 mm .. 100 m"
@@ -93,11 +93,15 @@ class Cleaning(Section):
     @property
     def spent_share(self) -> float:
         """Share of the rail that earlier stops have cleaned."""
-        return 0.0 if self.spent is None else -math.expm1(-float(self.response * self.spent))
+        return self.spent_share_with(self.energy)
 
     def response_to(self, energy: float) -> float:
         """The same for another energy, J/m."""
         return 1.0 / energy if self.loss == "wheelset" else 1.0 / _CONTACTS / energy
+
+    def spent_share_with(self, energy: float) -> float:
+        """The same for another energy, J/m."""
+        return 0.0 if self.spent is None else -math.expm1(-float(self.response_to(energy) * self.spent))
 
 
 _DEVIATIONS: Final = 6.0
