@@ -254,7 +254,7 @@ def draw(level: Compared, falling: Compared, figure: Figure) -> None:
     """Draw the wheels of the stops with replayed commands: the rig's as lines, the others dashed."""
     figure.set_size_inches(WIDTH, 4.8)
     for axes, each in zip(figure.subplots(2, 1), (level, falling), strict=True):
-        for n, colour in enumerate(WHEELSET_COLOURS, start=1):
+        for n, colour in WHEELSET_COLOURS.items():
             axes.plot(each.rig["time"], each.rig[f"wheel_speed_{n}"], color=colour, linewidth=1.0)
             axes.plot(
                 each.independent.times,

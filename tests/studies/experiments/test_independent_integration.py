@@ -2,7 +2,7 @@
 
 import pytest
 
-from studies.experiments.independent_integration import BYPASSED, compared
+from studies.experiments.independent_integration import BYPASSED, compared, draw
 from studies.stop_runner import measured
 
 SLOW = {"initial_speed": "12 km/h"}
@@ -50,3 +50,11 @@ def test_the_wheels_of_the_locked_stop_are_locked_on_both(pair):
     at_half = found.independent.times.searchsorted(0.8 * measured(stop, "braking_time_s"))
     assert found.independent.wheel_speeds[at_half].tolist() == [0.0] * 4
     assert found.wheel_speed < 0.1
+
+
+def test_the_figure_is_drawn_with_its_units(pair):
+    figure = pytest.importorskip("matplotlib.figure").Figure()
+    stop = compared("dry", *pair("dry"))
+    draw(stop, stop, figure)
+    assert [axes.get_ylabel() for axes in figure.axes] == ["speed of the wheels, m/s"] * 2
+    assert figure.axes[-1].get_xlabel() == "time, s"
