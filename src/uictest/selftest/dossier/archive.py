@@ -165,7 +165,6 @@ def _cover(examination: Examination, facts: Mapping[str, str], names: Sequence[s
         with_plots=False,
         running_head=f"uictest {__version__}",
         headline=headline,
-        tone="bad" if failed else "good",
         subline=f"Dossier of uictest {__version__} for an assessor",
         table=table,
         label="Installation",
@@ -180,7 +179,6 @@ def _page(title: str, body: Markup, table: Table | None = None, home: str = "ind
         with_plots=False,
         running_head=title,
         headline=title,
-        tone="",
         subline=f"uictest {__version__}",
         table=table,
         label=title,
@@ -232,7 +230,7 @@ def _source_table(sources: Sequence[Mapping[str, Any]]) -> Table:
 
 def _cell(read: Callable[[Mapping[str, Any]], object], row: Mapping[str, Any]) -> str:
     value = read(row)
-    return "-" if value is None else str(value)
+    return "-" if value is None else str(value).replace("`", "")
 
 
 def _licence() -> str:

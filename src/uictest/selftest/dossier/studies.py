@@ -28,8 +28,8 @@ def study_table(kept: Mapping[str, Any]) -> Table:
         [
             Column(heading="study", text=lambda row: row["study"], literal=True),
             Column(heading="quantity", text=lambda row: row["title"], wraps=True),
-            Column(heading="source says", text=lambda row: row["source"], wraps=True),
-            Column(heading="found", text=lambda row: _number(row["value"], row["unit"]), right=True),
+            Column(heading="source says", text=lambda row: row["source"]),
+            Column(heading="found", text=lambda row: _number(row["value"], row["unit"])),
             Column(heading="band", text=_band),
             Column(heading="status", text=lambda row: row["status"]),
             Column(
