@@ -148,3 +148,31 @@ def test_the_stated_confidence_covers(stop, library):
         fit = fit_cleaning([stop(speed, friction, seed, cleaning(8000.0, 0.22))], library)
         inside += max(errors(fit, 8000.0, 0.22)) < 1.0
     assert inside >= 18
+
+
+CURVES = "friction_ratio: 0.74, friction_decay: 0.18 s/m, reduction_adhesion: 0.87, reduction_slip: 0.45"
+
+
+def other_law(energy, recovered, more):
+    return (
+        f"rail.cleaning={{energy: {energy:g} J/m, recovered_friction: {recovered}, reach: 0.5 m,"
+        f" carry_over: 1, {more}}}"
+    )
+
+
+@pytest.mark.parametrize(
+    ("friction", "energy", "more"),
+    [
+        (0.07, 8000.0, f"clean_curve: {{{CURVES}}}"),
+        (0.05, 20e3, "spent: 5 kJ/m"),
+        (0.07, 4000.0, "loss: contact"),
+    ],
+    ids=["whole curves", "a worn layer", "loss of one contact"],
+)
+def test_the_numbers_of_another_law_are_found_with_that_law(stop, friction, energy, more):
+    """With the rest of the law known; the energy begins elsewhere."""
+    recorded = stop(80.0, friction, 1, other_law(energy, 0.22, more))
+    guess = stated_case("guess", 80.0 / 3.6, ["rail.condition=wet", other_law(0.5 * energy, 0.3, more)])
+    fit = fit_cleaning([recorded], guess.scenario)
+    assert max(errors(fit, energy, 0.22)) < 1.5
+    assert fit.stops[0].friction[0].value == pytest.approx(friction, rel=0.05)
