@@ -176,3 +176,6 @@ def test_the_numbers_of_another_law_are_found_with_that_law(stop, friction, ener
     fit = fit_cleaning([recorded], guess.scenario)
     assert max(errors(fit, energy, 0.22)) < 1.5
     assert fit.stops[0].friction[0].value == pytest.approx(friction, rel=0.05)
+    stated = guess.scenario.rail.cleaning
+    kept = ("reach", "carry_over", "clean_curve", "loss", "spent")
+    assert [getattr(fit.in_force, name) for name in kept] == [getattr(stated, name) for name in kept]

@@ -4,8 +4,9 @@ import pytest
 import yaml
 
 from uictest.plans.scenario import load
+from uictest.plans.scenario.yaml import quantities_in
 from uictest.recorded.field_data import stated_case
-from uictest.recorded.fitting.fit import Fit
+from uictest.recorded.fitting.fit import CleaningFit, Fit
 from uictest.recorded.fitting.outputs import fitted_yaml, friction_of
 from uictest.recorded.fitting.stretches import Estimate
 
@@ -67,6 +68,36 @@ def test_a_fitted_rail_varies_no_more_at_random(tmp_path):
     assert case.scenario.rail.variation_in_force is not None
     assert read.scenario.rail.variation_in_force is None
     assert friction_of(fit(("at least", 0.2)), case.scenario) == 0.3
+
+
+@pytest.mark.parametrize(
+    "rail",
+    [
+        "condition: wet-cleaning",
+        "condition: wet-curves",
+        "condition: {extends: leaf-layer, cleaning: {spent: 30 kJ/m, loss: contact}}",
+    ],
+)
+def test_a_fitted_cleaning_is_the_whole_law_of_the_scenario(tmp_path, rail):
+    path = tmp_path / "own.yaml"
+    path.write_text(HEAD.format(name="own") + f"rail: {{{rail}}}\n", "utf-8")
+    [case] = load([path])
+    stated = case.scenario.rail.cleaning_in_force
+    assert stated is not None
+    cleaning = CleaningFit("as stated", stated, ())
+    fitted = tmp_path / "fitted.yaml"
+    fitted.write_text(fitted_yaml(case, {}, fit(("found", 0.07)), path, tmp_path, cleaning), "utf-8")
+    [read] = load([fitted])
+    found = read.scenario.rail.cleaning_in_force
+    assert found is not stated
+    assert dict(values_of(found)) == dict(values_of(stated))
+
+
+def values_of(section):
+    """Every number of a section by its key, and whose loss counts."""
+    yield "loss", section.loss
+    for key, quantity in quantities_in(section):
+        yield key, float(quantity)
 
 
 @pytest.mark.parametrize("length", [5, 100])

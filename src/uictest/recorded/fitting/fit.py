@@ -193,8 +193,10 @@ def _changed(stated: Cleaning, energy: float, recovered_friction: float) -> Clea
         "energy": f"{energy:.{_DIGITS + 1}g} J/m",
         "recovered_friction": f"{recovered_friction:.{_DIGITS}f}",
     }
-    kept = {"reach": stated.reach.text, "carry_over": stated.carry_over.text}
-    return Cleaning.model_validate({**values, **kept})
+    required = {"reach": stated.reach.text, "carry_over": stated.carry_over.text}
+    found = Cleaning.model_validate({**values, **required})
+    # The rest of the law stays as it is stated.
+    return stated.model_copy(update={name: getattr(found, name) for name in values})
 
 
 def _with_cleaning(
