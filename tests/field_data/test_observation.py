@@ -1,14 +1,24 @@
 import re
 from functools import cache
 
+import numpy as np
 import pytest
 
 from uictest.core.measures import MEASURES
 from uictest.core.recording.formats import FORMATS, Dialect, writer_of
 from uictest.core.recording.formats.reader import read_here
 from uictest.judging.evaluation import evaluate
-from uictest.recorded.field_data import judge_recording, load_map, prepare, select_channels, stated_case
+from uictest.recorded.field_data import (
+    Preparation,
+    RawChannel,
+    judge_recording,
+    load_map,
+    prepare,
+    select_channels,
+    stated_case,
+)
 from uictest.recorded.field_data.judgement import observe
+from uictest.rig import simulate
 
 from .conftest import judge_stop, kept
 
@@ -82,6 +92,23 @@ def test_the_sliding_share_of_a_record_is_that_of_the_simulated_stop(rate, case,
             duration = float(stop.measures.reached_time[1])
             assert recorded == pytest.approx(expected, abs=LOCKED * max(1.0 / rate, 0.01) / duration)
         assert max(expected) > 0.1
+
+
+@pytest.mark.parametrize("rail", ["wet-cleaning", "wet-curves"])
+def test_what_a_cleaned_rail_offered_is_known_from_a_record_that_has_the_share(rail):
+    case = stated_case("stop", 60.0 / 3.6, ["rail.friction=0.07", f"rail.condition={rail}"])
+    stop = simulate(case, record_every=0.01)
+    channels = {
+        name: RawChannel(name, name, stop.recording["time"], values)
+        for name, values in stop.recording.channels.items()
+    }
+    seen = observe(prepare(channels, stop.recording.metadata, Preparation()), case.scenario).measures
+    assert 0.5 < stop.measures.adhesion_utilisation < 1.0
+    assert seen.adhesion_utilisation == pytest.approx(stop.measures.adhesion_utilisation, abs=5e-3)
+    del channels["cleaned_share_2"]
+    partly = observe(prepare(channels, stop.recording.metadata, Preparation()), case.scenario)
+    known = partly.wheelset_measures.adhesion_utilisation
+    assert np.isnan(known).tolist() == [False, rail == "wet-curves", False, False]
 
 
 def _prepared(contents):

@@ -39,6 +39,7 @@ def highest_creep_forces(
     speed: NDArray[np.float64],
     wheel_load: NDArray[np.float64],
     friction: NDArray[np.float64],
+    curve: CreepCurve | None = None,
 ) -> NDArray[np.float64]:
     """Return the largest creep force of one wheel in N at each sample, NaN where something is not known.
 
@@ -47,8 +48,9 @@ def highest_creep_forces(
         speed: of the train, m/s.
         wheel_load: of one wheel, N.
         friction: initial friction coefficient under it.
+        curve: shape of the creep curve [default: the condition's].
     """
-    scale, coefficients = highest_creep_law(condition)
+    scale, coefficients = highest_creep_law(curve or condition)
     stiffness, reference = condition.contact.creep_stiffness, float(condition.contact.reference_wheel_load)
     least, most = LOWEST_LOAD * reference, HIGHEST_LOAD
     highest = np.full(speed.shape, np.nan)

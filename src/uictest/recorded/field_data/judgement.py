@@ -39,14 +39,23 @@ _WHEELS: Final = 2.0
 """Of a wheelset: adhesion and wheel load are those of one."""
 
 
-def _highest_forces(recording: Recording, condition: scenario.RailCondition) -> Array:
-    """Return what both contacts of each wheelset could transmit at every sample, N, shape (n, 4)."""
+def _highest_forces(recording: Recording, judged_under: scenario.Scenario) -> Array:
+    """Return what both contacts of each wheelset could transmit at every sample, N, shape (n, 4).
+
+    Where the curve goes over to that of a clean rail, it is known only with the cleaned share.
+    """
+    rail = judged_under.rail
     friction, load = _channels(recording, "friction"), _channels(recording, "wheel_load")
-    highest = [
-        highest_creep_forces(condition, recording["speed"], *each)
-        for each in zip(load.T, friction.T, strict=True)
-    ]
-    return _WHEELS * np.stack(highest, axis=1)
+
+    def highest(curve: scenario.CreepCurve | None) -> Array:
+        wheels = zip(load.T, friction.T, strict=True)
+        forces = [highest_creep_forces(rail.condition, recording["speed"], *each, curve) for each in wheels]
+        return _WHEELS * np.stack(forces, axis=1)
+
+    cleaning, found = rail.cleaning_in_force, highest(None)
+    if cleaning is None or cleaning.clean_curve is None:
+        return found
+    return found + _channels(recording, "cleaned_share") * (highest(cleaning.clean_curve) - found)
 
 
 def _mass(recording: Recording) -> float:
@@ -81,7 +90,7 @@ def observe(stop: RecordedStop, judged_under: scenario.Scenario) -> Observed:
     definition = SimpleNamespace(
         **{name: float(getattr(measures, name)) for name in fields_of(MeasureDefinition)}
     )
-    highest_forces = _highest_forces(recording, judged_under.rail.condition)
+    highest_forces = _highest_forces(recording, judged_under)
     replay = Replay(
         samples_of(recording.channels, highest_forces),
         definition,
