@@ -66,10 +66,13 @@ class FirmPair(NamedTuple):
     first: str
     second: str
     firmness: Firmness
+    undecided: Sequence[str]
+    """Quantities in which neither stop comes to less at the nominal values, or that are not known."""
 
     def document(self) -> Document:
         """Return which comes to less of each quantity, what turns that, and the numbers by their effect."""
-        sentences = [*map(self._sentence, self.firmness.criteria), *_remarks(self.firmness)]
+        neither = (f"{each}: neither comes to less, or one came to no standstill" for each in self.undecided)
+        sentences = [*map(self._sentence, self.firmness.criteria), *neither, *_remarks(self.firmness)]
         told = [f"{self.second} against {self.first}, under the same noise and the same draws", *sentences]
         return Document(
             "Firm or not", [Lines([printable(each) for each in told]), firmness_table(self.firmness)]

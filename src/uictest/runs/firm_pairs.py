@@ -10,6 +10,7 @@ from typing import Any, Final, NamedTuple
 from pydantic import TypeAdapter
 
 from uictest import rig
+from uictest.analysis.firmness import COMPARED
 from uictest.core import document
 from uictest.judging.evaluation import Firmness, to_json_form
 from uictest.plans import scenario
@@ -48,7 +49,9 @@ def firm_pairs(
     stops = sum(stops_of_case(case) for pair in pairs for case in pair)
     with observer.simulating(stops, unit="stops") as advance, firmness_run(settings, stops, advance) as firm:
         for first, second in pairs:
-            yield FirmPair(first.id, second.id, firm.of_pair(first, second))
+            found = firm.of_pair(first, second)
+            decided = {each.criterion for each in found.criteria}
+            yield FirmPair(first.id, second.id, found, [each for each in COMPARED if each not in decided])
 
 
 def _pairs(cases: Sequence[scenario.Case], keys: Sequence[str]) -> list[_Pair]:
@@ -84,4 +87,5 @@ def firm_pairs_json(pairs: Sequence[FirmPair]) -> str:
 def _form(pair: FirmPair) -> dict[str, Any]:
     whole = to_json_form(TypeAdapter(Firmness), pair.firmness)
     study = {name: whole[name] for name in _WRITTEN}
-    return {"first": pair.first, "second": pair.second, "quantities": whole["criteria"], **study}
+    sides = {"first": pair.first, "second": pair.second}
+    return {**sides, "quantities": whole["criteria"], "undecided": list(pair.undecided), **study}

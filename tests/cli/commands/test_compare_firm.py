@@ -48,6 +48,15 @@ def test_what_nothing_turns_is_not_said_to_be_firm_in_few_draws(call, scenario):
     assert {each["key"] for each in pair["numbers"]} > {"vehicle.body.mass"}
 
 
+def test_what_neither_comes_to_less_of_is_named(call, scenario):
+    """On a dry rail no wheelset slides: there is no contact energy to compare."""
+    path, variants = scenario("stop", "rail: {condition: dry}\n"), "brake.command=90 %,100 %"
+    [pair] = pairs(call, path, "--over", "brake.command", "--set", variants)
+    assert pair["undecided"] == ["contact energy of the worst wheelset"]
+    text = call("compare", path, "--over", "brake.command", "--set", variants, "--firm").out
+    assert "contact energy of the worst wheelset: neither comes to less" in text
+
+
 def test_the_text_names_both_sides_and_the_value(call, scenario):
     text = call("compare", scenario("pads", VARIANTS), "--over", PAD, "--firm").out
     [line] = [line for line in text.splitlines() if line.startswith("braking distance: less with pads[")]
@@ -81,6 +90,12 @@ def test_what_cannot_be_compared_is_refused(call, scenario, arguments, message):
     assert message in answer.err
 
 
+def test_values_are_set_only_where_stops_are_run(call, scenario):
+    call("run", scenario("stop", "rail: {condition: dry}\n"))
+    answer = call("compare", "reports/latest", "--over", "seed", "--set", "seed=1,2", code=4)
+    assert "goes with --firm" in answer.err
+
+
 def test_the_folder_of_a_run_is_no_scenario(call, scenario):
     call("run", scenario("stop", "rail: {condition: dry}\n"))
     answer = call("compare", "reports/latest", "--firm", "--over", "seed", code=4)
@@ -93,6 +108,7 @@ def test_a_stop_without_standstill_compares_with_nothing():
         return SimpleNamespace(measures=measures, wheelsets=({"contact_energy_kj": 0.0},))
 
     assert compared(stop(100.0), stop(math.nan)).outcome == "error"
+    assert "contact energy of the worst wheelset" not in compared(stop(100.0), stop(110.0)).margins
     both = compared(stop(100.0), stop(110.0))
     assert both.statuses == dict(zip(COMPARED, ("pass", "same", "same"), strict=True))
     assert both.margins["braking distance"] == pytest.approx(0.1)

@@ -32,7 +32,8 @@ COMPARED: Final[Mapping[str, Callable[[CaseResult], float]]] = {
 def compared(first: CaseResult, second: CaseResult) -> Drawn:
     """Return which of two stops comes to less, with the difference as a share of the first.
 
-    It is an error where one of them failed or came to no standstill.
+    It is an error where one of them failed or came to no standstill. Of a first stop that comes to nothing
+    no share is known.
     """
     statuses, margins = {}, {}
     for name, read in COMPARED.items():
@@ -40,5 +41,6 @@ def compared(first: CaseResult, second: CaseResult) -> Drawn:
         if math.isnan(one) or math.isnan(other):
             return Drawn("error")
         statuses[name] = FIRST if one < other else SECOND if other < one else SAME
-        margins[name] = (other - one) / one if one else math.copysign(math.inf, other) if other else 0.0
+        if one:
+            margins[name] = (other - one) / one
     return Drawn("pass", statuses, margins)

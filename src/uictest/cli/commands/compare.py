@@ -63,7 +63,9 @@ def compare(
 
     With --over, compare the variants of one run, stop by stop under the same noise.
     """
-    if firm or overrides:
+    if overrides and not firm:
+        raise typer.BadParameter("goes with --firm, which runs stops anew", param_hint="--set")
+    if firm:
         return compare_firmly(first, second, over or (), overrides or (), jobs, shown, page)
     if over:
         _require_one_run(second, tolerance, channels)
