@@ -25,6 +25,7 @@ from uictest.plans.scenario.yaml import (
     Diagnostic,
     Document,
     Entry,
+    Inconsistency,
     Key,
     Map,
     Node,
@@ -203,6 +204,14 @@ def _of_fmu(content: bytes) -> Declared | None:
     }
 
 
+class _FmuParameter(DeclaredParameter):
+    """A parameter as an FMU declares it: its numbers need no unit, and its start value may lie anywhere."""
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield nothing."""
+        yield from ()
+
+
 def _of_variable(variable: Any, types: Mapping[str, Any]) -> DeclaredParameter:
     """Return one parameter. FMI 2.0 has its type as an element inside, FMI 3.0 calls the element so."""
     typed = next(iter(variable), variable) if variable.tag == "ScalarVariable" else variable
@@ -219,7 +228,7 @@ def _of_variable(variable: Any, types: Mapping[str, Any]) -> DeclaredParameter:
     bounds = (
         [*_numbers(limits)] if typed.tag not in ("Boolean", "String") and limits != ["-inf", "inf"] else []
     )
-    return DeclaredParameter.model_construct(
+    return _FmuParameter.model_construct(
         default=default,
         unit=attributes.get("unit", ""),
         range=(bounds[0], bounds[1]) if len(bounds) == len(limits) else None,

@@ -1,6 +1,7 @@
 """The sensors, and what one wheelset has of its own: a worn wheel, a weak brake, sensors that err."""
 
 from collections.abc import Iterator, Mapping
+from functools import cache
 from operator import attrgetter
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal, TypeAlias
@@ -194,6 +195,7 @@ REGULAR: Final[Mapping[str, str]] = MappingProxyType(
 
 WHEELSET_NUMBERS: Final = tuple(map(int, NUMBERS))
 """Numbers of the wheelsets from the leading end."""
+_getter: Final = cache(attrgetter)
 _WHEELSETS: Final = attrgetter("vehicle.wheelsets")
 _WHOLE: Final = default("100 %", "share")
 
@@ -204,7 +206,7 @@ def wheelset_value(scenario: Model, number: int, name: str) -> Any:
     Names are those of :class:`~uictest.plans.scenario.parts.wheelsets.OwnValues`, e.g.
     ``caliper.load_friction``.
     """
-    own = attrgetter(name)(_WHEELSETS(scenario)[str(number)])
+    own = _getter(name)(_WHEELSETS(scenario)[str(number)])
     return _regular(scenario, name) if own is None else own
 
 
@@ -217,7 +219,7 @@ def wheelset_keys(number: int, name: str) -> tuple[str, ...]:
 def deciding_key(scenario: Model, number: int, *names: str) -> Key:
     """Return the key of the first value that the wheelset has of its own, else of the first, regular."""
     for name in names:
-        if attrgetter(name)(_WHEELSETS(scenario)[str(number)]) is not None:
+        if _getter(name)(_WHEELSETS(scenario)[str(number)]) is not None:
             return tuple(wheelset_keys(number, name)[0].split("."))
     return tuple(REGULAR[names[0]].split("."))
 
@@ -233,7 +235,7 @@ def distinct_values(scenario: Model, name: str) -> Iterator[tuple[Key, Quantity]
 
 
 def _regular(scenario: Model, name: str) -> Any:
-    return attrgetter(REGULAR[name])(scenario) if name in REGULAR else _WHOLE
+    return _getter(REGULAR[name])(scenario) if name in REGULAR else _WHOLE
 
 
 Value = Quantity | str | int | float

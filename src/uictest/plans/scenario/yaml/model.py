@@ -13,7 +13,6 @@ from pydantic import (
     GetJsonSchemaHandler,
     PrivateAttr,
     TypeAdapter,
-    model_validator,
 )
 from pydantic_core import CoreSchema, PydanticCustomError
 
@@ -50,13 +49,12 @@ class Model(BaseModel):
         """Yield references to descriptions that are missing."""
         yield from ()
 
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
+    def model_post_init(self, context: object, /) -> None:
+        """Raise for what is impossible together, once: an instance inside of another is not made again."""
         inconsistencies = [*self.undescribed(), *self.inconsistencies()]
         if inconsistencies:
-            context = {"message": inconsistencies[0].message, "inconsistencies": inconsistencies}
-            raise PydanticCustomError("inconsistency", "{message}", context)
-        return self
+            found = {"message": inconsistencies[0].message, "inconsistencies": inconsistencies}
+            raise PydanticCustomError("inconsistency", "{message}", found)
 
 
 class Section(Model):

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from decimal import Context, Decimal
 from fractions import Fraction
-from functools import reduce
+from functools import lru_cache, reduce
 from operator import add
 from typing import Annotated, Any, Final, Self
 
@@ -96,18 +96,48 @@ def parse_quantity(
     no such quantity.
     """
     accepted = KINDS[kind]
-    number, symbol = _split(text, accepted)
-    value = _canonical(number, symbol, accepted, text, accepts)
+    value = _canonical_value(text, kind)
+    if value is None:
+        raise _no_quantity(text, accepted, accepts)
     if not math.isfinite(value):
         raise QuantityError(f"{quoted(text)} is not a finite number")
     return Quantity(value, text.strip(), accepted.canonical, source)
 
 
-def _split(text: str, kind: Kind) -> tuple[Fraction, str]:
+@lru_cache(maxsize=1024)  # the parts of a rig and the cases of a matrix share most of their texts
+def _canonical_value(text: str, kind: str) -> float | None:
+    """Return the number of a quantity in the canonical unit of its kind; None where there is none."""
+    written = _split(text)
+    if written is None:
+        return None
+    (number, symbol), accepted = written, KINDS[kind]
+    if accepted.bare:
+        return None if symbol else _as_float(number)
+    unit = accepted.units.get(symbol)
+    return None if unit is None else _as_float(number * unit.factor + unit.offset)
+
+
+def _split(text: str) -> tuple[Fraction, str] | None:
     match = _WRITTEN.fullmatch(text)
     if match is None or _DECIMAL_COMMA.match(text):
-        raise _not_a_number(text, kind)
-    return Fraction(match[1]), " ".join((match[2] or "").split())
+        return None
+    return Fraction(Decimal(match[1])), " ".join((match[2] or "").split())
+
+
+def _no_quantity(text: str, kind: Kind, accepts: Accepts) -> QuantityError:
+    written = _split(text)
+    if written is None:
+        return _not_a_number(text, kind)
+    number, symbol = written
+    if kind.bare:
+        ratio = KINDS["share"].units.get(symbol)
+        bare = _as_float(number if ratio is None else number * ratio.factor)
+        hint = f"write {bare:.10g}" if accepts(bare) else f"write {example(kind)}"
+        return QuantityError(f"{quoted(text)} has a unit where a bare number belongs", hint)
+    if not symbol:
+        hint = _hint_for_bare(text.strip(), number, kind, accepts)
+        return QuantityError(f"{quoted(text)} has no unit", hint)
+    return QuantityError(f"unknown unit {quoted(symbol)} for {described(kind)}", _hint_for_unit(symbol, kind))
 
 
 def _not_a_number(text: str, kind: Kind) -> QuantityError:
@@ -118,26 +148,6 @@ def _not_a_number(text: str, kind: Kind) -> QuantityError:
             f"{quoted(text)} is not a number", f"write {quoted(text.replace(',', '.'))}, with a decimal point"
         )
     return QuantityError(f"{quoted(text)} is not {described(kind)}", f"write {example(kind)}")
-
-
-def _canonical(number: Fraction, symbol: str, kind: Kind, text: str, accepts: Accepts) -> float:
-    if kind.bare:
-        if symbol:
-            ratio = KINDS["share"].units.get(symbol)
-            bare = _as_float(number if ratio is None else number * ratio.factor)
-            hint = f"write {bare:.10g}" if accepts(bare) else f"write {example(kind)}"
-            raise QuantityError(f"{quoted(text)} has a unit where a bare number belongs", hint)
-        return _as_float(number)
-    if not symbol:
-        raise QuantityError(
-            f"{quoted(text)} has no unit", _hint_for_bare(text.strip(), number, kind, accepts)
-        )
-    unit = kind.units.get(symbol)
-    if unit is None:
-        raise QuantityError(
-            f"unknown unit {quoted(symbol)} for {described(kind)}", _hint_for_unit(symbol, kind)
-        )
-    return _as_float(number * unit.factor + unit.offset)
 
 
 def _as_float(number: Fraction) -> float:
