@@ -12,7 +12,10 @@ from studies.study import STUDIES, run_study
 
 QUICK = ("bench-loops", "four-phase-lines", "command-level", "slide-test", "valve-actuations", "appendix-b")
 _SLOW = frozenset(
-    {"compensation-domain", "field-against-rig", "independent-integration", "random-rail", "robustness"}
+    {
+        *("another-caliper", "compensation-domain", "field-against-rig"),
+        *("independent-integration", "random-rail", "robustness"),
+    }
 )
 
 BOUNDED = [

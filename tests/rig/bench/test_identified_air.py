@@ -101,6 +101,12 @@ def test_sensors_with_noise_change_little(tmp_path):
     assert result.largest_after < 0.02
 
 
+def test_the_fit_of_the_largest_error_has_a_smaller_one_and_a_greater_mean(test, record, result):
+    least = identify_air(channels(record), test.case, starts_near=result, largest=True)
+    assert least.largest_after < result.largest_after
+    assert least.rms_after > result.rms_after
+
+
 @pytest.mark.parametrize(
     ("spoil", "reason"),
     [

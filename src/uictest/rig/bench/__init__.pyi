@@ -18,4 +18,4 @@ from .recipe import (
     recipe_path as recipe_path,
     trace_recipe as trace_recipe,
 )
-from .run import run_bench as run_bench, run_test as run_test
+from .run import ModelledPressure as ModelledPressure, run_bench as run_bench, run_test as run_test

@@ -48,6 +48,9 @@ _STARTS = (
 """Bounds of the unknowns, and where the search starts; chosen."""
 _AT_A_BOUND = 1e-3
 """Relative distance from a bound at which a record says nothing about an unknown; chosen."""
+_EXPONENTS = (8, 32, 128)
+"""Powers of the error whose sum is minimised in turn on the way to the least largest error; chosen. With the
+last, the largest of some 30 000 errors is within 9 % of the sum's root."""
 _CONVERGED = 1e-10
 """Relative change of error and unknowns at which the search ends; chosen."""
 
@@ -56,7 +59,8 @@ def identify_air(
     channels: Mapping[str, Samples],
     case: Case,
     held_out_share: float = 0.25,
-    starts_near: ModuleAir | None = None,
+    starts_near: ModuleAir | identification.AirResult | None = None,
+    largest: bool = False,
 ) -> identification.AirResult:
     """Find heat conductances, swept volume and the pressures at which the piston moves.
 
@@ -70,6 +74,7 @@ def identify_air(
         case: the rig of the record.
         held_out_share: share of the record that is excluded from the fit and gives the errors.
         starts_near: where the one search starts [default: three searches from far apart].
+        largest: whether the largest error is minimised, from there on, instead of the mean square.
 
     Raises:
         UnsuitableRecordError: the record cannot support the fit; the message says why.
@@ -83,7 +88,15 @@ def identify_air(
     fitted = np.flatnonzero(~held_out)[:: max(round(_SPACING / step), 1)]
     cylinder, scale = channels["cylinder"], float(channels["cylinder"].max())
     starts = _STARTS if starts_near is None else (_start_near(starts_near, case),)
-    unknowns = _least_squares(lambda x: (model(x) - cylinder)[fitted] / scale, starts)
+
+    def error(x: Samples) -> Samples:
+        return (model(x) - cylinder)[fitted] / scale
+
+    unknowns = _least_squares(error, starts)
+    for exponent in _EXPONENTS if largest else ():
+        unknowns = _least_squares(
+            _powered(error, exponent, float(np.abs(error(unknowns)).max())), (unknowns,)
+        )
     after = (model(unknowns) - cylinder)[held_out] / scale
     before = (channels["tank"] - cylinder)[held_out] / scale
     if not np.mean(after**2) < np.mean(before**2):
@@ -148,7 +161,17 @@ def _require_volume(channels: Mapping[str, Samples], case: Case, step: float) ->
         )
 
 
-def _start_near(air: ModuleAir, case: Case) -> Samples:
+def _powered(error: Callable[[Samples], Samples], exponent: int, unit: float) -> Callable[[Samples], Samples]:
+    """Return what has the given power of the error, in some unit, as its square."""
+
+    def powered(x: Samples) -> Samples:
+        relative = error(x) / unit
+        return np.asarray(np.sign(relative) * np.abs(relative) ** (exponent // 2))
+
+    return powered
+
+
+def _start_near(air: ModuleAir | identification.AirResult, case: Case) -> Samples:
     swept = float(air.swept_volume) / float(case.scenario.brake.system.tank.volume)
     gap = float(air.closing_pressure) - float(air.opening_pressure)
     pressures = float(air.opening_pressure), gap

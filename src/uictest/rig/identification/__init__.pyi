@@ -19,11 +19,14 @@ from .cylinder import (
 )
 from .hysteresis import (
     HysteresisResult as HysteresisResult,
+    all_four as all_four,
     hysteresis_text as hysteresis_text,
     identify_hysteresis as identify_hysteresis,
     require_force_fit as require_force_fit,
 )
 from .lines import (
+    FittedLine as FittedLine,
+    computed_force as computed_force,
     on_lines as on_lines,
     wsp_acting_from_commands as wsp_acting_from_commands,
     wsp_acting_in_intervals as wsp_acting_in_intervals,
