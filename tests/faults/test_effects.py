@@ -1,7 +1,6 @@
 """What each fault does to the rig, as its description says it: values as users write them, SI in the rig."""
 
 import math
-from dataclasses import asdict
 
 import pytest
 
@@ -67,14 +66,14 @@ FAULTS = [
 
 
 def test_without_a_fault_nothing_is_changed():
-    assert asdict(Effects()) == NOTHING
+    assert Effects()._asdict() == NOTHING
 
 
 @pytest.mark.parametrize(("part", "name", "value", "changed"), FAULTS)
 def test_a_fault_changes_what_its_description_says_and_nothing_else(part, name, value, changed):
     row = FAULT_KINDS[part, name]
     given = float(parse_quantity(value, row.value.kind)) if row.value and value else None
-    assert asdict(row.effects(given)) == pytest.approx({**NOTHING, **changed})
+    assert row.effects(given)._asdict() == pytest.approx({**NOTHING, **changed})
 
 
 def test_every_fault_is_held_to_its_description():

@@ -2,7 +2,6 @@
 
 import pkgutil
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, NamedTuple
 
@@ -10,8 +9,7 @@ from uictest.controllers import built_in
 from uictest.core.record import Record, fields_of
 
 
-@dataclass(frozen=True, slots=True)
-class DeclaredParameter:
+class DeclaredParameter(NamedTuple):
     """One parameter of a controller.
 
     Attributes:
@@ -100,8 +98,7 @@ def no_conflicts(parameters: Any) -> Iterator[Conflict]:
     yield from ()
 
 
-@dataclass(frozen=True, slots=True)
-class Controller:
+class Controller(NamedTuple):
     """A controller, as its module declares it.
 
     Attributes:

@@ -66,8 +66,7 @@ class Column(Generic[Row]):
     tone: Callable[[Row], Tone | None] | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(NamedTuple):
     """Rows under columns; a column in which no row has a text is not shown.
 
     Args:
@@ -95,16 +94,14 @@ class Table:
         return [(each, texts) for each, texts in columns if any(texts) or not texts]
 
 
-@dataclass(frozen=True, slots=True)
-class Lines:
+class Lines(NamedTuple):
     """Sentences, each on a line of its own."""
 
     sentences: Sequence[str]
     title: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Document:
+class Document(NamedTuple):
     """What a result says: its sections in their order; title and `about` stand on a page of its own only.
 
     `more` says where the sections are that a format has no room for.

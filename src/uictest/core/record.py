@@ -6,11 +6,10 @@ a record of compiled code or any object with these attributes: annotations are n
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import cache
 from inspect import get_annotations
 from types import MappingProxyType
-from typing import Any, get_args, get_origin, get_type_hints
+from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
 Conversion = Callable[[float], float]
 _KINDS = {float: "f8", int: "i8"}
@@ -23,8 +22,7 @@ class Record:
     """
 
 
-@dataclass(frozen=True, slots=True)
-class ScenarioValue:
+class ScenarioValue(NamedTuple):
     """A field that holds the value at a key of the scenario.
 
     Attributes:

@@ -11,8 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 Side = Literal["lower", "upper", "both"]
 """Bounds of a quantile: one that lies below it, one above, or an interval."""
@@ -80,8 +79,7 @@ def trials_needed(probability: float, confidence: float = 0.95) -> int | None:
     return max(math.ceil(math.log((1.0 - confidence) / 2) / math.log(probability) - 1e-9), 1)
 
 
-@dataclass(frozen=True, slots=True)
-class BoundRanks:
+class BoundRanks(NamedTuple):
     """Ranks of the draws that bound a quantile: 1 is the smallest draw for `lower`, the largest for `upper`.
 
     None where the bound is not requested, or no draw is one.

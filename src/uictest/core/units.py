@@ -7,7 +7,7 @@ kind, which :attr:`Kind.canonical` names.
 from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.core.physics import REFERENCE_DENSITY
 
@@ -21,8 +21,7 @@ _CELSIUS_ZERO: Final = Fraction("273.15")
 """K, exact by definition."""
 
 
-@dataclass(frozen=True, slots=True)
-class Unit:
+class Unit(NamedTuple):
     """One unit of a kind: ``SI value = number * factor + offset``.
 
     Attributes:

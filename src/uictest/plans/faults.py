@@ -8,9 +8,8 @@ equations of the rig.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Final
+from typing import Final, NamedTuple
 
 MOST_FAULTS: Final = 8
 """Faults that a stop can have."""
@@ -20,8 +19,7 @@ DYNAMIC_BRAKE: Final = "dynamic-brake"
 """The part that a car need not have."""
 
 
-@dataclass(frozen=True, slots=True)
-class Effects:
+class Effects(NamedTuple):
     """What a fault changes while it is active, SI units; by default nothing.
 
     Attributes:
@@ -66,8 +64,7 @@ class Effects:
     dynamic_failed: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class FaultValue:
+class FaultValue(NamedTuple):
     """The value that a kind of fault takes.
 
     Attributes:
@@ -82,8 +79,7 @@ class FaultValue:
     without: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class FaultKind:
+class FaultKind(NamedTuple):
     """One kind of fault of one part.
 
     Attributes:
@@ -106,11 +102,12 @@ class FaultKind:
 _ANY_SPEED = "600 km/h"
 _SHARE_OF_AREA = FaultValue("share", "0 %", "100 %")
 _LEAK = FaultValue("conductance", "0 m3/(s Pa)", "3e-8 m3/(s Pa)")
+_NOTHING = Effects()
 _FACTOR = FaultValue("share", "0 %", "500 %")
 
 
 def _valued(
-    effects: Callable[[float], Effects], otherwise: Effects = Effects()
+    effects: Callable[[float], Effects], otherwise: Effects = _NOTHING
 ) -> Callable[[float | None], Effects]:
     """Return the effects of a value, `otherwise` without one."""
     return lambda value: otherwise if value is None else effects(value)

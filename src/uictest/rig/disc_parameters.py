@@ -96,7 +96,7 @@ def _set_faults(p: Parameters, scenario: Scenario) -> None:
     _set_windows(p, faults, step)
     _set_owners(p, faults)
     effects = [fault.effects for fault in faults] + [Effects()] * (MOST_FAULTS - len(faults))
-    for name in Effects.__dataclass_fields__:
+    for name in Effects._fields:
         if name not in _CONVERTED:
             setattr(p, f"fault_{name}", [float(getattr(each, name)) for each in effects])
     p.fault_travel_per_step = [min(step / max(each.travel_time, step), 1.0) for each in effects]

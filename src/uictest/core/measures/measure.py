@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from uictest.core.measures.records import StopMeasures, WheelsetMeasures
 
@@ -23,8 +23,7 @@ Wheelsets = Iterable[WheelsetMeasures]
 """One record per wheelset, from the leading end; may be iterated more than once."""
 
 
-@dataclass(frozen=True, slots=True)
-class MeasureValue:
+class MeasureValue(NamedTuple):
     """SI values of a measure, one for the stop or one per wheelset, as far as the stop was observed.
 
     `unavailable_reason` says why there is no value; empty where there is one. `whatever_follows`: there will
@@ -54,8 +53,7 @@ def unavailable(reason: str) -> MeasureValue:
     return MeasureValue(unavailable_reason=reason)
 
 
-@dataclass(frozen=True, slots=True)
-class Overview:
+class Overview(NamedTuple):
     """How tables of cases show a column, shares in per cent, of wheelsets the largest value.
 
     Args:
@@ -122,8 +120,7 @@ class WheelsetColumn(Column):
     read: Callable[[WheelsetMeasures], float] = field(kw_only=True)
 
 
-@dataclass(frozen=True, slots=True)
-class RecordedData:
+class RecordedData(NamedTuple):
     """The data that the record of a real stop must hold for a measure.
 
     Args:

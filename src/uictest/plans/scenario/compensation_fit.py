@@ -2,8 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from uictest.core.units import PERCENT
 from uictest.plans.scenario.parts.brake import WspValve
@@ -28,8 +27,7 @@ _LEAST: Final = 1e-300
 """What a tolerance of a number that is zero is at least: any other number is beyond it."""
 
 
-@dataclass(frozen=True, slots=True)
-class RigDifference:
+class RigDifference(NamedTuple):
     """A number of a rig beside that of the rig which a compensation was identified for.
 
     Args:

@@ -1,10 +1,9 @@
 """matrix, zip, include and exclude: one scenario becomes many cases."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import product
 from math import prod
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.plans.scenario.yaml import (
     Diagnostic,
@@ -26,8 +25,7 @@ MOST_CASES: Final = 10_000
 EXPANSION_KEYS: Final = ("matrix", "zip", "include", "exclude")
 
 
-@dataclass(frozen=True, slots=True)
-class Setting:
+class Setting(NamedTuple):
     """The value that one case gives to one swept key; ``number`` counts the values of that key from one."""
 
     key: str

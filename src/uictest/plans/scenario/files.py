@@ -2,10 +2,9 @@
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path, PureWindowsPath
-from typing import Any, Final, Self
+from typing import Any, Final, NamedTuple, Self
 
 from uictest.plans import library
 from uictest.plans.scenario.yaml import (
@@ -28,8 +27,7 @@ from uictest.plans.scenario.yaml import (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Roots:
+class Roots(NamedTuple):
     """Folders, links resolved, at or below which every file must lie that is read by reference."""
 
     folders: tuple[Path, ...]

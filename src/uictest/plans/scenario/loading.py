@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.plans.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_valid
 from uictest.plans.scenario.files import Files, Roots, scenario_trees
@@ -44,8 +44,7 @@ _SECTIONS_OF_SWEEPS: Final = ("grid", "ranges", "sample", "quantiles", "k_dry")
 """Keys that a scenario has only under `vary`, and `grid`, which 0.2 had for `matrix`."""
 
 
-@dataclass(frozen=True, slots=True)
-class LoadedCase:
+class LoadedCase(NamedTuple):
     """A case and the tree that it is resolved from; `vary` is what a sweep of it varies."""
 
     case: Case

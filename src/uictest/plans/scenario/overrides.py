@@ -2,9 +2,8 @@
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.plans.scenario.resolution import DOTTED_PART_KEYS
 from uictest.plans.scenario.yaml import (
@@ -96,8 +95,7 @@ _RANGE = re.compile(r"\s*range\((.*)\)\s*")
 _OPENING, _CLOSING, _QUOTES = "([{", ")]}", "\"'"
 
 
-@dataclass(frozen=True, slots=True)
-class Override:
+class Override(NamedTuple):
     """A dotted key and the values it takes instead of those in the files.
 
     Several values are an axis of the matrix; with `swept` a single one is, too, so that the ids of cases

@@ -1,9 +1,8 @@
 """References to parts: a library name, a relative path, or an inline mapping that may extend either."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import PurePosixPath
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from uictest.controllers import installed_names
 from uictest.plans import library
@@ -36,8 +35,7 @@ from uictest.plans.scenario.yaml import (
 _CONTROLLERS: Final = "controllers"
 
 
-@dataclass(frozen=True, slots=True)
-class ResolvedPart:
+class ResolvedPart(NamedTuple):
     """A part and the documents it was made of."""
 
     part: Any

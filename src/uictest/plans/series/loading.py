@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, Final, Literal, NamedTuple
 
 from pydantic import Field
 
@@ -118,8 +118,7 @@ def _variants(tree: Map, of_command_line: Sequence[Override]) -> list[Variant]:
     return expand(apply_overrides(tree, varied))
 
 
-@dataclass(frozen=True, slots=True)
-class PlannedComparison:
+class PlannedComparison(NamedTuple):
     """Recorded stops and the case that simulates them; `tuned`: numbers of the case come from them."""
 
     case: Case
@@ -127,8 +126,7 @@ class PlannedComparison:
     tuned: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class ValidationPlan:
+class ValidationPlan(NamedTuple):
     """One validation.
 
     Attributes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, Final, Literal, NamedTuple
 
 from pydantic import BeforeValidator, Field
 
@@ -146,8 +146,7 @@ Role = Literal["dry", "wet", "bypassed"]
 without it, simulated to compare K_wet; it decides nothing."""
 
 
-@dataclass(frozen=True, slots=True)
-class Recorded:
+class Recorded(NamedTuple):
     """Recorded stops that are judged as one case, and the reference of their channel map."""
 
     files: tuple[Path, ...]

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.core.series_measures import Rail
 from uictest.plans import scenario as scenarios
@@ -46,8 +46,7 @@ def values_set_by(node: Node, *, swept: bool = True) -> Iterator[Override]:
         yield Override(key, entry.key, tuple(values), swept=swept)
 
 
-@dataclass(frozen=True)
-class Stop:
+class Stop(NamedTuple):
     """What one entry of a list of stops names: a scenario, its cases, and recordings of them."""
 
     reference: Scalar
@@ -124,8 +123,7 @@ _DECISIVE: Final = ("vehicle", "initial_speed", "brake", "rail", "rig", "control
 """Keys of a scenario that decide, with the seed, how the stop goes."""
 
 
-@dataclass(frozen=True)
-class StopReader:
+class StopReader(NamedTuple):
     """Reads the stops of one series.
 
     Args:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from uictest.core.units import KINDS
 from uictest.plans.scenario.yaml import Quantity, parse_quantity, scalar_value
@@ -20,8 +20,7 @@ if TYPE_CHECKING:
     Places = NDArray[np.int64]
 
 
-@dataclass(frozen=True, slots=True)
-class ParameterValue:
+class ParameterValue(NamedTuple):
     """A value of a parameter: as written, as the scenario holds it, and as case ids show it."""
 
     text: str

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from operator import attrgetter
 from typing import Annotated, Any, Final, get_args
 
@@ -118,7 +117,7 @@ class GroupReader:
     def _report(self, diagnostics: Sequence[Diagnostic], more: int, total: int) -> None:
         verb = "is" if more == 1 else "are"
         others = f"; {more} more of the {total} values {verb} rejected" if more else ""
-        self.diagnostics.extend(replace(each, message=each.message + others) for each in diagnostics[:1])
+        self.diagnostics.extend(each._replace(message=each.message + others) for each in diagnostics[:1])
         self.diagnostics.extend(diagnostics[1:])
 
     def _row(

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Final
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from uictest.plans.scenario import Scenario, wheelset_value
 from uictest.plans.scenario.yaml import Quantity, parse_quantity
@@ -26,8 +26,7 @@ if TYPE_CHECKING:
 _OF_WHEELSETS: Final = "vehicle.wheelsets."
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnRange:
+class DrawnRange(NamedTuple):
     """The bounds of a distribution, as written, and the value of the scenario itself."""
 
     key: str

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Final, NamedTuple
 
 from uictest.core.document import Column, Document, Lines, Table, Tone
@@ -151,5 +150,5 @@ def series_sections(results: Sequence[SeriesResult]) -> list[Table | Lines]:
         counts[_MOST:] = [f"{counted(rest, 'more line')} in series-stops.csv and results.json"]
     criteria = [judged for result in results for judged in judged_criteria(result)]
     more = "more rows are in `series-criteria.csv` and `results.json`."
-    compared = replace(comparison_table(results), more=more, most=_MOST)
+    compared = comparison_table(results)._replace(more=more, most=_MOST)
     return [compared, Lines(counts), Table((_SERIES, *CRITERIA), criteria, more=more, most=_MOST)]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Final, NamedTuple
 
 from uictest.core.document import Column, Document, Lines, Table
@@ -115,7 +114,7 @@ def _frontier_sections(frontier: Frontier) -> Iterator[Table | Lines]:
     """Yield where verdicts flip: few scans all, of many the first, those with flips before the others."""
     table = frontier_table(frontier)
     if len(table.rows) > _MOST_ROWS:
-        table = replace(table, rows=sorted(table.rows, key=lambda each: not each.flips)[:_MOST_ROWS])
+        table = table._replace(rows=sorted(table.rows, key=lambda each: not each.flips)[:_MOST_ROWS])
     yield table
     if further := len(frontier.scans) - len(table.rows):
         yield Lines([f"{further} more in frontier.csv"])

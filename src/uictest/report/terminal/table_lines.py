@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -173,9 +172,7 @@ def _groups(table: Table, width: int) -> Iterator[tuple[list[str], list[TableCol
     assert common is not None
     others = [each for each in table.columns if each is not common]
     for text, rows in groupby(table.rows, key=common.text):
-        shown, hidden = fitted(
-            table_columns(dataclasses.replace(table, columns=others, rows=list(rows))), width
-        )
+        shown, hidden = fitted(table_columns(table._replace(columns=others, rows=list(rows))), width)
         yield [*(wrapped_name(printable(text), width) if text else ()), *aligned(shown)], hidden
 
 

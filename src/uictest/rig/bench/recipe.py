@@ -1,7 +1,7 @@
 """Bench recipes: the rig they are for and the inputs that are applied, read and checked."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -215,7 +215,7 @@ def _scenario_tree(tree: Map, recipe: BenchRecipe, overrides: Sequence[str], see
             )
     texts = {"schema": SCENARIO_SCHEMA, "name": recipe.name, "initial_speed": "80 km/h"}
     required = {key: Entry(stop.place, Scalar(text, text, stop.place)) for key, text in texts.items()}
-    whole = with_default_parts(replace(stop, entries={**required, **stop.entries}))
+    whole = with_default_parts(stop._replace(entries={**required, **stop.entries}))
     changed = apply_overrides(whole, parse_overrides(overrides, seed))
     for key in EXPANSION_KEYS:
         if (entry := changed.entries.get(key)) is not None:

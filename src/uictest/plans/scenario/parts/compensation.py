@@ -1,9 +1,8 @@
 """The compensation: cylinder dynamics or modelled air, and four-phase hysteresis, in place of a caliper."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal, NamedTuple, TypeAlias
 
 from pydantic import Field, create_model
 
@@ -23,8 +22,7 @@ HIGHEST_PRESSURE: Final = 10.0 * BAR
 """Gauge pressure in Pa up to which the lines of a pair must keep their order."""
 
 
-@dataclass(frozen=True, slots=True)
-class CompensationSetting:
+class CompensationSetting(NamedTuple):
     """What computes the clamping force of a module without a caliper.
 
     Attributes:

@@ -4,8 +4,7 @@ import traceback
 import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.plans.scenario.yaml.tree import Node, Place, visible
 
@@ -13,8 +12,7 @@ EXCERPT_WIDTH: Final = 100
 _LEAD: Final = 60
 
 
-@dataclass(frozen=True, slots=True)
-class Diagnostic:
+class Diagnostic(NamedTuple):
     """One error in one file. Everything a user wrote appears escaped, safe for a terminal.
 
     ``line`` and ``column`` count from one; ``excerpt`` is the line with a caret line below it. ``trace`` is
@@ -85,7 +83,7 @@ def collecting(diagnostics: list[Diagnostic], place: Place) -> Iterator[None]:
     except Exception as error:
         message = visible(f"internal error: {type(error).__name__}: {error}")
         trace = visible(traceback.format_exc()).replace("\\x0a", "\n").rstrip()
-        diagnostics.append(replace(diagnose(place, message), trace=trace))
+        diagnostics.append(diagnose(place, message)._replace(trace=trace))
 
 
 def in_reading_order(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:

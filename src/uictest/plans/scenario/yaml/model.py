@@ -1,7 +1,6 @@
 """Base classes of all models of files, and the keys that a model accepts."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import cache
 from typing import Any, ClassVar, Final, Literal, NamedTuple, Self, get_args, get_origin
 
@@ -155,8 +154,7 @@ _LIBRARY_NAME_OR_PATH = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class PartReference:
+class PartReference(NamedTuple):
     """Marks a field that refers to a part; ``default`` is the library name used if the key is missing.
 
     With ``several``, the field also accepts a list of references.

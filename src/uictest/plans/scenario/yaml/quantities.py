@@ -6,12 +6,11 @@ import math
 import re
 import unicodedata
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from decimal import Context, Decimal
 from fractions import Fraction
 from functools import lru_cache, reduce
 from operator import add
-from typing import Annotated, Any, Final, Self
+from typing import Annotated, Any, Final, NamedTuple, Self
 
 from pydantic import PlainSerializer, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
@@ -209,8 +208,7 @@ _DIGITS: Final = Context(prec=10)
 """Digits that a computed number is written with; its value is that of the text."""
 
 
-@dataclass(frozen=True, slots=True)
-class DecimalQuantity:
+class DecimalQuantity(NamedTuple):
     """A decimal number and its unit; the unit of a pure number is empty."""
 
     number: Decimal

@@ -2,9 +2,8 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from operator import ge, gt, le, lt
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
@@ -28,8 +27,7 @@ QUANTITY_KEYWORD: Final = "x-quantity"
 """Keyword that stands for the definition of a kind while a JSON Schema is put together."""
 
 
-@dataclass(frozen=True, slots=True)
-class QuantityField:
+class QuantityField(NamedTuple):
     """Annotation of a field that is a quantity of one ``kind`` (speed, pressure, ...), within bounds."""
 
     kind: Kind

@@ -2,11 +2,11 @@
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 COMMAND_LINE: Final = "--set"
 """Display name of values from the command line, in place of a file name."""
@@ -32,8 +32,7 @@ class Document:
         return _LINE_BREAK.split(self.text)
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(NamedTuple):
     """A position in a document, counted from one."""
 
     document: Document
@@ -41,8 +40,7 @@ class Place:
     column: int = 1
 
 
-@dataclass(frozen=True, slots=True)
-class Scalar:
+class Scalar(NamedTuple):
     """A single value; ``text`` is what the file says."""
 
     value: str | int | float | bool | None
@@ -50,24 +48,21 @@ class Scalar:
     place: Place
 
 
-@dataclass(frozen=True, slots=True)
-class Sequence:
+class Sequence(NamedTuple):
     """A list."""
 
     items: tuple["Node", ...]
     place: Place
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(NamedTuple):
     """A value with the place of its key."""
 
     key: Place
     node: "Node"
 
 
-@dataclass(frozen=True, slots=True)
-class Map:
+class Map(NamedTuple):
     """A mapping."""
 
     entries: Mapping[str, Entry]
@@ -80,11 +75,11 @@ class Map:
 
     def with_entry(self, key: str, entry: Entry) -> "Map":
         """A copy in which ``key`` has another value."""
-        return replace(self, entries={**self.entries, key: entry})
+        return self._replace(entries={**self.entries, key: entry})
 
     def without(self, *keys: str) -> "Map":
         """A copy without ``keys``."""
-        return replace(self, entries={key: entry for key, entry in self.entries.items() if key not in keys})
+        return self._replace(entries={key: entry for key, entry in self.entries.items() if key not in keys})
 
 
 Node = Scalar | Sequence | Map
