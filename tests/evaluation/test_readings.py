@@ -173,7 +173,7 @@ def test_repeated_stops_are_read_together(shipped, scenario, case, sliding_stop,
     repeats = []
     for seed, share in enumerate((0.4, 0.5, 0.8)):
         records = sliding_stop(share=share), wheelsets(0.2, 0.2, 0.2, 0.2)
-        repeats.append(SimulatedRepeat(seed, evaluate(together, *records, explain=False), *records))
+        repeats.append(SimulatedRepeat(seed, evaluate(together, *records, detail="status"), *records))
     verdict = next(
         each for each in evaluate_repeats(together, repeats).criteria if each.id == "minimum-slide"
     )

@@ -23,7 +23,7 @@ def repeated(criterion, profile, scenario, case, stop, wheelsets):
             if distance is None:
                 return SimulatedRepeat(seed, error_result(together, "made up"))
             records = stop(braking_distance=distance), wheelsets(0.1 * seed, 0.2, 0.3, 0.4)
-            return SimulatedRepeat(seed, evaluate(together, *records, 1.5, explain=False), *records)
+            return SimulatedRepeat(seed, evaluate(together, *records, 1.5, detail="status"), *records)
 
         repeats = [simulated(seed, distance) for seed, distance in enumerate(distances, start=5)]
         return evaluate_repeats(together, repeats)
@@ -100,7 +100,7 @@ def test_definitions_run_through_their_range_in_all_stops_at_once(
     for seed, decelerations in enumerate((hard_first, hard_last)):
         speed = 33.0 - 9.80665 * np.concatenate([[0.0], np.cumsum(decelerations)])
         records = sliding_stop(speed_after_sliding=speed), wheelsets(0.2, 0.2, 0.2, 0.2)
-        repeats.append(SimulatedRepeat(seed, evaluate(together, *records, explain=False), *records))
+        repeats.append(SimulatedRepeat(seed, evaluate(together, *records, detail="status"), *records))
     (verdict,) = evaluate_repeats(together, repeats).criteria
     assert verdict.status == "pass"
     assert verdict.value == pytest.approx((0.075 + 0.075) / 2)

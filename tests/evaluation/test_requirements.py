@@ -40,7 +40,7 @@ def test_a_result_has_the_ids_of_the_case_and_each_verdict_those_of_its_criterio
 def test_a_case_that_could_not_be_judged_hides_no_requirement_repeated_or_not(named, stop, wheelsets):
     assert error_result(named, "diverged").requirements == ("BR-1", "BR-2", "BR-3")
     records = stop(), wheelsets(0.0, 0.0, 0.0, 0.0)
-    sound = SimulatedRepeat(0, evaluate(named, *records, explain=False), *records)
+    sound = SimulatedRepeat(0, evaluate(named, *records, detail="status"), *records)
     assert evaluate_repeats(named, [sound, sound]).requirements == ("BR-1",)
     failed = SimulatedRepeat(1, error_result(named, "diverged"))
     assert evaluate_repeats(named, [sound, failed]).requirements == ("BR-1", "BR-2", "BR-3")

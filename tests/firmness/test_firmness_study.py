@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from uictest.analysis.firmness import Drawn, Effort, FirmnessStudy
-from uictest.judging.evaluation import CaseResult
+from uictest.judging.evaluation import CalibratedDraws, CaseResult
 from uictest.plans.scenario.yaml import Quantity, parse_quantity
 from uictest.plans.sweeps import RangedNumber
 from uictest.report.firmness_sentences import firmness_sentences
@@ -23,10 +23,12 @@ def number(key, value, low, high):
 A, B = number("a", "100 N", "95 N", "105 N"), number("b", "100 N", "95 N", "105 N")
 
 
-def study(numbers, margin, *, effort=SMALL, noise=0.0, validity=None, feasible=lambda *values: True):
+def study(
+    numbers, margin, *, effort=SMALL, noise=0.0, validity=None, feasible=lambda *values: True, **others
+):
     """Study a stop whose one requirement holds while `margin` of the numbers is not negative.
 
-    `validity` is the margin of a criterion of validity.
+    `validity` is the margin of a criterion of validity; `others` are further arguments of the study.
     """
 
     def judge(columns, seeds):
@@ -46,7 +48,7 @@ def study(numbers, margin, *, effort=SMALL, noise=0.0, validity=None, feasible=l
         invalid = statuses.get("counts") == "fail"
         return Drawn("invalid" if invalid else statuses["limit"], statuses, margins)
 
-    return FirmnessStudy(numbers, judge, frozenset({"counts"}), effort).run()
+    return FirmnessStudy(numbers, judge, validity=frozenset({"counts"}), effort=effort, **others).run()
 
 
 def test_what_no_number_touches_is_firm_if_the_draws_suffice():
@@ -210,3 +212,60 @@ def test_nothing_is_firm_that_could_not_be_run_at_an_end():
     full = Effort(8, 128, 16, 4)
     firmness = study([A, B], lambda a, b: 1.0, feasible=lambda a, b: a < 5.0, effort=full)
     assert (firmness.turned, firmness.not_run, firmness.status) == (0, ("a",), "not_shown")
+
+
+def test_the_share_of_calibrated_draws_is_that_of_the_draws_under_which_the_calibrating_stops_hold():
+    def hold(columns):
+        return (columns[0].numbers >= 100.0).tolist()
+
+    # The stop passes for a >= 98: in all of the upper half of the range, in three fifths of the lower one.
+    found = study([A, B], lambda a, b: a + 2.0, hold=hold)
+    assert found.share == pytest.approx(0.7, abs=0.03)
+    assert found.calibrated == CalibratedDraws(found.counted // 2, 1.0)
+    opposed = study([A, B], lambda a, b: a + 2.0, hold=lambda columns: (columns[0].numbers < 100.0).tolist())
+    assert opposed.calibrated.share == pytest.approx(0.4, abs=0.03)
+    assert {each.calibrated for each in opposed.criteria} == {opposed.calibrated}
+    never = study([A, B], lambda a, b: 1.0, hold=lambda columns: [False] * len(columns[0]))
+    assert (never.calibrated, never.counted) == (CalibratedDraws(0, None), 256)
+    assert study([A, B], lambda a, b: 1.0).calibrated is None
+
+
+def test_another_reading_is_as_firm_as_itself_and_decides_no_outcome():
+    def judge(columns, seeds):
+        force = columns[0].numbers - 100.0
+        return [
+            Drawn(
+                "pass" if value < 4.0 else "fail",
+                # The reading comes first, and fails before the criterion does.
+                {
+                    "slide read as depth": "pass" if value < 2.0 else "fail",
+                    "slide": "pass" if value < 4.0 else "fail",
+                },
+                readings={"slide read as depth": "slide"},
+            )
+            for value in force.tolist()
+        ]
+
+    found = FirmnessStudy([A], judge, effort=SMALL).run()
+    assert found.turned_by[0].criterion == "slide"
+    of_each = {each.criterion: each.share for each in found.criteria}
+    assert of_each == {
+        "slide": pytest.approx(0.9, abs=0.02),
+        "slide read as depth": pytest.approx(0.7, abs=0.02),
+    }
+
+
+def test_a_reading_of_a_criterion_of_validity_counts_where_the_stop_is_no_test():
+    def judge(columns, seeds):
+        return [
+            Drawn(
+                "pass" if value < 0.5 else "invalid",
+                {"counts": "pass" if value < 0.5 else "fail", "counts read as other": "pass"},
+                readings={"counts read as other": "counts"},
+            )
+            for value in (columns[0].numbers - 100.0).tolist()
+        ]
+
+    found = FirmnessStudy([A], judge, validity=frozenset({"counts"}), effort=SMALL).run()
+    of_each = {each.criterion: (each.counted, each.turned) for each in found.criteria}
+    assert of_each["counts read as other"] == (256, 0)

@@ -13,6 +13,7 @@ import typer
 
 from uictest import report, runs
 from uictest.analysis import comparison
+from uictest.plans import scenario
 
 
 class Format(StrEnum):
@@ -149,6 +150,30 @@ Firm = Annotated[
         "--firm",
         "Find out whether numbers that nobody measured turn the verdicts: runs some 1 700 stops of each"
         " case with other values within their plausible ranges.",
+    ),
+]
+
+
+def calibration(
+    named: Sequence[Path] | None, trusted: Sequence[Path] | None = None, *, firm: bool
+) -> list[scenario.Case]:
+    """Return the cases of calibrating scenarios. Raises ScenarioErrors, and InvalidInputError for none."""
+    if not named:
+        return []
+    if not firm:
+        raise typer.BadParameter("goes with --firm", param_hint="--calibrated-by")
+    cases = runs.load_cases(named, trusted=trusted)
+    if not cases:
+        raise runs.InvalidInputError("--calibrated-by: takes scenarios, not series")
+    return cases
+
+
+CalibratedBy = Annotated[
+    list[Path] | None,
+    option(
+        "--calibrated-by SCENARIO",
+        "With --firm: also say how firm verdicts are among the draws in which this stop, such as dry-120,"
+        " comes to what it expects. May be repeated.",
     ),
 ]
 Verbose = Annotated[bool, option("-v --verbose", "More detail.", show_default=False)]

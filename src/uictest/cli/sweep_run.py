@@ -162,7 +162,9 @@ class SweepObserver(TerminalObserver):
     def simulating(
         self, count: int, finished: int = 0, unit: str = "cases"
     ) -> AbstractContextManager[Advance]:
-        """Show the progress of the cases."""
+        """Show the progress of the cases, or of stops that are run besides."""
+        if unit != "cases":
+            return super().simulating(count, finished, unit)
         return sweep_progress(count, finished, quiet=self.quiet)
 
     def waiting(self, address: str) -> None:

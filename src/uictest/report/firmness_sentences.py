@@ -95,11 +95,23 @@ def _status(verdict: VerdictFirmness, firmness: Firmness) -> str:
     if not verdict.counted:
         return f"{word}: none of {firmness.draws} draws is a test"
     draws = f"{verdict.counted} draws of {len(firmness.numbers)} numbers within their ranges"
+    calibrated = _calibrated(verdict, firmness)
     if verdict.turned or verdict.share_at_least is None:
         low, high = verdict.lowest_block, verdict.highest_block
         blocks = "" if low is None or high is None else f" ({_percent(low)} to {_percent(high)} in blocks)"
-        return f"{word}: it stands in {_percent(verdict.share)} of {draws}{blocks}"
-    return f"{word}: it stands in all of {draws}, a share above {_percent(verdict.share_at_least, 4)}"
+        return f"{word}: it stands in {_percent(verdict.share)} of {draws}{blocks}{calibrated}"
+    least = _percent(verdict.share_at_least, 4)
+    return f"{word}: it stands in all of {draws}, a share above {least}{calibrated}"
+
+
+def _calibrated(verdict: VerdictFirmness, firmness: Firmness) -> str:
+    """Return in which share of the calibrated draws a verdict stands; nothing where no stops calibrate."""
+    if verdict.calibrated is None:
+        return ""
+    stops, counted = ", ".join(firmness.calibrated_by), verdict.calibrated.counted
+    share = f" and in {_percent(verdict.calibrated.share)} of the" if counted else ", of which"
+    count = f"{counted} of them" if counted else "none"
+    return f"{share} {count} in which {stops} comes to what it expects"
 
 
 def _turns(verdict: VerdictFirmness) -> Iterator[str]:

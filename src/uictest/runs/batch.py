@@ -109,20 +109,19 @@ def batch_of(
     everything = all_cases(cases, planned)
     references = _references(everything, validated)
     parts = campaign.parts_of_cases(everything)
-    inputs = [*(case.inputs for case in everything), *(each.inputs for each in planned)]
+    settings = settings or campaign.RunSettings()
+    inputs: list[Mapping[str, str]] = [case.inputs for case in (*everything, *settings.calibration)]
+    inputs += [each.inputs for each in planned]
     read = {name: digest for each in inputs for name, digest in each.items()}
     manifest = report.run_manifest(arguments, seed, read, len(everything), parts.values())
+    domains = {case_id: each.domain_of(parts[case_id]) for case_id, each in references.items()}
     of_validations = {each.file: each.sha256 for each in references.values()}
     return Batch(
         cases,
         planned,
         replace(manifest, inputs={**manifest.inputs, **of_validations}),
         campaign.descriptions_of(everything),
-        replace(
-            settings or campaign.RunSettings(),
-            parts=parts,
-            domains={case_id: each.domain_of(parts[case_id]) for case_id, each in references.items()},
-        ),
+        replace(settings, parts=parts, domains=domains),
         baseline,
         drawn_first,
     )
@@ -230,11 +229,12 @@ def simulate_cases(
     if asked:
         from uictest.runs.firmness import firmness_run, stops_of_case  # which few runs need
 
-        varied = sum(map(stops_of_case, asked.values()))
+        varied = sum(stops_of_case(case, settings) for case in asked.values())
     with observer.compiling():
         rig.compiled_stop()
         if asked:
-            rig.load_block([case.scenario.controller.program for case in asked.values()])
+            varied_cases = (*asked.values(), *settings.calibration)
+            rig.load_block([case.scenario.controller.program for case in varied_cases])
     stops = sum(case.scenario.repeat for case in cases) + varied
     unit = unit or ("stops" if stops > len(cases) else "cases")
     with ExitStack() as stack:
@@ -258,9 +258,9 @@ def _with_firmness(
         return result
     from uictest.runs.firmness import firmness_run, stops_of_series  # which few runs need
 
-    stops = stops_of_series(planned)
+    stops = stops_of_series(planned, settings)
     with observer.compiling():
-        rig.load_block([case.scenario.controller.program for case in planned.cases])
+        rig.load_block([case.scenario.controller.program for case in (*planned.cases, *settings.calibration)])
     with observer.simulating(stops, unit="stops") as advance, firmness_run(settings, stops, advance) as firm:
         return replace(result, firmness=firm.of_series(planned))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from itertools import groupby
+from itertools import chain, groupby
 from typing import Any, Final, NamedTuple
 
 from pydantic import TypeAdapter
@@ -21,7 +21,7 @@ from uictest.runs.errors import InvalidInputError
 from uictest.runs.firmness import firmness_run, stops_of_case
 from uictest.runs.observer import Observer
 
-_WRITTEN: Final = ("numbers", "draws", "infeasible", "not_run", "seeds", "on_four_calipers")
+_WRITTEN: Final = ("numbers", "draws", "infeasible", "not_run", "seeds", "on_four_calipers", "calibrated_by")
 """What is written of a study besides the quantities: pairs have no outcome."""
 
 
@@ -45,8 +45,9 @@ def firm_pairs(
     """
     pairs = _pairs(cases, keys)
     with observer.compiling():
-        rig.load_block([case.scenario.controller.program for pair in pairs for case in pair])
-    stops = sum(stops_of_case(case) for pair in pairs for case in pair)
+        run = [*chain(*pairs), *settings.calibration]
+        rig.load_block([case.scenario.controller.program for case in run])
+    stops = sum(stops_of_case(case, settings) for case in chain(*pairs))
     with observer.simulating(stops, unit="stops") as advance, firmness_run(settings, stops, advance) as firm:
         for first, second in pairs:
             found = firm.of_pair(first, second)
@@ -86,6 +87,6 @@ def firm_pairs_json(pairs: Sequence[FirmPair]) -> str:
 
 def _form(pair: FirmPair) -> dict[str, Any]:
     whole = to_json_form(TypeAdapter(Firmness), pair.firmness)
-    study = {name: whole[name] for name in _WRITTEN}
+    study = {name: whole[name] for name in _WRITTEN if name in whole}
     sides = {"first": pair.first, "second": pair.second}
     return {**sides, "quantities": whole["criteria"], "undecided": list(pair.undecided), **study}

@@ -11,12 +11,13 @@ from typing import Final
 import numpy as np
 
 from uictest import controllers, rig
-from uictest.analysis.firmness import Drawn, Effort, FirmnessStudy, compared, drawn
+from uictest.analysis.firmness import Drawn, Effort, FirmnessStudy, HoldDraws, compared, drawn
 from uictest.judging import series as judging_series
 from uictest.judging.evaluation import CaseResult, Firmness, RepeatedStop, Repeats
 from uictest.plans import scenario, series as series_plans, sweeps
 from uictest.plans.sweeps import Column, RangedNumber
 from uictest.running import campaign, chunked
+from uictest.runs.errors import InvalidInputError
 
 _TOGETHER: Final = 128
 """Draws of a series whose stops are in memory at a time; chosen."""
@@ -36,6 +37,7 @@ class FirmnessRun:
         advance: is called with how many more stops are finished.
         run_block: simulates stops with controllers from outside.
         effort: how many stops.
+        calibration: stops by which the numbers are known, with the outcomes that these expect.
 
     """
 
@@ -43,6 +45,7 @@ class FirmnessRun:
     advance: Callable[[int], None] = lambda count: None
     run_block: chunked.RunBlock = rig.run_block
     effort: Effort = EFFORT
+    calibration: Sequence[scenario.Case] = ()
 
     def of_case(self, case: scenario.Case) -> Firmness:
         """Return how firm the verdicts of a case are; of a repeated one, those of its stops one by one."""
@@ -98,9 +101,33 @@ class FirmnessRun:
             for criterion in profile.criteria
             if criterion.layer == "validity"
         )
+        hold = self._hold(list(numbers)) if self.calibration else None
         random_rail = any(each.varied.case.scenario.rail.variation_in_force for each in cases)
-        study = FirmnessStudy(list(numbers.values()), judge, validity, self.effort, random_rail)
-        return study.run(on_four_calipers=any(each.on_four_calipers for each in cases))
+        study = FirmnessStudy(list(numbers.values()), judge, hold, validity, self.effort, random_rail)
+        return study.run(
+            on_four_calipers=any(each.on_four_calipers for each in cases),
+            calibrated_by=[each.id for each in self.calibration],
+        )
+
+    def _hold(self, numbers: Sequence[_Identity]) -> HoldDraws:
+        """Return what says whether all calibrating stops come to what they expect under draws."""
+        stops = [_VariedStops.of(each, self) for each in self.calibration]
+
+        def hold(columns: Sequence[Column]) -> list[bool]:
+            taken = dict(zip(numbers, columns, strict=True))
+            outcomes = [each.as_expected(taken, len(columns[0])) for each in stops]
+            return [all(of_draw) for of_draw in zip(*outcomes, strict=True)]
+
+        return hold
+
+    def require_calibration(self) -> None:
+        """Raise InvalidInputError where a calibrating stop comes to another outcome itself."""
+        for each in self.calibration:
+            if not all(_VariedStops.of(each, self).as_expected({}, 1)):
+                raise InvalidInputError(
+                    f"--calibrated-by: {each.id} is not {each.scenario.expect} at the nominal values: it says"
+                    " nothing of others"
+                )
 
 
 @dataclass(frozen=True)
@@ -129,6 +156,7 @@ class _VariedStops:
     def results(self, columns: _Columns, seeds: Sequence[int]) -> list[list[CaseResult]]:
         """Return for each row of the columns the results of the stops, one for each repeat of the case.
 
+        A number without a column is nominal.
         A seed counts from that of the case, in steps of its repeats, and goes on from 0 behind the largest.
         """
         resolved = self.varied.case.scenario
@@ -136,10 +164,19 @@ class _VariedStops:
         rows = np.repeat(np.arange(len(seeds)), repeat)
         known = scenario.LARGEST_SEED + 2 - repeat  # how many seeds a case with these repeats may have
         numbers = [(resolved.seed + seed * repeat + k) % known for seed in seeds for k in range(repeat)]
-        settings = {number.key: columns[key].take(rows) for key, number in self.numbers.items()}
+        nominal = np.full(len(seeds), np.nan)
+        settings = {
+            number.key: (columns[key] if key in columns else number.at(nominal)).take(rows)
+            for key, number in self.numbers.items()
+        }
         settings["seed"] = sweeps.listed_column([sweeps.ParameterValue(str(k), k) for k in numbers])
         results = self.varied.results(settings, self.run.advance)
         return [results[first : first + repeat] for first in range(0, len(results), repeat)]
+
+    def as_expected(self, columns: _Columns, count: int) -> list[bool]:
+        """Return for each row of the columns whether all stops come to what the case expects."""
+        expected = self.varied.case.scenario.expect
+        return [all(stop.outcome == expected for stop in each) for each in self.results(columns, [0] * count)]
 
 
 def _identity(number: RangedNumber) -> _Identity:
@@ -163,15 +200,20 @@ def _repeated(case: scenario.Case, stops: Sequence[CaseResult]) -> CaseResult:
     return replace(stops[0], id=case.id, repeats=Repeats("all", each))
 
 
-def stops_of_case(case: scenario.Case) -> int:
-    """Return how many stops are run of a case before turning values are searched."""
-    return EFFORT.stops(len(sweeps.ranged_numbers(case.scenario)))
+def stops_of_case(case: scenario.Case, settings: campaign.RunSettings) -> int:
+    """Return how many stops are run for a case before turning values are searched."""
+    return EFFORT.stops(len(sweeps.ranged_numbers(case.scenario))) + _calibrating_stops(settings)
 
 
-def stops_of_series(planned: series_plans.Series) -> int:
-    """Return how many stops are run of a series before turning values are searched."""
+def stops_of_series(planned: series_plans.Series, settings: campaign.RunSettings) -> int:
+    """Return how many stops are run for a series before turning values are searched."""
     numbers = {_identity(each) for case in planned.cases for each in sweeps.ranged_numbers(case.scenario)}
-    return EFFORT.stops(len(numbers)) * sum(case.scenario.repeat for case in planned.cases)
+    stops = EFFORT.stops(len(numbers)) * sum(case.scenario.repeat for case in planned.cases)
+    return stops + _calibrating_stops(settings)
+
+
+def _calibrating_stops(settings: campaign.RunSettings) -> int:
+    return EFFORT.draws * sum(each.scenario.repeat for each in settings.calibration)
 
 
 @contextmanager
@@ -193,7 +235,9 @@ def firmness_run(
     with rig.Workers() as workers:
         run_block = rig.run_block if settings.in_process else workers.run_block
         try:
-            yield FirmnessRun(settings.jobs, count, run_block, EFFORT)
+            run = FirmnessRun(settings.jobs, count, run_block, EFFORT, settings.calibration)
+            run.require_calibration()
+            yield run
         except KeyboardInterrupt:
             controllers.interrupt_turns()
             raise

@@ -13,6 +13,7 @@ from uictest.judging import evaluation
 from uictest.plans import scenario, sweeps
 from uictest.running import campaign
 from uictest.running.chunked import ChunkStore
+from uictest.runs.batch import simulate_cases
 from uictest.runs.errors import InvalidInputError
 from uictest.runs.observer import Observer
 from uictest.runs.sweep_chunks import SweepRequest, prepared_runner, run_missing_chunks
@@ -84,6 +85,8 @@ def publish(request: SweepRequest, store: ChunkStore, observer: Observer) -> Fin
     worst, subjects = _run_worst(request, summary, store.folder)
     result = replace(summary.result, frontier=frontier, worst=worst, subjects=subjects)
     result = with_nominal_stops(request, result)
+    if request.firm:
+        result = replace(result, nominal=_nominal_with_firmness(request, observer))
     document = report.write_sweep_result(store.folder, result, request.selection.plan.file)
     # Read back, so that what is shown now is what `uictest report` shows of the folder later.
     content = report.read_sweep(store.folder, traces=report.draws_stops(request.reports))
@@ -145,6 +148,15 @@ def with_nominal_stops(request: SweepRequest, result: report.SweepResult) -> rep
         if table.nominal is None
     ]
     return replace(result, k_dry=k_dry, notes=(*result.notes, *notes))
+
+
+def _nominal_with_firmness(request: SweepRequest, observer: Observer) -> evaluation.CaseResult:
+    """Return the result of the case that is varied, with how firm it is. Raises KeyboardInterrupt."""
+    cases = [request.selection.plan.base]
+    settings = _settings(request, cases, campaign.RecordingRequest("none"))
+    settings = replace(settings, firm=True, calibration=request.calibration)
+    [result] = simulate_cases(cases, settings, observer, unit="stops").whole()
+    return result
 
 
 def _nominal_stops(request: SweepRequest) -> Sequence[evaluation.CaseResult]:

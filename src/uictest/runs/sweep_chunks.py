@@ -11,7 +11,7 @@ from typing import Any
 from uictest import report, rig
 from uictest.analysis import summaries, validation
 from uictest.plans import sweeps
-from uictest.plans.scenario import yaml
+from uictest.plans.scenario import Case, yaml
 from uictest.running import chunked
 from uictest.running.chunked import CaseSelection, ChangedInputsError, ChunkRunner, ChunkStore, Shard
 from uictest.runs.errors import InvalidInputError
@@ -37,6 +37,10 @@ class SweepRequest:
     search: summaries.FrontierSearch | None = None
     reference: validation.ValidationReference | None = None
     """Validation that the cases are held against."""
+    firm: bool = False
+    """Whether it is asked how firm the verdicts of the nominal case are."""
+    calibration: Sequence[Case] = ()
+    """Stops by which the numbers varied for that are known."""
     formats: Sequence[str] | None = None
     """Of reports; None for tables and the page, and only the page where the cases are very many."""
     in_process: bool = False

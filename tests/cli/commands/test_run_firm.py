@@ -6,6 +6,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from openpyxl import load_workbook
 
 from uictest.analysis.firmness import Effort
 from uictest.cli import run_display
@@ -132,3 +133,47 @@ def test_a_terminal_tells_once_what_a_strict_case_lacks(call, scenario, monkeypa
     monkeypatch.setenv("COLUMNS", "500")
     answer, _ = run(call, scenario("stop", TURNED), "--firm", "--strict", code=1)
     assert answer.out.count("run with a caliper in every module") == 1
+
+
+def test_calibrating_stops_choose_among_the_draws(call, scenario):
+    pads = "brake.system.disc.pad_friction"
+    stop = scenario("stop", TURNED)
+    # The pads that stop within 34 m are those of the upper half of the range; all stop within 50 m.
+    of_half, of_all = (
+        scenario(name, TURNED.replace("36 m", limit)) for name, limit in (("half", "34 m"), ("all", "50 m"))
+    )
+    answer, [case] = run(call, stop, "--firm", "--calibrated-by", of_half)
+    assert case["firmness"]["calibrated_by"] == ["half"]
+    assert 0 < case["firmness"]["calibrated"]["counted"] < 8
+    assert case["firmness"]["calibrated"]["share"] == 1.0
+    assert "of them in which half comes to what it expects" in answer.out
+    manifest = json.loads(Path("reports/latest/manifest.json").read_text("utf-8"))
+    assert any(name.endswith("half.yaml") for name in manifest["inputs"])
+    _, [case] = run(call, stop, "--firm", "--calibrated-by", of_all)
+    assert case["firmness"]["calibrated"] == {"counted": 8, "share": case["firmness"]["share"]}
+    _, [case] = run(call, stop, "--firm", "--set", f"{pads}=0.38")
+    assert "calibrated" not in case["firmness"]
+
+
+def test_what_cannot_calibrate_is_refused_before_anything_is_varied(call, scenario):
+    stop, missed = scenario("stop", TURNED), scenario("missed", TURNED.replace("36 m", "5 m"))
+    answer = call("run", stop, "--firm", "--calibrated-by", missed, code=4)
+    assert "missed is not pass at the nominal values" in answer.err
+    assert "goes with --firm" in call("run", stop, "--calibrated-by", missed, code=4).err
+
+
+def test_a_sweep_says_how_firm_its_nominal_case_is_in_every_report(call, scenario):
+    path = scenario("stop", f"{TURNED}vary:\n  matrix: {{brake.command: [90 %, 100 %]}}\n")
+    answer = call("sweep", path, "--firm", "--report", "csv,html,md,xlsx")
+    folder = Path("reports/stop")
+    nominal = json.loads((folder / "sweep.json").read_text("utf-8"))["nominal"]
+    assert "brake.system.disc.pad_friction" in {each["key"] for each in nominal["firmness"]["turned_by"]}
+    sentence = "pass is not firm: it stands in"
+    for text in (answer.out, *((folder / name).read_text("utf-8") for name in ("summary.md", "index.html"))):
+        assert sentence in text
+    with (folder / "firmness.csv").open(encoding="utf-8") as stream:
+        assert {row["id"] for row in csv.DictReader(stream)} == {"stop"}
+    assert "Firmness" in load_workbook(folder / "report.xlsx").sheetnames
+    call("sweep", path)
+    assert not (folder / "firmness.csv").exists()
+    assert json.loads((folder / "sweep.json").read_text("utf-8"))["nominal"] is None

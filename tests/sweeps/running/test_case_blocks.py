@@ -232,6 +232,6 @@ def test_judging_reads_nothing_but_what_it_says(case):
     watched = Watched(case.scenario, "", read)
     for stopped in (1.0, 0.0):
         measures["stopped"] = stopped
-        evaluate(replace(case, scenario=watched), measures[0], wheelsets[0], explain=False)
+        evaluate(replace(case, scenario=watched), measures[0], wheelsets[0], detail="status")
     for key in read:
         assert any(key == judged or key.startswith(f"{judged}.") for judged in JUDGED_KEYS), key

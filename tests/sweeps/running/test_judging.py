@@ -101,7 +101,9 @@ def test_a_case_is_judged_as_its_scenario_written_out(load, made_up):
     for place, index in enumerate(indices.tolist()):
         if block.rejections[place]:
             continue
-        alone = evaluate_simulated(written_out(plan, index), measures[place], wheelsets[place], explain=False)
+        alone = evaluate_simulated(
+            written_out(plan, index), measures[place], wheelsets[place], detail="status"
+        )
         # As texts, in which NaN is equal to NaN.
         assert repr(replace(results[place], parameters=alone.parameters)) == repr(alone)
         outcomes.add(alone.outcome)

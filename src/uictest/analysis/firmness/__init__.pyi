@@ -1,7 +1,3 @@
 from .pair import COMPARED as COMPARED, compared as compared
-from .study import (
-    Drawn as Drawn,
-    Effort as Effort,
-    FirmnessStudy as FirmnessStudy,
-    drawn as drawn,
-)
+from .stops import Drawn as Drawn, drawn as drawn
+from .study import Effort as Effort, FirmnessStudy as FirmnessStudy, HoldDraws as HoldDraws

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Final
 
-from uictest.analysis.firmness.study import Drawn
+from uictest.analysis.firmness.stops import Drawn
 from uictest.judging.evaluation import CaseResult
 
 FIRST, SECOND, SAME = "pass", "fail", "same"

@@ -12,28 +12,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.analysis.firmness.scan import Scan
+from uictest.analysis.firmness.stops import OUTCOME, Drawn, Place, Stops, usual
 from uictest.judging.evaluation import (
+    CalibratedDraws,
     Firmness,
     FirmnessStatus,
     NumberEffect,
     Turn,
-    Verdict,
     VerdictFirmness,
-    relative_margin,
 )
 from uictest.plans.sweeps import Column, RangedNumber, sobol_blocks
 
-OUTCOME: Final = ""
-"""In place of the id of a criterion: the outcome."""
+_DECIDED: Final = ("pass", "fail")
+"""Statuses whose firmness is studied: all others are no verdict on the stop."""
 FIRM_SHARE: Final = 0.997
 """Share of draws, with 95 % confidence, in which a firm verdict stands at least; chosen: what 1 000
 draws without a turn show."""
 _DOUBT: Final = 0.05
 """Probability that a share lies below its bound: 95 % confidence, as usual of test results; chosen."""
-_DECIDED: Final = ("pass", "fail")
-"""Statuses whose firmness is studied: all others are no verdict on the stop."""
-_DECIDING: Final = {"invalid": "fail", "skipped": "not_applicable"}
-"""Status of the criteria that decide an outcome, where it has another name."""
 _HALVINGS: Final = 4
 """Of the interval between two places of a scan: a turning value is known to 1 / 128 of its side; chosen."""
 
@@ -57,83 +53,18 @@ class Effort:
 
     def stops(self, numbers: int) -> int:
         """Return how many stops are run before any turning value is searched."""
-        return self.seeds + 2 * numbers * self.seeds_at_ends + self.blocks * self.block
+        return self.seeds + 2 * numbers * self.seeds_at_ends + self.draws
 
-
-@dataclass(frozen=True, slots=True)
-class Drawn:
-    """The outcome of one stop, or one series, with some values of the numbers, and its verdicts by criterion.
-
-    `margins` are shares of the limits, of the criteria that have one.
-    """
-
-    outcome: str
-    statuses: Mapping[str, str] = field(default_factory=dict)
-    margins: Mapping[str, float] = field(default_factory=dict)
-
-    def status(self, criterion: str) -> str:
-        """Return the status of a criterion, or the outcome."""
-        return self.outcome if criterion == OUTCOME else self.statuses.get(criterion, "error")
-
-
-def drawn(outcome: str, verdicts: Iterable[Verdict]) -> Drawn:
-    """Return an outcome and verdicts, without those of checks of the rig."""
-    judged = [verdict for verdict in verdicts if verdict.layer != "rig"]
-    margins = {each.id: share for each in judged if (share := relative_margin(each)) is not None}
-    return Drawn(outcome, {each.id: each.status for each in judged}, margins)
+    @property
+    def draws(self) -> int:
+        """The number of draws of all numbers together."""
+        return self.blocks * self.block
 
 
 JudgeDraws = Callable[[Sequence[Column], Sequence[int]], Sequence[Drawn]]
 """Runs stops: for each number its values in all stops; for each stop its seed, from 0 for the nominal one."""
-_Place = tuple[int, int]
-"""A number, by its place in the list, and an end of its range: lowest 0, highest 1."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Stops:
-    """The verdicts of all stops: nominal under each seed, with one number at an end, and of the draws."""
-
-    nominal: Sequence[Drawn]
-    ends: Mapping[_Place, Sequence[Drawn]]
-    joint: Sequence[Drawn]
-    validity: frozenset[str]
-
-    @property
-    def not_run(self) -> list[_Place]:
-        """The ends at which no stop could be run."""
-        return [place for place, drawn in self.ends.items() if all(each.outcome == "error" for each in drawn)]
-
-    def usual(self, criterion: str) -> str:
-        """Return what a verdict is at the nominal values, under most seeds."""
-        return _usual(self.nominal, criterion)
-
-    def stands(self, drawn: Drawn, criterion: str) -> bool | None:
-        """Return whether a verdict is what it is at the nominal values; None for one that does not count.
-
-        What is required of a test does not count where there is none.
-        """
-        nominal = self.usual(criterion)
-        of_validity = criterion in self.validity or (criterion == OUTCOME and nominal == "invalid")
-        if drawn.outcome == "error" or (drawn.outcome == "invalid" and not of_validity):
-            return None
-        return drawn.status(criterion) == nominal
-
-    def turned_at(self, place: _Place, criterion: str) -> list[Drawn]:
-        """Return the stops at an end in which a verdict is another."""
-        return [each for each in self.ends[place] if self.stands(each, criterion) is False]
-
-    def deciding_at(self, place: _Place) -> str:
-        """Return the first criterion that decides the outcome at an end where it is another; empty for none.
-
-        To pass, it is the first of those that decided the nominal outcome.
-        """
-        turned, nominal = self.turned_at(place, OUTCOME)[0], self.nominal[0]
-        one, other = (nominal, turned) if turned.outcome == "pass" else (turned, nominal)
-        status = _DECIDING.get(one.outcome, one.outcome)
-        decides = (
-            each for each, found in one.statuses.items() if found == status and other.status(each) != status
-        )
-        return next(decides, OUTCOME)
+HoldDraws = Callable[[Sequence[Column]], Sequence[bool]]
+"""Says of each draw whether the stops by which the numbers are known still come to what they came to."""
 
 
 @dataclass(frozen=True)
@@ -143,6 +74,7 @@ class FirmnessStudy:
     Args:
         numbers: with a range.
         judge: runs stops.
+        hold: whether a draw keeps to what is known of the numbers; None where that is not asked.
         validity: ids of the criteria that say whether a stop is a test.
         effort: how many stops.
         random_rail: whether friction varies at random, so that every draw has a seed of its own.
@@ -150,20 +82,22 @@ class FirmnessStudy:
 
     numbers: Sequence[RangedNumber]
     judge: JudgeDraws
+    hold: HoldDraws | None = None
     validity: frozenset[str] = frozenset()
     effort: Effort = field(default_factory=Effort)
     random_rail: bool = False
 
-    def run(self, *, on_four_calipers: bool = False) -> Firmness:
+    def run(self, *, on_four_calipers: bool = False, calibrated_by: Sequence[str] = ()) -> Firmness:
         """Run all stops and return what they show. Arguments as for :class:`Firmness`."""
         count, effort = len(self.numbers), self.effort
         places = [(number, end) for number in range(count) for end in (0, 1)]
         at_ends = self._one_by_one([(number, float(end)) for number, end in places], effort.seeds_at_ends)
         points = sobol_blocks(effort.blocks, effort.block, count, seed=0) if count else np.empty((0, 0))
-        stops = _Stops(
+        stops = Stops(
             self._drawn(np.full((effort.seeds, count), np.nan), range(effort.seeds)),
             dict(zip(places, at_ends, strict=True)),
             self._drawn(points, range(len(points)) if self.random_rail else [0] * len(points)),
+            None if self.hold is None or not len(points) else self.hold(self._columns(points)),
             self.validity,
         )
         criteria = [each for each in stops.nominal[0].statuses if stops.usual(each) in _DECIDED]
@@ -178,13 +112,17 @@ class FirmnessStudy:
             not_run=tuple(dict.fromkeys(self.numbers[number].key for number, _ in stops.not_run)),
             seeds=effort.seeds,
             on_four_calipers=on_four_calipers,
+            calibrated_by=tuple(calibrated_by),
         )
 
     def _drawn(self, places: NDArray[np.float64], seeds: Iterable[int]) -> Sequence[Drawn]:
         """Run stops whose numbers lie at places of their ranges, NaN for the nominal value."""
         if not len(places):
             return ()
-        return self.judge([each.at(places[:, k]) for k, each in enumerate(self.numbers)], [*seeds])
+        return self.judge(self._columns(places), [*seeds])
+
+    def _columns(self, places: NDArray[np.float64]) -> list[Column]:
+        return [each.at(places[:, k]) for k, each in enumerate(self.numbers)]
 
     def _one_by_one(self, settings: Sequence[tuple[int, float]], seeds: int) -> list[Sequence[Drawn]]:
         """Return for each number and place of it the stops in which all others are nominal, one per seed."""
@@ -194,7 +132,7 @@ class FirmnessStudy:
         stops = self._drawn(places, [*range(seeds)] * len(settings))
         return [stops[first : first + seeds] for first in range(0, len(stops), seeds)]
 
-    def _firmness(self, criterion: str, stops: _Stops) -> dict[str, Any]:
+    def _firmness(self, criterion: str, stops: Stops) -> dict[str, Any]:
         """Return the fields of :class:`VerdictFirmness` for a criterion, or the outcome."""
         nominal = stops.usual(criterion)
         joint = [stops.stands(each, criterion) for each in stops.joint]
@@ -217,11 +155,12 @@ class FirmnessStudy:
             "share_at_least": at_least,
             "lowest_block": min(known, default=None),
             "highest_block": max(known, default=None),
+            "calibrated": None if stops.calibrated is None else _calibrated(joint, stops.calibrated),
             "margin": _median(each.margins.get(criterion) for each in stops.nominal),
             "turned_by": () if noisy else tuple(self._turns(criterion, turning, stops)),
         }
 
-    def _turns(self, criterion: str, turning: Sequence[_Place], stops: _Stops) -> Iterator[Turn]:
+    def _turns(self, criterion: str, turning: Sequence[Place], stops: Stops) -> Iterator[Turn]:
         """Yield where each number turns a verdict, and the criterion with which the outcome turns."""
         scans = self._scanned(turning, criterion, stops)
         for place in turning:
@@ -235,11 +174,11 @@ class FirmnessStudy:
             )
             yield Turn(
                 *(ranged.key, "above" if end else "below", criterion or stops.deciding_at(place)),
-                _usual(stops.turned_at(place, criterion), criterion),
+                usual(stops.turned_at(place, criterion), criterion),
                 *(value, ranged.rounded_text(stands_to, up=not end), first_turned, ranged.ends[end].text),
             )
 
-    def _scanned(self, turning: Sequence[_Place], criterion: str, stops: _Stops) -> dict[_Place, Scan]:
+    def _scanned(self, turning: Sequence[Place], criterion: str, stops: Stops) -> dict[Place, Scan]:
         """Scan each number from its nominal value to an end, all numbers together, then halve."""
         scans = {
             (number, end): Scan({self.numbers[number].nominal_place: 1.0}, float(end))
@@ -253,10 +192,10 @@ class FirmnessStudy:
 
     def _extend(
         self,
-        scans: Mapping[_Place, Scan],
-        points: Mapping[_Place, Sequence[float]],
+        scans: Mapping[Place, Scan],
+        points: Mapping[Place, Sequence[float]],
         criterion: str,
-        stops: _Stops,
+        stops: Stops,
     ) -> None:
         flat = [(place, point) for place, of_place in points.items() for point in of_place]
         drawn = self._one_by_one([(place[0], point) for place, point in flat], self.effort.seeds)
@@ -265,7 +204,7 @@ class FirmnessStudy:
             if standing is not None:
                 scans[place].standing[point] = standing
 
-    def _effect(self, number: int, stops: _Stops, criteria: Sequence[str]) -> NumberEffect:
+    def _effect(self, number: int, stops: Stops, criteria: Sequence[str]) -> NumberEffect:
         ranged = self.numbers[number]
         margins = {
             each: (
@@ -286,14 +225,14 @@ def _status(noisy: bool, turns: bool, at_least: float | None) -> FirmnessStatus:
     return "firm" if at_least is not None and at_least >= FIRM_SHARE else "not_shown"
 
 
-def _usual(drawn: Sequence[Drawn], criterion: str) -> str:
-    """Return the most frequent status; of equally frequent ones the first."""
-    return Counter(each.status(criterion) for each in drawn).most_common(1)[0][0]
-
-
 def _share(stands: Sequence[bool | None]) -> float | None:
     counted = [each for each in stands if each is not None]
     return sum(counted) / len(counted) if counted else None
+
+
+def _calibrated(stands: Sequence[bool | None], holds: Sequence[bool]) -> CalibratedDraws:
+    counted = [each for each, known in zip(stands, holds, strict=True) if known and each is not None]
+    return CalibratedDraws(len(counted), _share(counted))
 
 
 def _median(values: Iterable[float | None]) -> float | None:

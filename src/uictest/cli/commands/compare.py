@@ -12,6 +12,7 @@ import typer
 from uictest import report, runs
 from uictest.analysis import comparison
 from uictest.cli.options import (
+    CalibratedBy,
     Jobs,
     ListFormat,
     Overrides,
@@ -19,6 +20,7 @@ from uictest.cli.options import (
     ToleranceTexts,
     Verbose,
     argument,
+    calibration,
     option,
     tolerances_of,
 )
@@ -50,6 +52,7 @@ def compare(
             "With --over, of a scenario A: whether numbers nobody measured turn which variant is better.",
         ),
     ] = False,
+    calibrated_by: CalibratedBy = None,
     overrides: Overrides = None,
     jobs: Jobs = "auto",  # type: ignore[assignment]  # typer hands the text to the option's parser
     page: Annotated[
@@ -66,7 +69,8 @@ def compare(
     if overrides and not firm:
         raise typer.BadParameter("goes with --firm, which runs stops anew", param_hint="--set")
     if firm:
-        return compare_firmly(first, second, over or (), overrides or (), jobs, shown, page)
+        settings = campaign.RunSettings(jobs=jobs, calibration=calibration(calibrated_by, firm=firm))
+        return compare_firmly(first, second, over or (), overrides or (), settings, shown, page)
     if over:
         _require_one_run(second, tolerance, channels)
         return compare_variants(first, over, shown, page)
@@ -157,7 +161,7 @@ def compare_firmly(
     second: Path | None,
     keys: Sequence[str],
     overrides: Sequence[str],
-    jobs: int,
+    settings: campaign.RunSettings,
     shown: PlainFormat,
     page: Path | None,
 ) -> ExitCode:
@@ -172,7 +176,6 @@ def compare_firmly(
         raise runs.InvalidInputError(
             f"{place}: --firm runs stops anew: name a scenario, not the folder of a run"
         )
-    settings = campaign.RunSettings(jobs=jobs)
     cases = runs.load_cases([place], overrides)
     pairs = runs.firm_pairs(cases, keys, settings, TerminalObserver())
     if shown is PlainFormat.JSON:

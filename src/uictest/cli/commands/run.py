@@ -71,6 +71,7 @@ def run(
     validated: options.Validated = None,
     strict: options.Strict = False,
     firm: options.Firm = False,
+    calibrated_by: options.CalibratedBy = None,
     durations: Durations = None,
     in_process: options.InProcess = False,
     real_time: options.RealTime = False,
@@ -106,6 +107,7 @@ def run(
         real_time=real_time,
         strict=strict,
         firm=firm or None,
+        calibration=options.calibration(calibrated_by, trusted, firm=firm),
     )
     batch = runs.batch_of(
         *(selected, of_series, context.obj, seed, settings),

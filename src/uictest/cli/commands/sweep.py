@@ -8,9 +8,11 @@ from typing import Annotated
 from uictest import report, runs
 from uictest.cli import sweep_run
 from uictest.cli.options import (
+    CalibratedBy,
     DryRun,
     ExitFirst,
     Expression,
+    Firm,
     Format,
     InProcess,
     Jobs,
@@ -22,6 +24,7 @@ from uictest.cli.options import (
     Trusted,
     Validated,
     argument,
+    calibration,
     junit_file,
     option,
     report_formats,
@@ -102,6 +105,8 @@ def sweep(
     tolerance: Tolerance = None,
     pair: MapPair = None,
     validated: Validated = None,
+    firm: Firm = False,
+    calibrated_by: CalibratedBy = None,
     measures: Measures = None,
     output: SweepOutput = Path("reports"),
     junit: JUnitFile = None,
@@ -139,6 +144,8 @@ def sweep(
         measures=sweep_run.measure_names(measures),
         search=sweep_run.frontier_search(plan, frontier, tolerance),
         reference=runs.reference_of(validated, plan.base.scenario.validated),
+        firm=firm or plan.base.scenario.firm,
+        calibration=calibration(calibrated_by, trusted, firm=firm),
         formats=format_names,
         in_process=in_process,
     )

@@ -18,6 +18,7 @@ from .effective_parts import (
     program_of as program_of,
 )
 from .firmness import (
+    CalibratedDraws as CalibratedDraws,
     Firmness as Firmness,
     FirmnessStatus as FirmnessStatus,
     NumberEffect as NumberEffect,
@@ -37,6 +38,8 @@ from .json_values import (
     to_json_form as to_json_form,
 )
 from .judgement import (
+    Detail as Detail,
+    by_reading as by_reading,
     judge as judge,
 )
 from .parameters import (

@@ -17,7 +17,7 @@ from uictest.core.measures import (
     wheelset_column_values,
 )
 from uictest.judging.evaluation.bounds import Coverage
-from uictest.judging.evaluation.judgement import judge
+from uictest.judging.evaluation.judgement import Detail, judge
 from uictest.judging.evaluation.result import CaseResult, outcome_of
 from uictest.judging.evaluation.rig_reasons import missed_deadlines
 from uictest.judging.evaluation.verdict import Verdict
@@ -70,7 +70,7 @@ def evaluate(
     wheelset_measures: Wheelsets,
     duration: float = 0.0,
     *,
-    explain: bool = True,
+    detail: Detail = "full",
     coverage: Coverage | None = None,
     response_times: ResponseTimes | None = None,
 ) -> CaseResult:
@@ -81,12 +81,12 @@ def evaluate(
         measures: record of the stop, SI.
         wheelset_measures: one record per wheelset from the leading end, SI.
         duration: wall clock the simulation took, s.
-        explain: as for :func:`judge`.
+        detail: as for :func:`judge`.
         coverage: as for :func:`judge`.
         response_times: of the controller in a stop that was paced by the clock.
 
     """
-    verdicts = judge(case.scenario, measures, wheelset_measures, explain=explain, coverage=coverage)
+    verdicts = judge(case.scenario, measures, wheelset_measures, detail=detail, coverage=coverage)
     verdicts = [*verdicts, *missed_deadlines(response_times)]
     outcome, reason = outcome_of(verdicts)
     of_stop = stop_column_values(measures, _column_definition(case.scenario.criteria))
@@ -118,7 +118,7 @@ def evaluate_simulated(
     wheelset_measures: Wheelsets,
     duration: float = 0.0,
     *,
-    explain: bool = True,
+    detail: Detail = "full",
     response_times: ResponseTimes | None = None,
 ) -> CaseResult:
     """Return the judged result of a simulated case, outcome `error` where a measure is not finite.
@@ -128,9 +128,7 @@ def evaluate_simulated(
     not_finite = list(_not_finite(measures, wheelset_measures))
     if not_finite:
         return error_result(case, _why_not_finite(measures, not_finite), duration)
-    return evaluate(
-        case, measures, wheelset_measures, duration, explain=explain, response_times=response_times
-    )
+    return evaluate(case, measures, wheelset_measures, duration, detail=detail, response_times=response_times)
 
 
 def error_result(case: scenario.Case, reason: str, duration: float = 0.0) -> CaseResult:

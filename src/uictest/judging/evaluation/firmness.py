@@ -44,6 +44,20 @@ class Turn:
     end: str
 
 
+@dataclass(frozen=True, slots=True)
+class CalibratedDraws:
+    """In which share of the draws that keep to what is known of the numbers a verdict stands.
+
+    Args:
+        counted: draws that count and under which the calibrating stops come to what they should.
+        share: of these in which the verdict stands; None without any.
+
+    """
+
+    counted: int
+    share: OptionalNumber
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VerdictFirmness:
     """How firm one verdict is.
@@ -59,6 +73,7 @@ class VerdictFirmness:
             if the draws were independent; else None.
         lowest_block: lowest share in one of the blocks of draws.
         highest_block: highest share in one of them.
+        calibrated: the same of the calibrated draws alone; None where no stops calibrate.
         margin: median over the seeds at nominal values, as a share of the limit; None where it has none.
         turned_by: the numbers that turn it alone.
 
@@ -73,6 +88,7 @@ class VerdictFirmness:
     share_at_least: OptionalNumber
     lowest_block: OptionalNumber
     highest_block: OptionalNumber
+    calibrated: CalibratedDraws | None = None
     margin: OptionalNumber
     turned_by: tuple[Turn, ...] = ()
 
@@ -123,10 +139,11 @@ class Firmness(VerdictFirmness):
         seeds: under which the nominal stop was run.
         on_four_calipers: whether all of these stops were run on the rig with four calipers: numbers of the
             caliper, its tank or the valves vary, for which the compensation was not identified.
+        calibrated_by: ids of the stops by which the numbers are known.
 
     """
 
-    criteria: tuple[VerdictFirmness, ...]
+    criteria: tuple[Annotated[VerdictFirmness, absent_if_empty("calibrated")], ...]
     numbers: tuple[NumberEffect, ...]
     draws: int
     infeasible: int
@@ -134,7 +151,8 @@ class Firmness(VerdictFirmness):
     outcomes: Mapping[str, int]
     seeds: int
     on_four_calipers: bool
+    calibrated_by: tuple[str, ...] = ()
 
 
-WrittenFirmness = Annotated[Firmness, absent_if_empty("criterion")]
-"""In JSON the outcome has no criterion."""
+WrittenFirmness = Annotated[Firmness, absent_if_empty("criterion", "calibrated", "calibrated_by")]
+"""In JSON the outcome has no criterion, and what no stop calibrates no calibrated draws."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Final, Literal
 
 from uictest.core.measures import StopMeasures, Wheelsets
 from uictest.judging.evaluation.bounds import Bounds, Coverage, ObservedStop, bounds_of, why_cut_off
@@ -25,6 +25,10 @@ from uictest.plans.scenario import TestConditions, test_conditions_of, unmet_con
 
 DecideBy = Callable[[scenario.Criterion, Mapping[str, float]], Decision]
 """Decides a criterion that applies, or what it is by another reading, with given definitions (SI)."""
+Detail = Literal["status", "readings", "full"]
+"""How much a verdict says, see :func:`judge`."""
+_READ: Final = ("status", "measure", "value", "unit", "lower", "upper", "margin", "reason", "sensitivity")
+"""What a verdict may be another in by another reading."""
 _OVER_A_SERIES: Final = "judged over the stops of a series"
 _NO_RIG: Final = (
     "not known: rig.compensation_model does not list the rig that it was identified for,"
@@ -37,7 +41,7 @@ def judge(
     measures: StopMeasures,
     wheelset_measures: Wheelsets,
     *,
-    explain: bool = True,
+    detail: Detail = "full",
     coverage: Coverage | None = None,
 ) -> list[Verdict]:
     """Judge one stop by every criterion of its scenario, in the order written, then by the checks of the rig.
@@ -46,8 +50,9 @@ def judge(
         resolved: scenario with the conditions of the stop and the criteria.
         measures: record of the stop, SI, as observed with `resolved.measures`.
         wheelset_measures: one record per wheelset from the leading end, SI.
-        explain: whether the verdicts also list their definitions and whether another value in their range
-            would change them, which takes most of the time.
+        detail: `status`: verdicts alone; `readings`: with those of the other readings of a criterion; `full`:
+            also with their definitions, and whether another value in their range would change them, which
+            takes most of the time.
         coverage: what the record of a real stop lacks; None for a simulation.
 
     Returns:
@@ -62,11 +67,11 @@ def judge(
     verdicts = []
     for profile in resolved.judged_by if coverage is None else resolved.criteria:
         for criterion in profile.criteria:
-            verdict = _judge(criterion, conditions, stop, resolved.measures, explain=explain)
+            verdict = _judge(criterion, conditions, stop, resolved.measures, detail=detail)
             if verdict.layer == "rig" and verdict.status == "fail":
                 why = why_rig_fails(criterion, resolved, measures, list(wheelset_measures))
                 verdict = replace(verdict, reason=why or verdict.reason)
-            if explain:
+            if detail == "full":
                 verdict = with_definitions(verdict, criterion, profile, resolved.measures)
             verdicts.append(verdict)
     return verdicts
@@ -78,7 +83,7 @@ def _judge(
     stop: ObservedStop,
     observation: scenario.MeasureDefinitions,
     *,
-    explain: bool,
+    detail: Detail,
 ) -> Verdict:
     bounds = bounds_of(criterion)
     decided = undecided(criterion, conditions, stop, observation)
@@ -91,7 +96,7 @@ def _judge(
         without_value = undecided(read, conditions, stop, observation)
         return without_value or decide(read, bounds_of(read), definition, stop)
 
-    return verdict_by(criterion, bounds, decide_by, explain=explain)
+    return verdict_by(criterion, bounds, decide_by, detail=detail)
 
 
 def verdict_by(
@@ -99,35 +104,41 @@ def verdict_by(
     bounds: Bounds,
     decide_by: DecideBy,
     *,
-    explain: bool,
+    detail: Detail,
 ) -> Verdict:
     """Return the verdict of a criterion that applies, without definitions."""
     stated = criterion.definition.stated()
     decision = decide_by(criterion, stated)
     verdict = verdict_of(criterion, bounds, decision)
-    if not explain:
-        return verdict
-    if decision.status != "inconclusive":
+    explains = detail == "full" and decision.status != "inconclusive"
+    if explains:
         verdict = replace(verdict, sensitivity=tuple(_sensitivities(criterion, stated, decide_by)))
-    if not criterion.readings:
+    if detail == "status" or not criterion.readings:
         return verdict
-    readings = tuple(_readings(criterion, verdict, decide_by))
-    turns = [_over_readings(readings)] if decision.status != "inconclusive" else []
+    readings = tuple(_readings(criterion, verdict, decide_by, detail))
+    turns = [_over_readings(readings)] if explains else []
     return replace(verdict, readings=readings, sensitivity=(*verdict.sensitivity, *turns))
 
 
-def _readings(criterion: scenario.Criterion, own: Verdict, decide_by: DecideBy) -> Iterator[ReadVerdict]:
+def _readings(
+    criterion: scenario.Criterion, own: Verdict, decide_by: DecideBy, detail: Detail
+) -> Iterator[ReadVerdict]:
     """Yield what each reading says: that of the criterion itself, which decides, then the others."""
     yield _read_verdict(criterion.reading, replace(own, sensitivity=()), decides=True)
     for reading in criterion.readings:
         read = criterion.read_as(reading)
-        verdict = verdict_by(read, bounds_of(read), decide_by, explain=True)
+        verdict = verdict_by(read, bounds_of(read), decide_by, detail=detail)
         yield _read_verdict(reading.id, verdict, decides=False)
 
 
 def _read_verdict(reading: str, verdict: Verdict, *, decides: bool) -> ReadVerdict:
-    names = ("status", "measure", "value", "unit", "lower", "upper", "margin", "reason", "sensitivity")
-    return ReadVerdict(reading, decides, **{name: getattr(verdict, name) for name in names})
+    return ReadVerdict(reading, decides, **{name: getattr(verdict, name) for name in _READ})
+
+
+def by_reading(verdict: Verdict, reading: ReadVerdict) -> Verdict:
+    """Return what a criterion says by one of its readings, with an id such as `slide read as depth`."""
+    read = {name: getattr(reading, name) for name in _READ}
+    return replace(verdict, id=f"{verdict.id} read as {reading.id}", readings=(), over_stops=None, **read)
 
 
 def _over_readings(readings: Sequence[ReadVerdict]) -> Sensitivity:

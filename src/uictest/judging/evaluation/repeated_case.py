@@ -13,7 +13,7 @@ from uictest.core.units import value_text, with_unit
 from uictest.judging.evaluation.bounds import Bounds, ObservedStop, bounds_of, why_cut_off
 from uictest.judging.evaluation.decision import Decision, decide
 from uictest.judging.evaluation.json_values import Expectation, Outcome
-from uictest.judging.evaluation.judgement import undecided, verdict_by, with_definitions
+from uictest.judging.evaluation.judgement import Detail, undecided, verdict_by, with_definitions
 from uictest.judging.evaluation.repeats import RepeatedStop, Repeats, Rule, column_medians, is_expected
 from uictest.judging.evaluation.result import CaseResult, outcome_of
 from uictest.judging.evaluation.verdict import OverStops, Status, Verdict
@@ -282,7 +282,7 @@ def _judge(
         where = read.speed_range(definition) if decision.value is not None else ""
         return replace(decision, reason=f"{decision.reason} ({where})") if where else decision
 
-    explain = any(each is None for each in without_value)
-    verdict = verdict_by(criterion, bounds_of(criterion), decide_by, explain=explain)
+    detail: Detail = "full" if any(each is None for each in without_value) else "status"
+    verdict = verdict_by(criterion, bounds_of(criterion), decide_by, detail=detail)
     stated = criterion.definition.stated()
     return replace(verdict, over_stops=over_stops(decisions(criterion, stated)))

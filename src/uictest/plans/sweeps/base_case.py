@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Final
 
 from uictest.plans.scenario import (
@@ -41,9 +41,8 @@ def with_values(scenario: Scenario, settings: Mapping[str, Any]) -> Scenario:
 
     Nothing is validated: the values must be valid, and `inconsistencies` checks their combination.
     """
-    for key in outermost_first(settings):
-        scenario = _changed(scenario, key.split("."), settings[key])
-    return scenario
+    changed: Scenario = _changed(scenario, _Change.of(settings).inner)
+    return changed
 
 
 def outermost_first(keys: Iterable[str]) -> list[str]:
@@ -78,15 +77,42 @@ def inconsistencies(scenario: Scenario, keys: Iterable[str]) -> Iterator[Inconsi
                 yield inconsistency._replace(key=(*path, *inconsistency.key))
 
 
-def _changed(model: Any, elements: list[str], value: Any) -> Any:
-    first, rest = elements[0], elements[1:]
-    inner = _changed(_inner(model, first), rest, value) if rest else value
+_UNCHANGED: Final = object()
+
+
+@dataclass(slots=True)
+class _Change:
+    """What a part of a scenario is replaced by, if it is, and what is then changed in it."""
+
+    value: Any = _UNCHANGED
+    inner: dict[str, _Change] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, settings: Mapping[str, Any]) -> _Change:
+        whole = cls()
+        for key, value in settings.items():
+            change = whole
+            for element in key.split("."):
+                change = change.inner.setdefault(element, cls())
+            change.value = value
+        return whole
+
+
+def _changed(model: Any, changes: Mapping[str, _Change]) -> Any:
+    """Return a model with changes; each model on the way is copied once, however many of its values do."""
+    if not changes:
+        return model
+    if isinstance(model, tuple) and (named := {k: v for k, v in changes.items() if not k.isdecimal()}):
+        model = (_changed(model[0], named),)  # the one entry, written without a list
+        changes = {k: v for k, v in changes.items() if k not in named}
+    inner = {
+        element: _changed(_inner(model, element) if each.value is _UNCHANGED else each.value, each.inner)
+        for element, each in changes.items()
+    }
     if isinstance(model, tuple):
-        if not first.isdecimal():  # the one entry, written without a list
-            return (_changed(model[0], elements, value),)
-        place = int(first)
-        return (*model[:place], inner, *model[place + 1 :])
-    return {**model, first: inner} if isinstance(model, dict) else model.model_copy(update={first: inner})
+        places = {int(element): value for element, value in inner.items()}
+        return tuple(places.get(place, each) for place, each in enumerate(model))
+    return {**model, **inner} if isinstance(model, dict) else model.model_copy(update=inner)
 
 
 def _inner(value: Any, element: str) -> Any:

@@ -77,7 +77,15 @@ def _read_mapping(path: Path) -> dict[str, Any]:
 
 
 OF_ONE_RESULT: Final = (
-    *("map-*.csv", "sensitivity.csv", "frontier.csv", "quantiles.csv", "k_dry.csv", K_DRY_FILE),
+    *(
+        "map-*.csv",
+        "sensitivity.csv",
+        "frontier.csv",
+        "firmness.csv",
+        "quantiles.csv",
+        "k_dry.csv",
+        K_DRY_FILE,
+    ),
     *(WITH_TEST_PROPERTIES, "index.html", "report.xlsx", "summary.md"),
 )
 """Files that not every result has, or that not every run writes."""

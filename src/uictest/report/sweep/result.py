@@ -188,6 +188,7 @@ class SweepResult:
         logarithmic: those of them that were spaced or drawn logarithmically.
         requirements: ids of those that the varied case or its criteria verify.
         test_case: its id in a test management tool, or empty.
+        nominal: the case that is varied, with how firm its verdicts are; None where nobody asked.
         worst: the cases most worth looking at, those not met first.
         subjects: descriptions of these cases, by id.
         sensitivities: Sobol indices.
@@ -225,6 +226,7 @@ class SweepResult:
     k_dry: tuple[KDry, ...] = ()
     domain_of_validity: SweepDomain | None = None
     survey: SurveyStep | None = None
+    nominal: WrittenCaseResult | None = None
     notes: tuple[str, ...]
 
     def subject(self, case_id: str) -> CaseDescription:

@@ -6,6 +6,9 @@ from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
 from uictest.core.document import Column, Document, Lines, Table
+from uictest.judging import evaluation
+from uictest.report.escaping import printable
+from uictest.report.firmness_sentences import firmness_sentences, firmness_table
 from uictest.report.sweep.map_text import folded, is_large, short_label
 from uictest.report.sweep.result import (
     Frontier,
@@ -185,8 +188,16 @@ _SWEPT: Final[tuple[Column[_Swept], ...]] = (
 )
 
 
+def _firmness_sections(nominal: evaluation.CaseResult) -> Iterator[Table | Lines]:
+    """Yield how firm the verdicts of the nominal case are, and the numbers by what they do to them."""
+    title = "Firm or not firm: the nominal case"
+    yield Lines([f"{printable(nominal.id)}: {line}" for line in firmness_sentences(nominal)], title)
+    if nominal.firmness is not None:
+        yield firmness_table(nominal.firmness)
+
+
 def numbers_of_sweep(result: SweepResult) -> Iterator[Table | Lines]:
-    """Yield what depends on what: rates, sensitivities, tails, the frontier."""
+    """Yield what depends on what: rates, sensitivities, tails, the frontier, and on numbers nobody knows."""
     yield rates_table(result)
     yield sensitivity_table(result)
     yield from tail_tables(result)
@@ -194,6 +205,8 @@ def numbers_of_sweep(result: SweepResult) -> Iterator[Table | Lines]:
         yield Lines(left_out)
     if result.frontier is not None:
         yield from _frontier_sections(result.frontier)
+    if result.nominal is not None:
+        yield from _firmness_sections(result.nominal)
 
 
 def sweep_summary(result: SweepResult) -> Document:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from uictest.core.document import Cell
 from uictest.report.cover_sheet import Cells, Plotted, histogram_chart, line_chart
+from uictest.report.firmness_sentences import firmness_rows
 from uictest.report.sheet import columns_of, heading_rows
 from uictest.report.sweep.result import (
     Frontier,
@@ -42,6 +43,8 @@ def csv_tables(result: SweepResult) -> dict[str, str]:
         tables["sensitivity.csv"] = sensitivity_csv(result)
     if result.frontier is not None:
         tables["frontier.csv"] = frontier_csv(result.frontier)
+    if rows := list(firmness_of_nominal(result)):
+        tables["firmness.csv"] = csv_text(list(rows[0]), rows)
     return tables | tail_csv_tables(result)
 
 
@@ -91,6 +94,12 @@ def frontier_rows(frontier: Frontier, prefix: str = "") -> Iterator[dict[str, Ce
             if flip is not None:
                 cells = {"from": flip.low.text, "to": flip.high.text, "met_at_from": flip.met_at_low}
             yield {**at, **cells, "flips": len(scan.flips), "note": scan.note}
+
+
+def firmness_of_nominal(result: SweepResult) -> Iterator[dict[str, Cell]]:
+    """Yield a row for each ranged number and criterion of the nominal case; nothing where nobody asked."""
+    if result.nominal is not None and result.nominal.firmness is not None:
+        yield from firmness_rows(result.nominal.id, result.nominal.firmness)
 
 
 def map_csv(sweep_map: SweepMap) -> str:

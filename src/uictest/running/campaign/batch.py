@@ -153,6 +153,7 @@ class RunSettings:
         strict: whether a case is met only if all of its verdicts are settled, too, and it is firm where that
             was asked.
         firm: whether it is asked how firm all verdicts are; None: of the scenarios that say `firm`.
+        calibration: stops by which the varied numbers are known, where it is asked how firm verdicts are.
         firmness: returns how firm the verdicts of the case of an id are, None where that was not asked.
         parts: effective parts by case id.
         domains: whether cases, by id, lie in the domain of a validation; of those for which it was asked.
@@ -166,6 +167,7 @@ class RunSettings:
     real_time: bool = False
     strict: bool = False
     firm: bool | None = None
+    calibration: Sequence[scenario.Case] = ()
     firmness: Callable[[str], evaluation.Firmness | None] | None = None
     parts: PartsOfCases = field(default_factory=dict)
     domains: Mapping[str, evaluation.DomainOfValidity] = field(default_factory=dict)

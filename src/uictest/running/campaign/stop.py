@@ -106,7 +106,7 @@ def run_stop(stop: Stop, request: RecordingRequest, run: rig.RunInputs | None = 
         records = simulated.measures, simulated.wheelset_measures
         result = evaluation.evaluate_simulated(
             *(case, *records, perf_counter() - started),
-            explain=not stop.is_repeated,
+            detail="status" if stop.is_repeated else "full",
             response_times=simulated.response_times,
         )
         result = replace(

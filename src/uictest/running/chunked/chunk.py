@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from uictest import rig
 from uictest.core.ensemble import rows_at
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.judging.evaluation import CaseResult, error_result, evaluate_simulated, may_be_biased
+from uictest.judging.evaluation import CaseResult, Detail, error_result, evaluate_simulated, may_be_biased
 from uictest.plans.sweeps import Plan, in_survey_steps
 from uictest.running.campaign import ThreadedMap
 from uictest.running.chunked.case_blocks import BlockAssembler, CaseBlock
@@ -57,6 +57,8 @@ class ChunkRunner:
     run_block: RunBlock
     biases: Mapping[str, float] | None = None
     """Of measures, in a survey: those of the step that the cases are simulated in."""
+    detail: Detail = "status"
+    """How much verdicts say, see :func:`uictest.judging.evaluation.judge`."""
     regular: ChunkRunner | None = None
     """In a survey: simulates in regular steps what lies within its bias of a limit."""
 
@@ -109,7 +111,7 @@ class ChunkRunner:
         if records is not None and not reason:
             try:
                 stop, wheelsets = _Stop(*records[0]), [_Wheelset(*each) for each in records[1]]
-                return evaluate_simulated(case, stop, wheelsets, explain=False)
+                return evaluate_simulated(case, stop, wheelsets, detail=self.detail)
             except Exception as error:  # a case that cannot be judged is a row and does not end the sweep
                 reason = f"{type(error).__name__}: {error}"
         return error_result(case, reason)

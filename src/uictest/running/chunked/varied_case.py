@@ -73,4 +73,10 @@ class VariedCase:
         keys = (*self.keys, "seed")
         nominal = tuple(ParameterValue("", value_at(self.case.scenario, key)) for key in keys)
         plan = Plan(self.case.id, "", "", self.case, (ListedGroup(keys, (nominal,)),), {})
-        return ChunkRunner(BlockAssembler(plan, noise_of_base=True), rig.run_in_lanes, plan, self.run_block)
+        return ChunkRunner(
+            BlockAssembler(plan, noise_of_base=True),
+            rig.run_in_lanes,
+            plan,
+            self.run_block,
+            detail="readings",
+        )
