@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from studies.stop_runner import StopRunner, measured
-from studies.study import Table
 from uictest import Case, CaseResult
+
+if TYPE_CHECKING:
+    from studies.study import Table
 
 STOPS = 6
 _STANDARD_GRAVITY: Final = 9.80665
