@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import typer
 
@@ -21,8 +21,7 @@ from uictest.running import campaign
 from uictest.runs import history
 
 
-@dataclass(frozen=True, slots=True)
-class BaselineChoice:
+class BaselineChoice(NamedTuple):
     """The options `--baseline`, `--accept` and `--tolerance`; `folder` is None without a baseline."""
 
     folder: Path | None

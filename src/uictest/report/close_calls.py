@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import islice
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from uictest.core.document import Lines
 from uictest.core.units import in_unit
@@ -38,8 +37,7 @@ _BECOMES: Final[Mapping[evaluation.Status, str]] = {
 TITLE: Final = "Close or uncertain"
 
 
-@dataclass(frozen=True, slots=True)
-class CloseCall:
+class CloseCall(NamedTuple):
     """A verdict that could have been another one.
 
     `of` is the id of its case or series, `criterion` is empty for what is none. `kind` is `turns` where the

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import chain
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 
 from uictest.core.document import Cell, Tone
 from uictest.judging import evaluation
@@ -26,8 +25,7 @@ RequirementStatus = Literal["met", "not met", "not tested"]
 REQUIREMENT_TONES: Final[dict[str, Tone]] = {"met": "good", "not met": "bad", "not tested": "odd"}
 
 
-@dataclass(frozen=True, slots=True)
-class Evidence:
+class Evidence(NamedTuple):
     """What one case or series says of a requirement.
 
     Args:
@@ -60,8 +58,7 @@ class Evidence:
         return self.word in _MET
 
 
-@dataclass(frozen=True, slots=True)
-class VerifiedRequirement:
+class VerifiedRequirement(NamedTuple):
     """A requirement, and what each case or series that names it says of it, cases first."""
 
     id: str

@@ -8,7 +8,7 @@ import itertools
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from uictest.core import files
 from uictest.core.document import Cell
@@ -54,8 +54,7 @@ NUMBER_FORMATS: Final = frozenset(
 _ENDS: Final = ("_lowest", "_highest")
 
 
-@dataclass(frozen=True, slots=True)
-class SheetColumn:
+class SheetColumn(NamedTuple):
     """How a column is shown; `unit` and `number_format` are empty where it has none of its own."""
 
     heading: str

@@ -6,8 +6,7 @@ two cases, neither does what it sets. It sets fields of the parameters and reads
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -30,8 +29,7 @@ _WHEELS = 8.0
 Set = Callable[[Parameters, Scenario], None]
 
 
-@dataclass(frozen=True, slots=True)
-class Assignment:
+class Assignment(NamedTuple):
     """What sets some fields of the parameters, and the keys of the scenario that it reads."""
 
     apply: Callable[[Any, Scenario], None]

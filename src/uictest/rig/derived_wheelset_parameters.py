@@ -6,8 +6,7 @@ keys of the scenario at or below which it reads.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from uictest.core.physics import stiffnesses
 from uictest.core.record import scenario_values
@@ -20,8 +19,7 @@ ValueOf = Callable[[str], Any]
 _Set = Callable[[WheelsetParameters, ValueOf, Scenario], None]
 
 
-@dataclass(frozen=True, slots=True)
-class _Rule:
+class _Rule(NamedTuple):
     """What sets some fields of a wheelset; the names of the values and the further keys that it reads."""
 
     apply: _Set

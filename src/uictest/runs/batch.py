@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 from uictest import report, rig
 from uictest.analysis import comparison, validation
@@ -24,8 +25,7 @@ Show = Callable[[campaign.CaseRun, Sequence[report.Difference]], None]
 """Takes a finished case, and its differences from the baseline."""
 
 
-@dataclass(frozen=True, slots=True)
-class Batch:
+class Batch(NamedTuple):
     """Cases and series to run, and how.
 
     Args:
@@ -136,8 +136,7 @@ def _references(
     return {case_id: read[path] for case_id, path in named.items() if path is not None}
 
 
-@dataclass(frozen=True, slots=True)
-class BatchRun:
+class BatchRun(NamedTuple):
     """What reports show of a batch, and whether an interrupt ended it."""
 
     content: report.RunContent
@@ -184,8 +183,7 @@ def run_batch(
     return BatchRun(content, judged.interrupted)
 
 
-@dataclass(frozen=True, slots=True)
-class _CaseRunner:
+class _CaseRunner(NamedTuple):
     """Simulates or judges cases of a batch, and hands on each that is finished."""
 
     batch: Batch

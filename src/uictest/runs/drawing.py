@@ -50,7 +50,7 @@ class TraceCollection:
         """What to record while the batch runs."""
         if not self._while_running:
             return self.request
-        return replace(self.request, cases="all", band_stops=report.BAND_STOPS)
+        return self.request._replace(cases="all", band_stops=report.BAND_STOPS)
 
     def add(self, case_run: campaign.CaseRun) -> None:
         """Add the trace of a case."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 from uictest import report
 from uictest.core import document, files, recording
@@ -16,8 +17,7 @@ from uictest.runs.batch import Batch, run_batch
 from uictest.runs.observer import Observer
 
 
-@dataclass(frozen=True, slots=True)
-class Published:
+class Published(NamedTuple):
     """A run whose reports are written.
 
     Args:

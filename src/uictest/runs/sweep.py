@@ -110,7 +110,7 @@ def _run_worst(
             report.write_recording(folder, case_run.result.id, case_run.recording)
 
     recording = campaign.RecordingRequest("all")
-    recording = replace(recording, every=min(recording.every, campaign.shortest_cycle(cases)))
+    recording = recording._replace(every=min(recording.every, campaign.shortest_cycle(cases)))
     settings = _settings(request, cases, recording)
     if request.reference is not None:
         settings = replace(settings, domains=request.reference.domains_of(settings.parts))

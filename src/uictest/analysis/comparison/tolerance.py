@@ -5,17 +5,16 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import PurePosixPath
+from typing import NamedTuple
 
 from uictest.report import Difference
 
 _WRITTEN = re.compile(r"(?:(?P<name>[^=]+)=)?(?P<number>[\d.]+(?:[eE][+-]?\d+)?)\s*(?P<per_cent>%?)")
 
 
-@dataclass(frozen=True, slots=True)
-class Tolerance:
+class Tolerance(NamedTuple):
     """An allowance: the larger of `absolute` (in the unit of what is compared) and `relative` times a range.
 
     The range is that of a channel in the first recording; for a single number its larger magnitude.
@@ -33,8 +32,7 @@ DEFAULT = Tolerance(absolute=1e-6, relative=1e-3)
 """Chosen: far below what an engineer would act on, far above the rounding of different compilers."""
 
 
-@dataclass(frozen=True, slots=True)
-class Tolerances:
+class Tolerances(NamedTuple):
     """A tolerance for everything, and others for quantities whose name matches a pattern; the last wins."""
 
     general: Tolerance = DEFAULT
@@ -98,8 +96,7 @@ def compare_numbers(
     return Difference(case, quantity, first, second, deviation <= allowed, unit, deviation, allowed)
 
 
-@dataclass(frozen=True, slots=True)
-class Scope:
+class Scope(NamedTuple):
     """The cases and series that a run selects.
 
     Args:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from uictest.core.identity_cache import once_per_object
 from uictest.core.measures import StopMeasures, Wheelsets
@@ -12,8 +13,7 @@ from uictest.core.units import in_unit, to_12_digits, value_text, with_unit
 from uictest.plans import scenario
 
 
-@dataclass(frozen=True, slots=True)
-class Bounds:
+class Bounds(NamedTuple):
     """Bounds of a value, in its unit; None: no bound. `strict`: a value at the bound does not pass."""
 
     lower: float | None
@@ -98,8 +98,7 @@ def _or(bound: float | None, otherwise: float) -> float:
     return otherwise if bound is None else bound
 
 
-@dataclass(frozen=True, slots=True)
-class MissingData:
+class MissingData(NamedTuple):
     """What a value of a measure lacks, in words.
 
     `bounded`: the data that there are bound the value, as part of a stop does; otherwise it may be anything.
@@ -130,8 +129,7 @@ class Coverage:
     not_computed: Mapping[str, str] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True)
-class ObservedStop:
+class ObservedStop(NamedTuple):
     """The measures of a stop as far as it was observed.
 
     `cut_off` says why that was not to standstill; empty where it was. `coverage` is None for a simulation.

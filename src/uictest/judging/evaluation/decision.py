@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
+from typing import NamedTuple
 
 from uictest.core.measures import MEASURES, Course
 from uictest.core.units import in_unit, value_text, with_unit
@@ -17,8 +17,7 @@ RESOLUTION = 1e-7
 """In the unit of the definition: how closely a flip is located."""
 
 
-@dataclass(frozen=True, slots=True)
-class Decision:
+class Decision(NamedTuple):
     """A status with the value that decided it (in the measure's unit; None where there is none) and why.
 
     `side` is -1, 0 or 1: below, between or above the bounds. `missed_by` holds the wheelsets, from 1, whose
@@ -59,11 +58,10 @@ def decide(
     value = deciding(values, bounds, needed)
     status: Status = "pass" if bounds.hold(value) else "fail"
     decision = _decided(status, value, bounds, _why_decided(values, value, bounds, needed, unit, where))
-    return replace(decision, missed_by=_missed_by(map(bounds.hold, values)) if len(values) > 1 else ())
+    return decision._replace(missed_by=_missed_by(map(bounds.hold, values)) if len(values) > 1 else ())
 
 
-@dataclass(frozen=True, slots=True)
-class _PartlyKnown:
+class _PartlyKnown(NamedTuple):
     """Values of a measure, in `unit`, some of which lack data; `needed` of them must keep the bounds.
 
     `where` says at which train speeds the measure looks.
@@ -90,7 +88,7 @@ class _PartlyKnown:
         if possible < self.needed:
             count = f"{len(breaking)} {of_wheelsets} not {demand} ({self.needed} needed)"
             decision = self._decided("fail", deciding(breaking, self.bounds, self.needed - possible), count)
-            return replace(decision, missed_by=_missed_by(holds) if len(self.values) > 1 else ())
+            return decision._replace(missed_by=_missed_by(holds) if len(self.values) > 1 else ())
         return self._decided("inconclusive", math.nan, f"{self.needed} {of_wheelsets} must be {demand}")
 
     def _holds(self, value: float, gap: MissingData | None) -> bool | None:

@@ -280,7 +280,7 @@ def _judge(
     def decide_by(read: scenario.Criterion, definition: Mapping[str, float]) -> Decision:
         decision = decision_over_stops(decisions(read, definition), bounds_of(read), read.unit, rule)
         where = read.speed_range(definition) if decision.value is not None else ""
-        return replace(decision, reason=f"{decision.reason} ({where})") if where else decision
+        return decision._replace(reason=f"{decision.reason} ({where})") if where else decision
 
     detail: Detail = "full" if any(each is None for each in without_value) else "status"
     verdict = verdict_by(criterion, bounds_of(criterion), decide_by, detail=detail)

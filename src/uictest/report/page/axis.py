@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +15,7 @@ _MOST_DECIMALS: Final = 6
 """Decimals of a label; a smaller number is written with an exponent. Chosen."""
 
 
-@dataclass(frozen=True, slots=True)
-class Axis:
+class Axis(NamedTuple):
     """Values from `low` to `high` on pixels from `start` to `end` (upwards where `end` is smaller).
 
     On a `logarithmic` axis, of numbers above zero, equal ratios are equally long.

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -46,8 +45,7 @@ HeadlineMeasure = tuple[str, str, str]
 """Label, number (empty where there is none), unit."""
 
 
-@dataclass(frozen=True, slots=True)
-class CaseView:
+class CaseView(NamedTuple):
     """A drawn case. `anchor` is that of its part of the page; `data` is the JSON its plots are drawn from.
 
     `explanation` is empty where the case passes; `note` says what lines show; `command` runs the case alone
@@ -180,11 +178,10 @@ def plots_json() -> str:
     """Return what all cases have in common: panels, loops and their lines."""
     panels = [panel_form(panel, panel_lines(panel)) for panel in PANELS]
     loops = [
-        dataclasses.asdict(loop)
-        | {"lines": [dataclasses.asdict(line) | {"over": across} for across, line in loop_lines(loop)]}
+        loop._asdict() | {"lines": [line._asdict() | {"over": across} for across, line in loop_lines(loop)]}
         for loop in LOOPS
     ]
-    quantities = {key: dataclasses.asdict(quantity) for key, quantity in PLOT_QUANTITIES.items()}
+    quantities = {key: quantity._asdict() for key, quantity in PLOT_QUANTITIES.items()}
     strips = [dataclasses.asdict(strip) | {"heading": strip.heading, "rows": strip.rows} for strip in STRIPS]
     compared = [panel_form(panel, panel_lines(panel)) for panel in COMPARED]
     return script_json(
@@ -218,7 +215,7 @@ def plot_data(
         "start": trace.start,
         "end": trace.end,
         "over_time": packed({**trace.curves, **states}, trace.interval, steps),
-        "marks": [dataclasses.asdict(mark) for mark in marks],
+        "marks": [mark._asdict() for mark in marks],
     }
 
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.judging import evaluation
 from uictest.report import series as series_views
@@ -25,8 +24,7 @@ _MOST_CRITERIA: Final = 10
 """Columns of the matrix: more would leave no room for the names of the cases."""
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(NamedTuple):
     """A case or series that is not as expected.
 
     `causes` say what explains it, `missed` holds the criteria that decided it, `sentences` say the rest.
@@ -44,8 +42,7 @@ class Finding:
     conditions: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Closest:
+class Closest(NamedTuple):
     """The criterion with the least to spare, of a case that is as expected."""
 
     id: str
@@ -126,8 +123,7 @@ def closest_of(content: RunContent, margins: Mapping[str, Margins]) -> Closest |
     return Closest(name, fragment(case_anchor(name)), margin)
 
 
-@dataclass(frozen=True, slots=True)
-class Close:
+class Close(NamedTuple):
     """A close or uncertain verdict; `fragment` leads to its case or series, `taken` says when it was."""
 
     call: CloseCall
@@ -154,8 +150,7 @@ def margins_of_all(content: RunContent, drawn: Iterable[CaseView]) -> dict[str, 
     return {each.id: known.get(each.id) or margins_of(each.criteria) for each in content.results}
 
 
-@dataclass(frozen=True, slots=True)
-class Matrix:
+class Matrix(NamedTuple):
     """Cases against criteria: the names of the columns, the cells of a case by its id, what has no room."""
 
     criteria: Sequence[str]

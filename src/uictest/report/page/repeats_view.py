@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
 from uictest.core import document
@@ -23,8 +22,7 @@ _AIR = 0.08
 """Of the range of values and limits: what is left free on both sides; chosen."""
 
 
-@dataclass(frozen=True, slots=True)
-class Dot:
+class Dot(NamedTuple):
     """The value of one stop at `x` per cent of the scale, and its status; `row` keeps dots apart."""
 
     x: float
@@ -34,8 +32,7 @@ class Dot:
     value: float
 
 
-@dataclass(frozen=True, slots=True)
-class CriterionDots:
+class CriterionDots(NamedTuple):
     """The values of a criterion over the stops, on a scale of 100 that holds its bounds.
 
     `first` and `last` are the ends of what the bounds allow, `median` the place of the median; None where no
@@ -77,8 +74,7 @@ _SPREADS: Final[tuple[document.Column[_MeasureSpread], ...]] = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class RepeatsView:
+class RepeatsView(NamedTuple):
     """The stops of a case, those listed, and how many are not."""
 
     sentences: Sequence[str]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import groupby
+from typing import NamedTuple
 
 from uictest.core.document import Document, Lines, Table
 from uictest.report.escaping import printable
@@ -17,8 +17,7 @@ _PIECE = re.compile(r"\[?[^\[\s,/_=-]*[\s,/_=-]*")
 """A part of a name that is not broken: lines end before an opening bracket and behind what joins words."""
 
 
-@dataclass(frozen=True, slots=True)
-class TableColumn:
+class TableColumn(NamedTuple):
     """A column of a table.
 
     Args:

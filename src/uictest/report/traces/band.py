@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Final
+from dataclasses import replace
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -21,8 +21,7 @@ _ROUNDING: Final = 1e-6
 """Of a part: times that lie no further apart are one."""
 
 
-@dataclass(frozen=True, slots=True)
-class StopExtremes:
+class StopExtremes(NamedTuple):
     """The lowest and the highest value of every part of a stop.
 
     Args:

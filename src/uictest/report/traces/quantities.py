@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.core.units import BAR, CELSIUS_ZERO, KILOMETRE_PER_HOUR, KILONEWTON, KINDS, PERCENT
 
@@ -15,8 +15,7 @@ ORDINARY_CREEP = 10.0
 """%: the axis of the slide reaches at least so far, so that a wheel that only creeps is seen to; chosen."""
 
 
-@dataclass(frozen=True, slots=True)
-class PlotQuantity:
+class PlotQuantity(NamedTuple):
     """A channel as a page shows it: label, unit, how many SI units one of that is, its zero in SI units.
 
     `decimals` are shown of its values.
@@ -63,8 +62,7 @@ OF_RAIL = ("friction", "cleaned_share")
 """Quantities that are drawn where sliding has cleaned the rail; the first also where it varies otherwise."""
 
 
-@dataclass(frozen=True, slots=True)
-class Panel:
+class Panel(NamedTuple):
     """Quantities that share a vertical axis over time.
 
     `height` is relative; the axis holds the values in `include`, whatever the quantities reach.
@@ -162,8 +160,7 @@ def in_order(panels: Sequence[Panel]) -> list[Panel | Strip]:
     return [*placed, *(strip for strip in STRIPS if strip not in placed)]
 
 
-@dataclass(frozen=True, slots=True)
-class PlotLoop:
+class PlotLoop(NamedTuple):
     """One quantity over another, whose axis holds the values in `include`.
 
     `dots`: the samples as dots, where lines between them would mislead. `directed`: the line shows where the
@@ -204,8 +201,7 @@ LOOPS = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class PlotLine:
+class PlotLine(NamedTuple):
     """One series in a panel: its name, what it is called, the role that colours it, dotted or not."""
 
     series: str

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,8 +53,7 @@ def thinned(y: Samples, bins: int) -> Rows:
     return np.union1d(extremes(parts, y), [0, len(y) - 1])
 
 
-@dataclass(frozen=True, slots=True)
-class FaultSpan:
+class FaultSpan(NamedTuple):
     """A stretch of a stop in which one fault was active: what it was, first and last time in s."""
 
     label: str
@@ -100,16 +100,14 @@ UNKNOWN = -1
 Series = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
-class Curve:
+class Curve(NamedTuple):
     """The points of a line, as samples: `x` and `y` are equally long; where y is NaN the line has a gap."""
 
     x: Series
     y: Series
 
 
-@dataclass(frozen=True, slots=True)
-class States:
+class States(NamedTuple):
     """A channel of states: `state[k]` holds from `time[k]` (s) to `time[k + 1]`, the last to the end."""
 
     time: Series

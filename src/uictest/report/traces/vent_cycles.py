@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +14,7 @@ from uictest.report.traces.quantities import VENT, WHEELSETS
 Series = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
-class VentCycle:
+class VentCycle(NamedTuple):
     """One vent of a wheelset. What was not recorded, or did not happen, is NaN.
 
     Args:

@@ -228,7 +228,7 @@ def run_cases(
                 result = replace(result, firmness=own.firmness(result.id))
         finally:  # a case that an interrupt leaves without it is finished all the same
             batch.results.append(result)
-            on_case(replace(case_run, result=result))
+            on_case(case_run._replace(result=result))
 
     with rig.Workers() as workers:
         run: rig.RunInputs = rig.run_in_process if settings.in_process else workers.run
@@ -265,7 +265,7 @@ def judge_cases(
     batch = BatchResult[evaluation.CaseResult]()
     for case_run in map(judge, cases):
         batch.results.append(settings.completed(case_run.result))
-        on_case(replace(case_run, result=batch.results[-1]))
+        on_case(case_run._replace(result=batch.results[-1]))
     return batch
 
 

@@ -16,8 +16,7 @@ from uictest.plans import scenario
 from uictest.rig import bench
 
 
-@dataclass(frozen=True, slots=True)
-class RecordingRequest:
+class RecordingRequest(NamedTuple):
     """Cases to record (`failed`: those that miss their expectation), and the interval of samples, s.
 
     Of a repeated case the first stop is recorded; of so many `band_stops` the extremes over time are kept.
@@ -39,8 +38,7 @@ class RecordingRequest:
         return {name: samples for name, samples in recordings.items() if name in wanted}
 
 
-@dataclass(frozen=True, slots=True)
-class CaseRun:
+class CaseRun(NamedTuple):
     """A case's result, the recording of its stop if there is one, and the traceback of a crash.
 
     `extremes` are those of the first stops of a repeated case, as many as were asked for.
@@ -77,8 +75,7 @@ class Stop(NamedTuple):
         return replace(self.case, scenario=self.case.scenario.model_copy(update=changes))
 
 
-@dataclass(frozen=True, slots=True)
-class StopRun:
+class StopRun(NamedTuple):
     """A stop and its result; where its case repeats it, with the records that all stops are judged by."""
 
     stop: Stop

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
-from typing import Final, Literal
+from typing import Final, Literal, NamedTuple
 
 from uictest import report
 from uictest.runs.history.entry import CaseEntry
@@ -15,8 +14,7 @@ _Key = tuple[bool, str]
 """Whether it is a series, and its id."""
 
 
-@dataclass(frozen=True, slots=True)
-class CaseHistory:
+class CaseHistory(NamedTuple):
     """A case, or a series, in the runs that are shown.
 
     Args:
@@ -136,8 +134,7 @@ _SHAPES: Final[dict[Shape, str]] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Strip:
+class Strip(NamedTuple):
     """What is drawn of a case, in pixels.
 
     Args:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.core import files
 from uictest.runs.history.run_in_folder import ListedRun, Unlisted, read_folder
@@ -16,8 +15,7 @@ CASES_READ: Final = 40
 """Folders of which the cases are read: the newest ones. Of the others the counts are read."""
 
 
-@dataclass(frozen=True, slots=True)
-class Listing:
+class Listing(NamedTuple):
     """What stands in a folder of runs.
 
     Args:

@@ -5,10 +5,9 @@ from __future__ import annotations
 import os
 import shlex
 from collections.abc import Mapping
-from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 from urllib.parse import quote
 
 from uictest import report
@@ -40,8 +39,7 @@ _UNCHANGED_RECORDED: Final = "same recording and versions; preparation not compa
 """Filter, raster, trigger and channel map of a recorded stop are not part of the entry of its run."""
 
 
-@dataclass(frozen=True, slots=True)
-class RunRow:
+class RunRow(NamedTuple):
     """A run in the table of runs."""
 
     run: ListedRun

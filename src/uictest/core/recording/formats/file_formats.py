@@ -5,10 +5,9 @@ from __future__ import annotations
 import importlib
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from uictest.core import files
 
@@ -62,8 +61,7 @@ def check_size(shapes: Iterable[tuple[int, ...]]) -> None:
         raise UnreadableError(f"{sum(sizes)} values; at most {MOST_VALUES} are read")
 
 
-@dataclass(frozen=True, slots=True)
-class FileFormat:
+class FileFormat(NamedTuple):
     """A format of measurement files.
 
     Args:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
@@ -31,8 +32,7 @@ _BAR, _LEAST_WIDTH = 0.34, 1.0
 """Height of a bar in its lane, and pixels that it is wide at least."""
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnPanel:
+class DrawnPanel(NamedTuple):
     """One panel, in pixels. `paths` holds the class and the data of each path."""
 
     key: str

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.judging import evaluation
 from uictest.report.close_calls import NARROW, turns_text
@@ -27,8 +26,7 @@ _WORDS: Final = {"pass": "met", "fail": "missed"}
 _TITLES: Mapping[str, str] = {plot.key: plot.title for plot in (*PANELS, *LOOPS, *STRIPS)}
 
 
-@dataclass(frozen=True, slots=True)
-class Margin:
+class Margin(NamedTuple):
     """The margin of one criterion: `share` of its value in per cent of the limit, negative if missed.
 
     `share` is None for a criterion that only says yes or no, or whose limit is 0. `baseline` is the value
@@ -130,8 +128,7 @@ class Margin:
         return _TITLES[self.taken.plot] if self.taken else ""
 
 
-@dataclass(frozen=True, slots=True)
-class Margins:
+class Margins(NamedTuple):
     """Criteria, those missed first, then inconclusive ones, then the narrowest margin; the rig's checks."""
 
     judged: Sequence[Margin]

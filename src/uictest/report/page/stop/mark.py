@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from uictest.judging import evaluation
 from uictest.report.escaping import printable
@@ -14,8 +13,7 @@ from uictest.report.verdict_sentences import quantity
 Kind = Literal["limit", "mean", "window", "band", "tolerance", "instant", "point", "interval", "fault"]
 
 
-@dataclass(frozen=True, slots=True)
-class Mark:
+class Mark(NamedTuple):
     """A mark in a plot, in the units of the plot.
 
     limit, mean: a level line at `y` from `x0` to `x1`. window, band, fault: everything between `x0` and `x1`.

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
-from typing import Final, Literal
+from typing import Final, Literal, NamedTuple
 
 from uictest.core.measures import MEASURES, ShownWhen
 from uictest.core.units import SIZES, in_unit
@@ -24,8 +23,7 @@ _PLOTS: Final = (*(panel.key for panel in PANELS), *(strip.key for strip in STRI
 def marks_of(verdicts: Iterable[evaluation.Verdict], trace: PlotTrace) -> list[Mark]:
     """Return the marks of every criterion that applied to a stop, those of failing ones first."""
     return [
-        replace(
-            mark,
+        mark._replace(
             criterion=verdict.id,
             status=_status(verdict, mark.wheelset),
             # In words, not by its colour alone, where a criterion was not decided.
@@ -80,7 +78,7 @@ def _band(verdict: evaluation.Verdict, decided: ShownWhen) -> Iterator[Mark]:
     yield Mark(decided.across, "band", label, verdict.lower, verdict.upper, along=along)
     if verdict.value is not None and verdict.status != "pass":
         reached = instant(decided.across, verdict.value, quantity(verdict.value, verdict.unit))
-        yield replace(reached, along=along)
+        yield reached._replace(along=along)
 
 
 def _span(verdict: evaluation.Verdict, decided: ShownWhen, moments: Moments) -> Iterator[Mark]:
@@ -146,8 +144,7 @@ def _last_speed(trace: PlotTrace) -> str:
     return "an unknown speed" if curve is None else f"{curve.y[-1]:.3g} km/h"
 
 
-@dataclass(frozen=True, slots=True)
-class Taken:
+class Taken(NamedTuple):
     """From `start` to `end`, s since the brake command, in the plot `plot`; one instant where both are equal.
 
     `wheelset` is the one that decides; None for a measure of the train. `value` is the height of the instant

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import base64
-import dataclasses
 import json
 import zlib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,8 +93,7 @@ def _differences(numbers: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.diff(numbers, prepend=np.int64(0))
 
 
-@dataclass(frozen=True, slots=True)
-class OverlayView:
+class OverlayView(NamedTuple):
     """Panels as drawings, and the JSON that they are drawn from when they can be zoomed.
 
     There is a drawing for each group of panels: a page of paper holds some, not all.
@@ -135,8 +132,8 @@ def overlay_view(
         "end": trace.end,
         "over_time": packed(trace.curves, trace.interval),
         "over_distance": packed(over_distance),
-        "marks": [dataclasses.asdict(mark) for mark in marks],
-        "marks_over_distance": [dataclasses.asdict(mark) for mark in marks_over_distance],
+        "marks": [mark._asdict() for mark in marks],
+        "marks_over_distance": [mark._asdict() for mark in marks_over_distance],
         "panels": [panel_form(panel, lines) for group in groups for panel, lines in group],
     }
     return OverlayView([panels_over_time(trace, group) for group in groups], script_json(data))
@@ -144,4 +141,4 @@ def overlay_view(
 
 def panel_form(panel: Panel, lines: Sequence[PlotLine]) -> dict[str, object]:
     """Return a panel with its lines as the script takes it."""
-    return dataclasses.asdict(panel) | {"lines": [dataclasses.asdict(line) for line in lines]}
+    return panel._asdict() | {"lines": [line._asdict() for line in lines]}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -188,7 +187,7 @@ def _numbers(column: PointNumbers, axis: Axis) -> dict[str, Any]:
         "name": printable(column.name),
         "unit": printable(column.unit),
         "values": [_rounded(value) if value == value else None for value in column.numbers.tolist()],
-        "axis": dataclasses.asdict(axis),
+        "axis": axis._asdict(),
     }
 
 
