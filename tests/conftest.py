@@ -3,6 +3,7 @@
 import ctypes
 import gc
 import os
+from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -15,7 +16,7 @@ from hypothesis import settings
 from uictest import rig
 from uictest.controllers import CONTROLLERS
 from uictest.core import lanes
-from uictest.core.physics import FILL, VENT, fma
+from uictest.core.physics import FILL, VENT, arithmetic, fma
 from uictest.core.record import fields_of
 from uictest.core.recording.formats import isolation, reader
 
@@ -63,15 +64,29 @@ def pytest_collection_finish():
     gc.freeze()
 
 
-FUSED = {fma: ctypes.CDLL(None if os.name == "posix" else "ucrtbase").fma}
-"""The C library's fused operation for ours, which plain Python works out in twenty operations."""
-FUSED[fma].argtypes = [ctypes.c_double] * 3
-FUSED[fma].restype = ctypes.c_double
+C_FMA = ctypes.CDLL(None if os.name == "posix" else "ucrtbase").fma
+"""The C library's fused operation: the bits of ours, which plain Python works out in twenty operations."""
+C_FMA.argtypes = [ctypes.c_double] * 3
+C_FMA.restype = ctypes.c_double
+AS_WRITTEN = fma.__code__
 
 
-def quick(function):
-    """A function of physics or model in plain Python, with the same bits in a third of the time."""
-    return lanes.translate(function, lambda copy: copy, dict(FUSED))
+@pytest.fixture(autouse=True, scope="session")
+def _c_fma():
+    """Let plain Python call the C library's operation, where compiled code does not take ours."""
+    if lanes.fuses():
+        vars(arithmetic)["_c_fma"] = C_FMA
+        fma.__code__ = (lambda a, b, c: _c_fma(a, b, c)).__code__
+    yield
+    fma.__code__ = AS_WRITTEN
+
+
+@contextmanager
+def fma_as_written():
+    """Lend the operation as it stands in the source."""
+    before, fma.__code__ = fma.__code__, AS_WRITTEN
+    yield
+    fma.__code__ = before
 
 
 READ_IN_PROCESS = isolation._read_in_process

@@ -20,6 +20,8 @@ from uictest.core.physics.arithmetic import (
     select,
 )
 
+from ..conftest import fma_as_written
+
 finite = st.floats(-1e12, 1e12)
 signs = st.sampled_from([-1.0, 1.0])
 nearly_one = st.builds(lambda sign, places: 1.0 + sign * 2.0**-places, signs, st.integers(1, 60))
@@ -67,6 +69,12 @@ def test_rest_of_an_arctangent_is_at_most_an_eighth_of_a_half_turn(y, x):
     assert adjacent > 0.0
     assert abs(opposite / adjacent) <= math.tan(math.pi / 8) * (1.0 + 1e-15)
     assert arctan(y, x) == pytest.approx(math.atan2(y, x), rel=2e-15, abs=0.0)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def as_written():
+    with fma_as_written():
+        yield
 
 
 def rounded_once(a, b, c):

@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.integrate import solve_ivp
 
-from uictest.core.physics import polach, vehicle as equations
-from uictest.core.physics.vehicle import SLOWEST_CREEP, locked_force, turning_direction
-
-from ..conftest import quick
-
-creep_force = quick(polach.creep_force)
-lowest_slip = quick(equations.lowest_slip)
-refined_slip = quick(equations.refined_slip)
+from uictest.core.physics.polach import creep_force
+from uictest.core.physics.vehicle import (
+    SLOWEST_CREEP,
+    locked_force,
+    lowest_slip,
+    refined_slip,
+    turning_direction,
+)
 
 DRY = (0.55, 0.40, 0.60, 1.00, 0.40)
 WET = (0.30, 0.40, 0.20, 0.30, 0.10)

@@ -7,6 +7,7 @@ import json
 import platform
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path, PurePath
 from typing import Any, ClassVar, Final
@@ -92,7 +93,7 @@ def run_manifest(
         command=("uictest", *(without_machine(word) for word in command)),
         seed=seed,
         cases=cases,
-        versions=_versions(),
+        versions=dict(_versions()),
         inputs={without_machine(name): digest for name, digest in sorted(inputs.items())},
         parts=named_parts(parts),
     )
@@ -120,5 +121,6 @@ def without_machine(word: str) -> str:
     return f"{option}{equals}{shown.as_posix()}"
 
 
-def _versions() -> dict[str, str]:
+@cache
+def _versions() -> Mapping[str, str]:
     return {"python": platform.python_version()} | {name: version(name) for name in _PACKAGES}

@@ -23,7 +23,7 @@ from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.stop import run_stop
 from uictest.rig.single_stop import empty_trace
 
-from ...conftest import FUSED
+from ...conftest import fma_as_written
 
 QUICK_BRAKE = {"dead_time": 0.0, "filling_rate": 20.0, "fill_conductance": 5e-7, "moving_speed": 0.5}
 FAULTS = (
@@ -128,8 +128,8 @@ def everything(function, inputs, every):
 
 
 def quickly(*arguments):
-    """Run the stop in plain Python, on plain numbers and fused by the C library: in an eighth of the time."""
-    stop = translate(run_stop, lambda copy: copy, with_controllers(CHOICES, lambda copy: copy, dict(FUSED)))
+    """Run the stop in plain Python, on plain numbers: in an eighth of the time."""
+    stop = translate(run_stop, lambda copy: copy, with_controllers(CHOICES, lambda copy: copy, {}))
     records = [each for each in arguments if getattr(each, "dtype", None) is not None and each.dtype.names]
     plain = {id(each): _numbers(each) for each in records}
     stop(*(plain.get(id(each), each) for each in arguments))
@@ -217,9 +217,10 @@ def test_every_translated_function_decides_whether_code_is_compiled_anew():
         files.add(Path(function.__code__.co_filename))
         return function
 
-    done = with_controllers(CHOICES, note, {})
-    for function in (run_stop, run_bench_test, run_queue, note_samples):
-        translate(function, note, done)
+    with fma_as_written():
+        done = with_controllers(CHOICES, note, {})
+        for function in (run_stop, run_bench_test, run_queue, note_samples):
+            translate(function, note, done)
     assert {f"{each.name.replace('-', '_')}.py" for each in CONTROLLERS.values()} < {
         file.name for file in files
     }
@@ -296,7 +297,8 @@ def test_translation_wraps_every_function_of_the_package_and_leaves_the_original
         wrapped.append(function.__name__)
         return function
 
-    copy = translate(mass_flow, note, {})
+    with fma_as_written():
+        copy = translate(mass_flow, note, {})
     of_fma = {"fma", "_exact_sum", "_lost", "_upper_half"}
     assert set(wrapped) == {"mass_flow", "reduced_flow", "maximum", "minimum", "select", "sqrt"} | of_fma
     assert copy is not mass_flow

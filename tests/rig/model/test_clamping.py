@@ -4,11 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from uictest.rig.model import clamping
-
-from ...conftest import quick
-
-step_clamping = quick(clamping.step_clamping)
+from uictest.rig.model.clamping import step_clamping
 
 EXACT = {
     f"{sensor}_{error}": 0.0

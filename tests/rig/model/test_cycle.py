@@ -4,14 +4,8 @@ import numpy as np
 import pytest
 
 from uictest.core.physics.valves import FILL, HOLD, VENT
-from uictest.rig.model import cycle as at_cycle, step as at_step
-
-from ...conftest import quick
-
-command_valves = quick(at_cycle.command_valves)
-read_sensors = quick(at_cycle.read_sensors)
-start_cycle = quick(at_cycle.start_cycle)
-step = quick(at_step.step)
+from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
+from uictest.rig.model.step import step
 
 
 def scripted(commands):

@@ -5,13 +5,9 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from uictest.rig.model import clamping, module_air, pneumatics
-
-from ...conftest import quick
-
-step_clamping = quick(clamping.step_clamping)
-follow_module_air = quick(module_air.follow_module_air)
-step_air = quick(pneumatics.step_air)
+from uictest.rig.model.clamping import step_clamping
+from uictest.rig.model.module_air import follow_module_air
+from uictest.rig.model.pneumatics import step_air
 
 EXACT = {f"pressure_{error}": 0.0 for error in ("gain_error", "offset", "noise")} | {
     # A converter so fine that it does not show.

@@ -6,12 +6,8 @@ import numpy as np
 import pytest
 
 from uictest.core.physics.air import REFERENCE_TEMPERATURE
-from uictest.rig.model import pneumatics
 from uictest.rig.model.balance import air_energy_residual, stored_air
-
-from ...conftest import quick
-
-step_air = quick(pneumatics.step_air)
+from uictest.rig.model.pneumatics import step_air
 
 
 def set_valves(bench, fill, vent):

@@ -254,28 +254,31 @@ Declarations of a controller's parameters are among them: their defaults stand i
 """
 
 
-def values_in(value: object, key: Key = ()) -> Iterator[tuple[Key, Value]]:
-    """Yield every number and setting inside a model, tuple or mapping with its key.
+def values_in(value: object, key: Key = ()) -> list[tuple[Key, Value]]:
+    """Return every number and setting inside a model, tuple or mapping with its key.
 
     A criterion is named by its id. Parts inside are skipped, and so are values that are not set. Beside the
     path of a program stands the SHA-256 of its file.
     """
+    inner: list[tuple[Key, object]] = []
     if isinstance(value, str | int | float):
-        yield key, value
-        if isinstance(value, ProgramFile):
-            yield (*key[:-1], "sha256"), value.sha256
-    elif isinstance(value, BaseModel):
-        if key and isinstance(value, Part):
-            return
-        for name, inner in value:
-            if name not in DESCRIPTIVE:
-                yield from values_in(inner, (*key, type(value).model_fields[name].alias or name))
+        file = [((*key[:-1], "sha256"), value.sha256)] if isinstance(value, ProgramFile) else []
+        return [(key, value), *file]
+    if isinstance(value, BaseModel):
+        names = {} if key and isinstance(value, Part) else _written_names(type(value))
+        inner = [((*key, names[name]), each) for name, each in value if name in names]
     elif isinstance(value, dict):
-        for name, inner in value.items():
-            yield from values_in(inner, (*key, name))
+        inner = [((*key, name), each) for name, each in value.items()]
     elif isinstance(value, tuple):
-        for index, inner in enumerate(value):
-            yield from values_in(inner, (*key, getattr(inner, "id", index)))
+        inner = [((*key, getattr(each, "id", index)), each) for index, each in enumerate(value)]
+    return [found for place, each in inner for found in values_in(each, place)]
+
+
+@cache
+def _written_names(model: type[BaseModel]) -> dict[str, str]:
+    """Return the fields that a stop can depend on -> their names in a file."""
+    fields = model.model_fields.items()
+    return {name: field.alias or name for name, field in fields if name not in DESCRIPTIVE}
 
 
 def mark_of(quantity: Quantity, sources: Mapping[str, Source]) -> str:
