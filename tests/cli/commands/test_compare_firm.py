@@ -18,7 +18,7 @@ VARIANTS = (
 
 @pytest.fixture(autouse=True)
 def _few(monkeypatch):
-    monkeypatch.setattr(firmness, "EFFORT", Effort(blocks=2, block=4, seeds=4, seeds_at_ends=1))
+    monkeypatch.setattr(firmness, "EFFORT", Effort(blocks=2, block=4, seeds=2, seeds_at_ends=1))
 
 
 def pairs(call, *arguments):

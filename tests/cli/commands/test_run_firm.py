@@ -28,7 +28,7 @@ brake:
 
 @pytest.fixture(autouse=True)
 def _few(monkeypatch):
-    monkeypatch.setattr(firmness, "EFFORT", Effort(blocks=2, block=4, seeds=4, seeds_at_ends=1))
+    monkeypatch.setattr(firmness, "EFFORT", Effort(blocks=2, block=4, seeds=2, seeds_at_ends=1))
 
 
 def run(call, path, *arguments, code=0):
@@ -41,7 +41,7 @@ def test_every_report_says_how_firm_a_case_is(call, scenario):
     answer, [case] = run(call, scenario("stop", STOP), "--firm")
     found = case["firmness"]
     assert found["status"] == "not_shown"  # nothing turns it, in eight draws
-    assert (found["draws"], found["seeds"], found["on_four_calipers"]) == (8, 4, True)
+    assert (found["draws"], found["seeds"], found["on_four_calipers"]) == (8, 2, True)
     sentence = "pass is not shown to be firm: it stands in all of 8 draws"
     assert f"firmness stop {sentence}" in answer.out
     run_folder = Path("reports/latest")

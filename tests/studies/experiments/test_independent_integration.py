@@ -1,5 +1,7 @@
 """The rig written a second time agrees with the rig, and a change of either is seen."""
 
+from functools import cache
+
 import pytest
 
 from studies.experiments.independent_integration import BYPASSED, compared, draw
@@ -24,17 +26,23 @@ def pair(stop_runner):
     return make
 
 
+@pytest.fixture(scope="module")
+def found(pair):
+    """Compare both rigs' stops of this name, or return the comparison of before."""
+    return cache(lambda name: compared(name, *pair(name)))
+
+
 @pytest.mark.parametrize(
     "name", ["dry", "dry, uphill", "dry, computed force", "locked", "locked, rail cleaned"]
 )
-def test_both_rigs_stop_alike(pair, name):
-    found = compared(name, *pair(name))
-    assert abs(found.distance) < 0.1
-    assert abs(found.time) < 0.1
-    assert abs(found.air) < 0.05
-    assert found.speed < 0.02
-    assert found.force < 100.0
-    assert found.residual < 5.0
+def test_both_rigs_stop_alike(found, name):
+    both = found(name)
+    assert abs(both.distance) < 0.1
+    assert abs(both.time) < 0.1
+    assert abs(both.air) < 0.05
+    assert both.speed < 0.02
+    assert both.force < 100.0
+    assert both.residual < 5.0
 
 
 def test_another_pad_friction_of_one_rig_is_seen(pair):
@@ -44,17 +52,17 @@ def test_another_pad_friction_of_one_rig_is_seen(pair):
     assert abs(compared("dry", other, stop, recording).distance) > 0.1
 
 
-def test_the_wheels_of_the_locked_stop_are_locked_on_both(pair):
-    case, stop, recording = pair("locked")
-    found = compared("locked", case, stop, recording)
-    at_half = found.independent.times.searchsorted(0.8 * measured(stop, "braking_time_s"))
-    assert found.independent.wheel_speeds[at_half].tolist() == [0.0] * 4
-    assert found.wheel_speed < 0.1
+def test_the_wheels_of_the_locked_stop_are_locked_on_both(pair, found):
+    _, stop, _ = pair("locked")
+    both = found("locked")
+    at_half = both.independent.times.searchsorted(0.8 * measured(stop, "braking_time_s"))
+    assert both.independent.wheel_speeds[at_half].tolist() == [0.0] * 4
+    assert both.wheel_speed < 0.1
 
 
-def test_the_figure_is_drawn_with_its_units(pair):
+def test_the_figure_is_drawn_with_its_units(found):
     figure = pytest.importorskip("matplotlib.figure").Figure()
-    stop = compared("dry", *pair("dry"))
+    stop = found("dry")
     draw(stop, stop, figure)
     assert [axes.get_ylabel() for axes in figure.axes] == ["speed of the wheels, m/s"] * 2
     assert figure.axes[-1].get_xlabel() == "time, s"
