@@ -44,13 +44,20 @@ def extremes(columns: Samples, y: Samples) -> Rows:
         own = extreme.reduceat(y, starts)[column]
         rows = np.flatnonzero((y == own) | (missing & np.isnan(own)))
         kept.append(rows[np.diff(column[rows], prepend=-1) > 0])
-    return np.unique(np.concatenate(kept))
+    return _each_once(kept, len(y))
+
+
+def _each_once(rows: Sequence[Rows], count: int) -> Rows:
+    """Return the rows, out of `count`, in their order; `np.unique` would load masked arrays for it."""
+    kept = np.zeros(count, dtype=np.bool_)
+    kept[np.concatenate(rows)] = True
+    return np.flatnonzero(kept)
 
 
 def thinned(y: Samples, bins: int) -> Rows:
     """Return the rows of a series to be drawn: both ends, and the extremes of at most `bins` equal parts."""
     parts = np.arange(len(y), dtype=np.float64) // -(-len(y) // bins)
-    return np.union1d(extremes(parts, y), [0, len(y) - 1])
+    return _each_once([extremes(parts, y), np.array([0, len(y) - 1])], len(y))
 
 
 class FaultSpan(NamedTuple):
@@ -266,7 +273,7 @@ def _drawn_rows(signals: Sequence[Series]) -> slice | Rows:
     """Return the rows of which a line shows a point: all, or of a long record those of any extreme."""
     if not signals or len(signals[0]) <= MOST_SAMPLES:
         return slice(None)
-    return np.unique(np.concatenate([thinned(each, BINS) for each in signals]))
+    return _each_once([thinned(each, BINS) for each in signals], len(signals[0]))
 
 
 def _states(time: Series, samples: Series) -> States:

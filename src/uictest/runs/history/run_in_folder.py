@@ -245,12 +245,8 @@ def _started(folder: Path, file: str) -> datetime:
 def started_in(name: str) -> datetime | None:
     """Return the start in the name of a run; None where there is none."""
     match = _STARTED.fullmatch(name)
-    return _parsed(lambda: datetime.strptime(match[1], "%Y%m%dT%H%M%S%z")) if match else None
-
-
-def _parsed(parse: Callable[[], datetime]) -> datetime | None:
     try:
-        return parse()
+        return datetime.fromisoformat(match[1]) if match else None
     except ValueError:
         return None
 
