@@ -4,6 +4,7 @@ import ctypes
 import gc
 import os
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -12,8 +13,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
 from hypothesis import settings
+from typer.main import get_command
 
 from uictest import rig
+from uictest.cli import entry
 from uictest.controllers import CONTROLLERS
 from uictest.core import lanes
 from uictest.core.physics import FILL, VENT, arithmetic, fma
@@ -52,6 +55,11 @@ settings.register_profile("search", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
 
 
+def pytest_collection():
+    """Spare the collector of garbage the search: what is collected and imported stays."""
+    gc.disable()
+
+
 def pytest_collection_modifyitems(items):
     """Put the tests of the files that take longest first."""
     tests = Path(__file__).parent
@@ -62,6 +70,8 @@ def pytest_collection_modifyitems(items):
 def pytest_collection_finish():
     """Spare the collector of garbage what stays to the end: thousands of tests and all that is imported."""
     gc.freeze()
+    gc.enable()
+    gc.set_threshold(50_000)
 
 
 C_FMA = ctypes.CDLL(None if os.name == "posix" else "ucrtbase").fma
@@ -104,6 +114,24 @@ def _read_here(name, path, dialect, folder, seconds):
 def _reading():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(isolation, "_read_in_process", _read_here)
+        yield
+
+
+@cache
+def _command(first):
+    return get_command(APPLICATION(first))
+
+
+APPLICATION = entry.application
+"""Makes the command line for a call with this first word."""
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _once():
+    """Make each command line once, and wait for no disk: what a test writes need outlive no power cut."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(entry, "application", _command)
+        patch.setattr(os, "fsync", lambda descriptor: None)
         yield
 
 
