@@ -48,6 +48,7 @@ def test_the_simplest_controller_has_no_watchdog():
     assert examination.status == "fail"
 
 
+@pytest.mark.usefixtures("here")
 @pytest.mark.parametrize(
     ("before", "after", "expected"),
     [
@@ -80,6 +81,7 @@ def test_a_controller_that_breaks_a_fact_is_found(examine, before, after, expect
     assert examination.status == "fail"
 
 
+@pytest.mark.usefixtures("here")
 def test_memory_that_controllers_share_is_found(examine):
     """A second controller must not begin where the first one is."""
     examination = examine("        self.reference_speed = self.initial_speed\n", SHARED)
@@ -105,6 +107,7 @@ def test_only_fields_of_answers_are_compared():
     assert checks._different(one, other) == 1
 
 
+@pytest.mark.usefixtures("here")
 def test_a_controller_without_a_reference_speed_is_not_judged_by_it(examine):
     examination = examine("            reference_speed=self.reference_speed,\n", "")
     [finding] = [each for each in examination.findings if each.id == "reference-speed"]

@@ -183,16 +183,16 @@ def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
 
 def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float, exchange: Any) -> Driven:
     """Drive a controller that has been reset. Raises ControllerError where it fails."""
-    outputs, seconds = np.zeros(len(inputs), OUTPUTS), np.zeros(len(inputs))
+    seconds, answers = np.zeros(len(inputs)), bytearray()
     address = exchange.__array_interface__["data"][0]
     memory: Any = (ctypes.c_char * EXCHANGE.itemsize).from_address(address)
-    pressure = np.frombuffer(memory, EXCHANGE)["cylinder_pressure"][0]
-    newest = np.zeros(pressure.shape)
-    for cycle, current in enumerate(inputs):
-        memory[:OUTPUTS_AT] = current.tobytes()
+    pressure, hold, vent = (exchange[name] for name in ("cylinder_pressure", "hold", "vent"))
+    newest = [0.0] * len(pressure)
+    for cycle, demanded in enumerate(inputs["cylinder_pressure"].tolist()):
+        memory[:OUTPUTS_AT] = inputs[cycle].tobytes()
         pressure[:] = newest
         exchange["reference_speed"] = np.nan
-        exchange["hold"] = exchange["vent"] = exchange["diagnosis"] = 0
+        hold[:] = vent[:] = exchange["diagnosis"] = 0
         exchange["guard"] = GUARD
         exchange["cycles"] += 1
         exchange["calling"] = STEPPING
@@ -205,9 +205,12 @@ def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float,
         elif status != 0:
             exchange["failure"] = STEP_FAILED
         raise_failure(exchange, instance)
-        outputs[cycle] = np.frombuffer(memory, OUTPUTS, 1, OUTPUTS_AT)[0]
-        newest = _pressure_after(newest, current["cylinder_pressure"], outputs[cycle], cycle_time)
-    return Driven(outputs, seconds)
+        answers += memory[OUTPUTS_AT : OUTPUTS_AT + OUTPUTS.itemsize]
+        full, magnets = max(demanded), zip(hold.tolist(), vent.tolist(), strict=True)
+        newest = [
+            _pressure_after(*each, full, cycle_time) for each in zip(newest, demanded, magnets, strict=True)
+        ]
+    return Driven(np.frombuffer(answers, OUTPUTS), seconds)
 
 
 def _close(instance: ControllerInstance | None, exchange: Any) -> None:
@@ -217,10 +220,11 @@ def _close(instance: ControllerInstance | None, exchange: Any) -> None:
         exchange["calling"] = NOT_CALLED
 
 
-def _pressure_after(pressure: Any, demanded: Any, outputs: Any, cycle_time: float) -> Any:
-    """Return the cylinder pressures at the end of a cycle, Pa: filled, held or vented at a steady rate."""
-    full = demanded.max()
-    filled = np.minimum(pressure + full * cycle_time / FILLING_TIME, demanded)
-    vented = np.maximum(pressure - full * cycle_time / VENTING_TIME, 0.0)
-    unvented = np.where(outputs["hold"] != 0, np.minimum(pressure, demanded), filled)
-    return np.where(outputs["vent"] != 0, vented, unvented)
+def _pressure_after(
+    pressure: float, demanded: float, magnets: tuple[int, int], full: float, cycle_time: float
+) -> float:
+    """Return a cylinder's pressure at the end of a cycle, Pa: filled, held or vented at a steady rate."""
+    hold, vent = magnets
+    if vent:
+        return max(pressure - full * cycle_time / VENTING_TIME, 0.0)
+    return min(pressure if hold else pressure + full * cycle_time / FILLING_TIME, demanded)
