@@ -74,7 +74,7 @@ def _friction_found(case: Case) -> float:
     assert cleaning is not None
     assert isinstance(friction, float)
     gain = max(cleaning.recovered_friction - friction, 0.0)
-    return float(friction + cleaning.carry_over * cleaning.spent_share * gain)
+    return float(friction + cleaning.clean_part(cleaning.carry_over * cleaning.spent_share) * gain)
 
 
 def used_table(used: Used, seeds: Sequence[int]) -> Table:

@@ -18,12 +18,12 @@ def adhesion(rail: Any, creepage: float, speed: float, load: float, friction: fl
         speed: of the train, m/s.
         load: of the wheel, N.
         friction: of the rail as found.
-        share: of it that is clean.
+        share: of it that is clean, or bare; its law says how much that counts.
     """
     contact, cleaning = rail.contact, rail.cleaning
-    clean = cleaning.clean_curve or rail
-    law = [getattr(rail, name) + share * (getattr(clean, name) - getattr(rail, name)) for name in _SHAPE]
+    clean, part = cleaning.clean_curve or rail, cleaning.clean_part(share)
+    curve = [getattr(rail, name) + part * (getattr(clean, name) - getattr(rail, name)) for name in _SHAPE]
     stiffness = contact_stiffness(contact.creep_stiffness, load / contact.reference_wheel_load)
-    now = cleaned_friction(friction, share, cleaning.recovered_friction)
-    force, _ = creep_force(creepage * speed, speed, load, stiffness, now, *law)
+    now = cleaned_friction(friction, part, cleaning.recovered_friction)
+    force, _ = creep_force(creepage * speed, speed, load, stiffness, now, *curve)
     return float(force / load)

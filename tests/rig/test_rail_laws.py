@@ -1,15 +1,20 @@
 """Rails whose whole creep curve changes, layers that earlier stops have worn, whose loss cleans."""
 
 import math
+import subprocess
+import sys
+import textwrap
 
 import numpy as np
 import pytest
 
 from uictest.core.physics import contact_stiffness, creep_force, highest_creep_force
+from uictest.core.rail_laws import LAWS
 from uictest.rig.highest_creep import highest_creep_law
 
 CURVES = ("rail.condition=wet-curves", "rail.friction=0.08")
 LAYER = "rail.condition=leaf-layer"
+FILM = "rail.condition=leaf-film"
 BYPASSED = "rig.wsp=bypassed"
 SHAPE = ("friction_ratio", "friction_decay", "reduction_adhesion", "reduction_slip")
 
@@ -107,3 +112,70 @@ def test_the_largest_force_between_both_curves_is_known_to_a_per_cent_and_a_half
             ]
             errors.append((ends[0] + share * (ends[1] - ends[0])) / exact - 1.0)
     assert np.abs(errors).max() < 0.015
+
+
+def test_a_film_that_counts_as_much_as_bare_rail_is_a_mixture(rig):
+    film = rig.columns(FILM, BYPASSED, "rail.condition.cleaning.film.weight=1")
+    mixture = rig.columns(LAYER, BYPASSED)
+    assert film["friction"] == pytest.approx(mixture["friction"], rel=1e-9)
+
+
+def test_a_film_stays_slippery_where_half_of_it_is_gone(rig):
+    """With weights 1 and 25, half bare counts as 1 of 26, for the rail that a first wheelset finds."""
+    spent = f"rail.condition.cleaning.spent={60.0 * math.log(2.0)} kJ/m"
+    stop = rig.columns(FILM, BYPASSED, spent)
+    assert stop["cleaned_share"][0] == pytest.approx(np.full(4, 1.0 / 26.0), rel=1e-9)
+    assert stop["friction"][0] == pytest.approx(np.full(4, 0.05 + 0.23 / 26.0), rel=1e-9)
+
+
+@pytest.mark.parametrize("law", list(LAWS))
+def test_a_law_goes_from_the_rail_as_found_to_the_clean_one_and_never_back(law):
+    numbers = [25.0] * len(LAWS[law].numbers)
+    parts = [LAWS[law].clean_part(share, *numbers) for share in np.linspace(0.0, 1.0, 101)]
+    assert parts[0] == 0.0
+    assert parts[-1] == 1.0
+    assert np.all(np.diff(parts) > 0.0)
+    settled = [LAWS[law].settled_share(loss, 1.0 / 5300.0, numbers) for loss in (0.0, 1e3, 1e4, 1e5)]
+    assert settled == pytest.approx([-math.expm1(-loss / 5300.0) for loss in (0.0, 1e3, 1e4, 1e5)], rel=1e-12)
+
+
+def test_two_laws_are_refused_and_a_new_law_is_one_module(tmp_path):
+    """The module is found, its numbers are keys with unit and range, and the model calls its equations."""
+    (tmp_path / "squared.py").write_text(
+        textwrap.dedent("""
+        from uictest.core.physics import cleaned_share
+        from uictest.core.rail_laws.law import LawNumber, RailLaw
+
+        def clean_part(share, length):
+            return share * share * length
+
+        LAW = RailLaw("squared", "Squared.", cleaned_share, clean_part,
+                      {"length": LawNumber("length", "A length.", "1 mm", "1 m", lambda value: 2.0 * value)})
+        """)
+    )
+    program = f"""
+        from types import SimpleNamespace
+        from uictest.core.rail_laws import laws
+        laws.__path__.append({str(tmp_path)!r})
+        from uictest.core.rail_laws import clean_part
+        import uictest
+        from uictest.rig import assemble
+
+        def load(own):
+            cleaning = f"{{{{energy: 1 kJ/m, recovered_friction: 0.3, reach: 1 m, carry_over: 1, {{own}}}}}}"
+            return uictest.load("slip-120", set={{"rail.cleaning": cleaning}})[0]
+
+        p = assemble(load("squared: {{length: 250 mm}}")).parameters
+        print(clean_part(0.5, p))
+        for own in ("squared: {{length: 2 m}}", "squared: {{length: 1 m}}, film: {{weight: 2}}"):
+            try:
+                load(own)
+            except uictest.ScenarioErrors as error:
+                print(error)
+    """
+    done = subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(program)], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.startswith("0.125\n")  # 0.5^2 of twice a quarter
+    assert "1 mm .. 1 m" in done.stdout or "at most 1 m" in done.stdout, done.stdout
+    assert "two laws are named: 'film' and 'squared'" in done.stdout

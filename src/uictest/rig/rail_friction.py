@@ -5,6 +5,7 @@ from itertools import pairwise
 from typing import Final
 
 from uictest.core.ensemble import Ensemble
+from uictest.core.rail_laws import LAWS, MOST_NUMBERS
 from uictest.plans.scenario import Scenario
 from uictest.rig.derived_parameters import Assignment
 from uictest.rig.highest_creep import highest_creep_law
@@ -49,6 +50,9 @@ def _cleaning(p: Parameters, scenario: Scenario) -> None:
     largest = max(wheelbase, 2.0 * scenario.vehicle.half_pivot_distance - wheelbase)
     p.rail_points_per_metre = (POINTS - MARGIN) / largest
     p.cleans_rail = float(cleaning is not None)
+    p.rail_law = 0 if cleaning is None else list(LAWS).index(cleaning.law.name)
+    numbers = () if cleaning is None else cleaning.law_numbers
+    p.law_numbers = [*numbers, *[0.0] * (MOST_NUMBERS - len(numbers))]
     p.cleaning_response = 0.0 if cleaning is None else cleaning.response
     p.cleaning_decay = 0.0 if cleaning is None else 1.0 / cleaning.reach
     p.recovered_friction = 0.0 if cleaning is None else cleaning.recovered_friction

@@ -70,6 +70,7 @@ VARIANTS = (
     (CLEANED, STEPPED, "rig.wsp=bypassed"),
     ("rail.condition=wet-curves", "rail.friction=0.06"),
     ("rail.condition=leaf-layer", "rail.condition.cleaning.spent=40 kJ/m", "rig.wsp=bypassed"),
+    ("rail.condition=leaf-film", "rail.condition.cleaning.spent=180 kJ/m"),
     (VARIED, *WET),
     (VARIED, CLEANED, "rail.friction=0.05"),
     ("brake.pad=composite-block", *WET),

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 
+from uictest.core.rail_laws import LAWS
 from uictest.rig.model.rail import MARGIN, POINTS, RAIL_MEMORY, clean_rail, forget_rail
 
 Array = NDArray[np.float64]
@@ -29,6 +30,7 @@ class Track:
         settings = {"cleaning_response": 1 / 5300, "cleaning_decay": 2.0, "recovered_friction": 0.28}
         curve = ("friction_ratio", "friction_decay", "reduction_adhesion", "reduction_slip")
         settings |= {name: 0.4 for each in curve for name in (each, f"clean_{each}")} | {"spent_share": 0.0}
+        settings |= {"rail_law": 0, "law_numbers": []}
         p = SimpleNamespace(rail_points_per_metre=1.0 / GRID, carry_over=1.0, **settings)
         vars(p).update(numbers)
         car = SimpleNamespace(position=0.0)
@@ -136,3 +138,12 @@ def test_shares_stay_between_nothing_and_all(slides, advance, carry_over):
     track = Track(losses, advance, carry_over=carry_over)
     assert np.all((track.share >= 0.0) & (track.share <= 1.0))
     assert np.all((track.friction >= 0.08) & (track.friction <= 0.28))
+
+
+def test_a_film_is_remembered_by_what_is_bare_not_by_what_it_counts():
+    """Else a wheelset would find the rail behind another one less bare than it was left."""
+    losses, film = [patch(10.0, 30.0, 3000.0)] * 4, list(LAWS).index("film")
+    mixture, counted = Track(losses, 0.3), Track(losses, 0.3, rail_law=film, law_numbers=[25.0])
+    bare = mixture.share
+    np.testing.assert_allclose(counted.share, bare / (bare + 25.0 * (1.0 - bare)), rtol=1e-9)
+    assert counted.share.max() > 0.01

@@ -15,8 +15,8 @@ from uictest.core.recording import TIME, Recording
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import evaluation
 from uictest.plans import library
-from uictest.plans.scenario import EXPANSION_KEYS, PART_KEYS, Case, Cleaning, CreepCurve, Scenario
-from uictest.plans.scenario.yaml import Quantity, dotted, quantities_in
+from uictest.plans.scenario import EXPANSION_KEYS, PART_KEYS, Case, Scenario
+from uictest.plans.scenario.yaml import Quantity, Section, dotted, quantities_in
 from uictest.recorded.field_data import RecordedStop, of_wheelsets
 from uictest.recorded.fitting.fit import CleaningFit, Fit
 from uictest.rig import SimulatedStop
@@ -152,7 +152,7 @@ def _name(scenario: str, stop: tuple[str, str] | None) -> str:
     return f"{scenario[:half]}-fitted-{stop[0][:half]}"
 
 
-def _numbers_of(section: Cleaning | CreepCurve) -> dict[str, Any]:
+def _numbers_of(section: Section) -> dict[str, Any]:
     """Return a section as a scenario would have it, without sources, which a scenario does not describe."""
     values = {
         name: value
@@ -163,7 +163,7 @@ def _numbers_of(section: Cleaning | CreepCurve) -> dict[str, Any]:
 
 
 def _plain(value: object) -> Any:
-    if isinstance(value, CreepCurve):
+    if isinstance(value, Section):
         return _numbers_of(value)
     if isinstance(value, Quantity):
         return float(value) if value.unit == "1" else value.text

@@ -23,7 +23,15 @@ from uictest.rig.model.controller import begin, call_step, decide, exchange_at
 Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
 _SOURCES = (
-    *("core/record.py", "core/physics", "core/lanes", "controllers", "plans/faults.py", "rig"),
+    *(
+        "core/record.py",
+        "core/physics",
+        "core/rail_laws",
+        "core/lanes",
+        "controllers",
+        "plans/faults.py",
+        "rig",
+    ),
     *(f"core/measures/{name}.py" for name in ("records", "layouts", "train", "wheelset", "contact")),
     "core/measures/noted_samples.py",
 )

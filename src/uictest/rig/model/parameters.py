@@ -12,11 +12,13 @@ from typing import Annotated
 from uictest.controllers import CONTROLLERS, ControllerCycle
 from uictest.core.measures import MeasureDefinition
 from uictest.core.physics import MOST_PAD_POINTS
+from uictest.core.rail_laws import MOST_NUMBERS
 from uictest.core.record import derived, from_scenario, layout_of
 from uictest.rig.model.fault_tables import FaultTables
 
 PadTable = Annotated[MutableSequence[float], MOST_PAD_POINTS]
 MotorTable = Annotated[MutableSequence[float], 4]
+LawNumbers = Annotated[MutableSequence[float], MOST_NUMBERS]
 
 
 def inverse(value: float) -> float:
@@ -252,6 +254,8 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     variation_log_spread: float = derived()
     # rail cleaned by sliding: physics.rail
     cleans_rail: float = derived()  # 0 or 1
+    rail_law: int = derived()  # number of core.rail_laws.LAWS
+    law_numbers: LawNumbers = derived()  # its own
     cleaning_response: float = derived()  # cleaned share per energy per metre of track, m/J
     cleaning_decay: float = derived()  # 1/m
     recovered_friction: float = derived()

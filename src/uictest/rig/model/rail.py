@@ -6,8 +6,10 @@ an array whose rows are used up to their number of points.
 What the rail remembers is the share of it that wheelsets have cleaned, a function of place. Each of the first
 three wheelsets writes the share that it leaves at the points of a grid that it passes; the next one reads it
 when it gets there, later by their distance over the speed. Points are reused once the next wheelset has
-passed them, so that a ring of them suffices. Scalar code, called once per controller cycle; for a record of
-a real train it runs along its samples, with the sliding that the creep law gives.
+passed them, so that a ring of them suffices. What a share means for friction and creep curve a law says,
+:mod:`uictest.core.rail_laws`: `cleaned_share` of a wheelset is how far they have gone. Scalar code, called
+once per controller cycle; for a record of a real train it runs along its samples, with the sliding that the
+creep law gives.
 """
 
 from collections.abc import MutableSequence, Sequence
@@ -15,13 +17,13 @@ from typing import Annotated, Any, Final
 
 from uictest.core.physics import (
     cleaned_friction,
-    cleaned_share,
     contact_stiffness,
     creep_force,
     floor,
     maximum,
     share_left_behind,
 )
+from uictest.core.rail_laws import clean_part, own_share
 from uictest.core.record import Record, layout_of
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car, Wheelset
@@ -50,6 +52,7 @@ class RailMemory(Record):
     position: float  # of the car when the rail was last written, m
     loss: Annotated[MutableSequence[float], _WHEELSETS]  # of each wheelset's contacts until then, J
     cleaned: Annotated[MutableSequence[float], _WHEELSETS]  # share that each wheelset itself has cleaned
+    left: Annotated[MutableSequence[float], _WHEELSETS]  # share behind each wheelset then
     points: Annotated[MutableSequence[float], _RINGS]  # cleaned share behind wheelsets 1, 2 and 3, in rings
 
 
@@ -63,6 +66,7 @@ def forget_rail(memory: RailMemory, p: Parameters) -> None:
     for i in range(_WHEELSETS):
         memory.loss[i] = 0.0
         memory.cleaned[i] = 0.0
+        memory.left[i] = 0.0
     for k in range(_RINGS):
         memory.points[k] = p.spent_share
 
@@ -88,9 +92,10 @@ def clean_rail(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, memory: R
         left = share_left_behind(memory.cleaned[i], arrived, p.carry_over)
         if i < _WHEELSETS - 1:
             start = (memory.position - wheelset.behind) * p.rail_points_per_metre
-            write_passed(memory, i, start, place, wheelset.cleaned_share, left)
-        wheelset.cleaned_share = left
-        wheelset.friction = cleaned_friction(wheelset.friction, left, p.recovered_friction)
+            write_passed(memory, i, start, place, memory.left[i], left)
+        memory.left[i] = left
+        wheelset.cleaned_share = clean_part(left, p)
+        wheelset.friction = cleaned_friction(wheelset.friction, wheelset.cleaned_share, p.recovered_friction)
         set_creep_curve(wheelset, p)
     memory.position = car.position
 
@@ -109,8 +114,7 @@ def set_creep_curve(wheelset: Wheelset, p: Parameters) -> None:
 def _slide_on(wheelset: Wheelset, distance: float, p: Parameters, memory: RailMemory, i: int) -> None:
     """Let wheelset ``i`` itself clean the stretch of track that it has passed since the last cycle."""
     loss = wheelset.contact_loss - memory.loss[i]
-    own = cleaned_share(memory.cleaned[i], loss, distance, p.cleaning_response, p.cleaning_decay)
-    memory.cleaned[i] = own
+    memory.cleaned[i] = own_share(memory.cleaned[i], loss, distance, p)
     memory.loss[i] = wheelset.contact_loss
 
 

@@ -3,9 +3,12 @@
 import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import Annotated, ClassVar, Final, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal
 
-from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section
+from pydantic import create_model
+
+from uictest.core.rail_laws import DEFAULT, LAWS, RailLaw
+from uictest.plans.scenario.yaml import Inconsistency, Model, Part, Quantity, Section, quoted
 from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional, quantity, schema_field
 
 Friction = Annotated[Quantity, of_kind("number", "0.001 .. 1")]
@@ -59,7 +62,7 @@ _CONTACTS: Final = 2.0
 """Of a wheelset."""
 
 
-class Cleaning(Section):
+class _Cleaning(Section):
     """How sliding cleans the rail, for itself and for the wheelsets that follow."""
 
     energy: Energy = field("Wc: contact loss of a wheelset per metre of track that cleans 63 % of the rail.")
@@ -95,13 +98,77 @@ class Cleaning(Section):
         """Share of the rail that earlier stops have cleaned."""
         return self.spent_share_with(self.energy)
 
+    @property
+    def law(self) -> RailLaw:
+        """The law that is named, else the default one."""
+        return LAWS[next(iter(self._named), DEFAULT)]
+
+    @property
+    def law_numbers(self) -> tuple[float, ...]:
+        """The law's own numbers, as its equations take them."""
+        own = getattr(self, self.law.name, None)
+        return tuple(number.convert(getattr(own, name)) for name, number in self.law.numbers.items())
+
+    def clean_part(self, share: float) -> float:
+        """How far friction and creep curve have gone to those of a clean rail, where a share is clean."""
+        own = (self.law_numbers[k] for k in self.law.passed(self.law.clean_part))
+        return self.law.clean_part(share, *own)
+
+    @property
+    def _named(self) -> list[str]:
+        return [name for name in LAWS if getattr(self, name, None) is not None]
+
+    def inconsistencies(self) -> Iterator[Inconsistency]:
+        """Yield a second law."""
+        yield from super().inconsistencies()
+        for name in self._named[1:]:
+            message = f"two laws are named: {quoted(self._named[0])} and {quoted(name)}"
+            yield Inconsistency((name,), message, "keep one of them")
+
     def response_to(self, energy: float) -> float:
         """The same for another energy, J/m."""
         return 1.0 / energy if self.loss == "wheelset" else 1.0 / _CONTACTS / energy
 
     def spent_share_with(self, energy: float) -> float:
         """The same for another energy, J/m."""
-        return 0.0 if self.spent is None else -math.expm1(-float(self.response_to(energy) * self.spent))
+        if self.spent is None:
+            return 0.0
+        return self.law.settled_share(float(self.spent), float(self.response_to(energy)), self.law_numbers)
+
+
+def _section_of(law: RailLaw) -> type[Section]:
+    """Return the model of a law's own numbers."""
+    fields: dict[str, Any] = {
+        name: (Quantity, quantity(number.description, number.kind, f"{number.at_least} .. {number.at_most}"))
+        for name, number in law.numbers.items()
+    }
+    section: type[Section] = create_model(
+        f"{law.name.capitalize()}Law",
+        __base__=Section,
+        __doc__=law.description,
+        __module__=__name__,
+        **fields,
+    )
+    return section
+
+
+_LAW_SECTIONS: Final = {name: _section_of(law) for name, law in LAWS.items() if name != DEFAULT}
+# Pickle finds a class by its name in its module; sweeps send scenarios to other processes.
+globals().update({section.__name__: section for section in _LAW_SECTIONS.values()})
+
+if TYPE_CHECKING:
+    Cleaning = _Cleaning
+else:
+    Cleaning = create_model(
+        "Cleaning",
+        __base__=_Cleaning,
+        __doc__=_Cleaning.__doc__,
+        __module__=__name__,
+        **{
+            name: (section | None, optional(f"{LAWS[name].description} A law in place of the usual one."))
+            for name, section in _LAW_SECTIONS.items()
+        },
+    )
 
 
 _DEVIATIONS: Final = 6.0

@@ -1,0 +1,5 @@
+"""Laws of the rail that sliding changes: one module in `laws` states the numbers and the equations of one."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,105 @@
+"""What a law of the rail declares, the laws that there are, and the choice among them in the model."""
+
+import pkgutil
+from collections.abc import Callable, Mapping, Sequence
+from importlib import import_module
+from inspect import signature
+from typing import Any, Final, NamedTuple
+
+from uictest.core.rail_laws import laws
+
+MOST_NUMBERS: Final = 4
+"""Numbers of its own that a law may have."""
+DEFAULT: Final = "mixture"
+"""Name of the law of a rail that names none."""
+
+
+class LawNumber(NamedTuple):
+    """A number that a law has of its own.
+
+    Attributes:
+        kind: kind of quantity, a name of :data:`uictest.core.units.KINDS`.
+        description: one sentence for people.
+        at_least: smallest value, as a user would write it, such as ``"1 ms"``.
+        at_most: largest value, likewise.
+        convert: from the value in SI units to what the equations take.
+    """
+
+    kind: str
+    description: str
+    at_least: str
+    at_most: str
+    convert: Callable[[float], float] = float
+
+
+_FAR: Final = 1e6
+"""Length of track, in m and in reaches, after which a state has settled."""
+
+
+class RailLaw(NamedTuple):
+    """A law, as its module declares it.
+
+    Both functions are scalar code of :mod:`uictest.core.physics`, which also runs compiled and beside lanes.
+    Behind the arguments that are named here, each takes those of the law's own numbers that it names.
+
+    Attributes:
+        name: its key below `rail.cleaning`.
+        description: one sentence for people.
+        own_share: state of the rail under one wheelset at the end of a stretch of track, 0 as found to 1
+            clean: of `share` at its beginning, `loss` of both contacts on the way in J, `distance` > 0 in m,
+            `response` = 1 / energy in m/J and `decay` = 1 / reach in 1/m.
+        clean_part: how far friction and creep curve have gone from those of the rail as found, 0, to those
+            of the clean one, 1: of `share`, the state that all wheelsets so far have left.
+        numbers: its own, by name.
+    """
+
+    name: str
+    description: str
+    own_share: Callable[..., float]
+    clean_part: Callable[..., float]
+    numbers: Mapping[str, LawNumber] = {}
+
+    def settled_share(self, loss: float, response: float, numbers: Sequence[float]) -> float:
+        """Return the state of a rail of which every metre has taken a loss in J; `numbers` are the law's."""
+        own = (numbers[k] for k in self.passed(self.own_share))
+        return self.own_share(0.0, loss * _FAR, _FAR, response, 1.0, *own)
+
+    def passed(self, function: Callable[..., float]) -> list[int]:
+        """Return the places of those own numbers that one of the functions names."""
+        named = signature(function).parameters
+        return [k for k, name in enumerate(self.numbers) if name in named]
+
+
+def _laws() -> dict[str, RailLaw]:
+    """Return the law of every module in :mod:`uictest.core.rail_laws.laws` by its name, the default first."""
+    modules = [import_module(f"{laws.__name__}.{each.name}") for each in pkgutil.iter_modules(laws.__path__)]
+    found = {module.LAW.name: module.LAW for module in modules}
+    return {DEFAULT: found.pop(DEFAULT), **found}
+
+
+LAWS: Final = _laws()
+"""Every law by its name; its place is its number in the model."""
+
+
+def _chosen(part: str, arguments: str, passed: str) -> Callable[..., float]:
+    """Return a function of the model that calls that of the law whose number the parameters hold."""
+    lines, functions = [], {}
+    for number, law in reversed(list(enumerate(LAWS.values()))):
+        functions[f"law_{number}"] = getattr(law, part)
+        numbers = "".join(f", p.law_numbers[{k}]" for k in law.passed(getattr(law, part)))
+        condition = f"    if p.rail_law == {number}:\n    " if number else ""
+        lines.append(f"{condition}    return law_{number}({passed}{numbers})\n")
+    source = f"def {part}({arguments}, p):\n{''.join(lines)}"
+    namespace: dict[str, Any] = {"__name__": __name__, **functions}
+    # In the name of this file, whose content decides whether compiled code is still that of its source.
+    exec(compile(source, __file__, "exec"), namespace)
+    chosen: Callable[..., float] = namespace[part]
+    return chosen
+
+
+own_share: Final = _chosen(
+    "own_share", "share, loss, distance", "share, loss, distance, p.cleaning_response, p.cleaning_decay"
+)
+"""State of the rail under one wheelset at the end of a stretch of track, by the law of the parameters."""
+clean_part: Final = _chosen("clean_part", "share", "share")
+"""How far a rail of some state has gone to a clean one, by the law of the parameters."""

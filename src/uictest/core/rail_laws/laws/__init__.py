@@ -1,0 +1,1 @@
+"""One module for each law of the rail, with its `LAW`."""
