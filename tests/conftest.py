@@ -48,7 +48,7 @@ fourth and the fifth, which run nothing of it: no process waits for what the oth
 """
 
 # How long an example takes says nothing about it on a machine that others use as well.
-settings.register_profile("same", deadline=None, derandomize=True)
+settings.register_profile("same", deadline=None, derandomize=True, max_examples=50)
 settings.register_profile("search", deadline=None, max_examples=1000)
 # The suite tries the same examples everywhere, so that no run fails by chance; HYPOTHESIS_PROFILE=search
 # tries others.

@@ -43,7 +43,7 @@ from uictest.recorded.field_data.time_axis import DefectKind
 from uictest.rig import bench
 
 SOURCE = Path(__file__).parents[1]
-EXAMPLES = settings().max_examples // 5
+EXAMPLES = settings().max_examples * 2 // 5
 """Files that are tried of a kind in each way."""
 Tree = Any
 

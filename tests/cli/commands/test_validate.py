@@ -24,7 +24,7 @@ def record(name, distance, speed_kmh=30.0):
     """Write the record of a train that stops within a distance (m) at a constant deceleration."""
     speed = speed_kmh / 3.6
     deceleration = speed**2 / (2.0 * distance)
-    time = np.arange(-1.0, speed / deceleration + 1.0, 0.01)
+    time = np.arange(-1.0, speed / deceleration + 1.0, 0.05)
     speeds = np.clip(speed - deceleration * time, 0.0, speed)
     lines = ["time [s],speed [m/s]", *(f"{t:.2f},{v!r}" for t, v in zip(time, speeds.tolist(), strict=True))]
     Path(name).write_text("\n".join(lines) + "\n", "utf-8")
