@@ -141,6 +141,7 @@ def _read_to_end(terminal: int) -> str:
 
 def environment() -> dict[str, str]:
     """Return the variables that the commands of a page see."""
-    kept = {name: os.environ[name] for name in ("HOME", "LANG", "UICTEST_CACHE") if name in os.environ}
+    names = ("HOME", "LANG", "UICTEST_CACHE", "XDG_CACHE_HOME")
+    kept = {name: os.environ[name] for name in names if name in os.environ}
     path = f"{sysconfig.get_path('scripts')}{os.pathsep}{os.environ.get('PATH', '')}"
     return {**kept, "PATH": path, "TERM": "dumb", "COLUMNS": "100", "NO_COLOR": "1"}

@@ -1,6 +1,7 @@
 """Every kind of file has a schema that its shipped files keep to and that mistakes do not."""
 
 import json
+from functools import cache
 from pathlib import Path
 
 import jsonschema
@@ -26,9 +27,14 @@ def _files():
                 yield path
 
 
-def _errors(path_or_kind, document):
-    validator = jsonschema.Draft7Validator(json.loads(schema_text(KINDS[path_or_kind])))
-    return [f"{list(error.path)}: {error.message}" for error in validator.iter_errors(document)]
+@cache
+def _validator(kind):
+    return jsonschema.Draft7Validator(json.loads(schema_text(KINDS[kind])))
+
+
+def _errors(kind, document):
+    errors = _validator(kind).iter_errors(document)
+    return [f"{list(error.path)}: {error.message}" for error in errors]
 
 
 @pytest.mark.parametrize("kind", SchemaKind, ids=str)
