@@ -1,6 +1,7 @@
 """A stop as columns of samples, fed to the streaming measures one row at a time."""
 
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from uictest.core.measures import (
     observe_train,
     observe_wheelset,
 )
-from uictest.core.record import layout_of
+from uictest.core.record import fields_of
 
 Column = NDArray[np.float64]
 
@@ -78,11 +79,9 @@ def _samples():
 
 def _measured(samples):
     """Measures of the train and of its wheelsets after all samples but the first, which begins them."""
-    definition = np.zeros(1, layout_of(MeasureDefinition))[0]
-    for name, value in _DEFINITION.items():
-        definition[name] = value
-    train = np.zeros(1, STOP_MEASURES)[0]
-    wheelsets = np.zeros(4, WHEELSET_MEASURES)
+    definition = SimpleNamespace(**dict.fromkeys(fields_of(MeasureDefinition), 0.0) | _DEFINITION)
+    # Plain numbers, a record's of numpy take three times as long.
+    train, *wheelsets = map(_blank, (STOP_MEASURES, *[WHEELSET_MEASURES] * 4))
     first = (samples.time[0], samples.distance[0], samples.speed[0], samples.reservoir_pressure[0])
     begin_train(train, *map(float, first))
     begin_window(train)
@@ -103,7 +102,19 @@ def _measured(samples):
             train, definition, time, float(samples.distance[k]), speed, float(samples.reservoir_pressure[k])
         )
         keep_window(train, train)
-    return train, wheelsets.view(np.recarray)
+    return _records(STOP_MEASURES, [train])[0], _records(WHEELSET_MEASURES, wheelsets)
+
+
+def _blank(layout):
+    zero = np.zeros(1, layout)[0]
+    return SimpleNamespace(**{name: zero[name].tolist() for name in layout.names})
+
+
+def _records(layout, measures):
+    records = np.zeros(len(measures), layout).view(np.recarray)
+    for name in layout.names:
+        records[name] = [getattr(each, name) for each in measures]
+    return records
 
 
 @pytest.fixture(name="measured", scope="session")
