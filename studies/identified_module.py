@@ -6,13 +6,12 @@ Everything is done as by `uictest identify` with its default options; a record t
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from studies.model_errors import SettingErrors
 from uictest import Case, Recording
 from uictest.rig import bench, identification
 from uictest.units import PERCENT
@@ -23,6 +22,23 @@ ACTING_TIME, TRANSITION_TIME = 2.0, 0.1
 WAYS = ("nothing", "full", "thermal", "thermal_largest")
 """Ways to the pressure of the cylinder: the tank's as it is, the filter of `full`, the modelled air of
 `thermal` identified for the mean square error and for the largest error."""
+
+
+BOUND = 2.0
+"""The paper's bound on the error of pressure, %."""
+
+
+@dataclass(frozen=True, slots=True)
+class WayErrors:
+    """Largest errors along a record: pressure as read and true, % of a maximum; force, % of the largest.
+
+    `beyond`: share of the time in which the error of pressure is :data:`BOUND` or more, %.
+    """
+
+    pressure_error: float
+    true_pressure_error: float
+    force_error: float
+    beyond: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +139,7 @@ def air_channels(record: Recording) -> dict[str, Samples]:
 
 def errors(
     record: Recording, fits: Fits, case: Case, top: float, true_pressure: str = "tank_pressure_1"
-) -> dict[str, SettingErrors]:
+) -> dict[str, WayErrors]:
     """Return the largest errors of each of :data:`WAYS` along a record; NaN where there is no compensation.
 
     Args:
@@ -161,24 +177,25 @@ def unknowns(air: Any, tank_volume: float) -> Samples:
 
 def _errors(
     record: Recording, pressure: Samples | None, fits: Fits, top: float, true_pressure: str
-) -> SettingErrors:
-    nan = float("nan")
+) -> WayErrors:
     if pressure is None:
-        return SettingErrors(nan, nan, nan)
-    found = SettingErrors(
-        float(np.abs(pressure - record["cylinder_pressure_1"]).max()) / top / PERCENT,
-        float(np.abs(pressure - record[true_pressure]).max()) / top / PERCENT,
-        nan,
+        return WayErrors(*[float("nan")] * 4)
+    read, true = (
+        np.abs(pressure - record[channel]) / top / PERCENT
+        for channel in ("cylinder_pressure_1", true_pressure)
     )
+    beyond = float(np.mean(read >= BOUND)) / PERCENT
+    return WayErrors(float(read.max()), float(true.max()), _force_error(record, pressure, fits), beyond)
+
+
+def _force_error(record: Recording, pressure: Samples, fits: Fits) -> float:
     if fits.lines is None:
-        return found
-    step = float(record["time"][1] - record["time"][0])
+        return float("nan")
+    step, measured = float(record["time"][1] - record["time"][0]), record["clamping_force_1"]
     force = identification.computed_force(
-        pressure, acting(record), fits.lines, TRANSITION_TIME, step, float(record["clamping_force_1"][0])
+        pressure, acting(record), fits.lines, TRANSITION_TIME, step, float(measured[0])
     )
-    measured = record["clamping_force_1"]
-    largest = float(np.abs(force - measured).max() / measured.max()) / PERCENT
-    return replace(found, force_error=largest)
+    return float(np.abs(force - measured).max() / measured.max()) / PERCENT
 
 
 def air_of(record: Recording, case: Case, least_mean: Any = None) -> Any:

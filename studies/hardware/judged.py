@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -41,7 +42,7 @@ def conditions() -> Conditions:
 def owners_case() -> Case:
     """Return the rig of the second module as its owner knows it, for the identification of the air."""
     path = bench.recipe_path(BENCHES["pressure"])
-    return bench.load_bench(path, [f"brake.system={_BRAKE}"], trusted=[_CONDITIONS]).case
+    return bench.load_bench(path, [f"brake.system={os.path.relpath(_BRAKE)}"], trusted=[_CONDITIONS]).case
 
 
 def bench_records(changes: Sequence[str] = ()) -> dict[str, Recording]:

@@ -1,6 +1,7 @@
 """The second module by itself: balances, limits of its laws, what its parts do, what it is judged on."""
 
 import re
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -234,6 +235,17 @@ def test_judged_stops_share_no_condition_with_training_calibration_or_the_other_
     assert judged.wheelset not in {each.wheelset for each in replays}
     trained = {test.case.scenario.initial_speed.text for test in recipes}
     assert not trained & set(judged.speeds)
+
+
+def test_module_and_judged_stops_are_those_that_were_declared_before_the_first_identification():
+    """Digests as declared. What was judged by them says nothing of others: declare those anew."""
+    conditions = REPOSITORY / "studies" / "conditions"
+    texts = [
+        repr((HARDWARE, WITHOUT)).encode(),
+        *(conditions.joinpath(f"{name}another-caliper.yaml").read_bytes() for name in ("", "brake-of-")),
+    ]
+    declared = ["b056a4471de7ae46", "aae800d9e20a6db2", "88bd524f92711afe"]
+    assert [sha256(text).hexdigest()[:16] for text in texts] == declared
 
 
 def test_the_module_is_written_without_the_rig():
