@@ -97,14 +97,12 @@ def layout_of(record: type[Record], *additions: type[Record]) -> Any:
     import numpy as np  # what only declares records must not pay for it: `uictest check`, `uictest --help`
 
     fields = {name: (name, *_kind(name, annotation)) for name, annotation in fields_of(record).items()}
-    own = {name: _owner(record, name) for name in fields}
+    own = _owners(record)
     for addition in additions:
+        owners = _owners(addition)
         for name, annotation in fields_of(addition).items():
             field = (name, *_kind(name, annotation))
-            if (
-                own.get(name, owner := _owner(addition, name)) is not owner
-                or fields.get(name, field) != field
-            ):
+            if own.get(name, owners[name]) is not owners[name] or fields.get(name, field) != field:
                 raise TypeError(
                     f"{addition.__module__}.{addition.__qualname__}: {name} is declared elsewhere"
                 )
@@ -112,9 +110,9 @@ def layout_of(record: type[Record], *additions: type[Record]) -> Any:
     return np.dtype((np.record, list(fields.values())))
 
 
-def _owner(record: type[Record], field: str) -> type:
-    """Return the class that declares a field of a record."""
-    return next(each for each in record.__mro__ if field in get_annotations(each))
+def _owners(record: type[Record]) -> dict[str, type]:
+    """Return the class that declares each field of a record."""
+    return {name: each for each in reversed(record.__mro__) for name in get_annotations(each)}
 
 
 def _kind(name: str, annotation: Any) -> tuple[Any, ...]:
