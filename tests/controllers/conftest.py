@@ -30,8 +30,11 @@ class Bench:
         """Commands of one cycle in which the sensors read these speeds, m/s."""
         return self.commands_of(*speeds, valid=(1, 1, 1, 1))
 
-    def commands_of(self, *speeds, valid):
-        """Commands of one cycle in which some sensors may report a fault."""
+    def commands_of(self, *speeds, valid, dynamic=(0.0, 0.0, 0.0, 0.0)):
+        """Commands of one cycle in which some sensors may report a fault and motors brake."""
+        if self.controller.contract > 1:
+            for wheelset, share in zip(self.wheelsets, dynamic, strict=True):
+                wheelset.dynamic_brake = share
         for wheelset, speed, sound in zip(self.wheelsets, speeds, valid, strict=True):
             wheelset.measured_speed, wheelset.speed_valid = speed, sound
         self.controller.decide(self.train, self.wheelsets, self.parameters)

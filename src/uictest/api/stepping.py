@@ -8,7 +8,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
-from uictest.controllers import ControllerError, Inputs, Outputs, read_inputs, write_outputs
+from uictest.controllers import (
+    CONTRACTS,
+    NO_REDUCTION,
+    ControllerError,
+    Inputs,
+    Outputs,
+    read_inputs,
+    write_outputs,
+)
 from uictest.core.recording import Recording
 from uictest.judging import evaluation
 from uictest.plans import library, scenario
@@ -93,6 +101,7 @@ class Rig:
         *,
         trust: Iterable[str | Path] = (),
         record: float | None = None,
+        contract: int = 1,
     ) -> None:
         """Read a scenario; no stop is simulated yet.
 
@@ -101,17 +110,23 @@ class Rig:
             case: id of the case, where the file has several.
             trust: folders that the scenario may refer to, besides its own and the working folder.
             record: samples per second for :meth:`recording`; None: no recording.
+            contract: version of the contract that whoever steps it keeps: with version 1 a dynamic brake
+                drops at the first hold or vent, with version 2 commands can reduce it.
 
         Raises:
             uictest.plans.scenario.ScenarioErrors: the file is invalid; the message has every error in it.
-            ValueError: no such case, or several and none is named; `record` is not positive.
+            ValueError: no such case, or several and none is named; `record` is not positive, or there is no
+                such contract.
         """
+        if contract not in CONTRACTS:
+            raise ValueError(f"contract is {contract!r}, expected {' or '.join(map(str, CONTRACTS))}")
         if record is not None and not 0.0 < record < math.inf:
             raise ValueError(f"record is {record!r}, expected samples per second or None")
         place = library.named_scenario(Path(path))
         cases = scenario.load([place], trusted=[Path(folder) for folder in trust])
         self.case = bench.identified(scenario.chosen_case(cases, case))
         self._record = record
+        self._contract = contract
         self._stop: SteppedStop | None = None
         self._noise_key = ""
 
@@ -131,6 +146,7 @@ class Rig:
         """
         inputs = assemble(self.case)
         self._noise_key = noise_key_text(inputs.parameters)
+        inputs.parameters["controller_contract"] = self._contract
         if seed is not None:
             inputs.parameters["seed"] = _checked_seed(seed)
         step = float(inputs.parameters["step"])
@@ -146,6 +162,9 @@ class Rig:
         vent: Magnets = _NOT_ENERGISED,
         reference_speed: float = math.nan,
         diagnosis: int = 0,
+        dynamic_reduction: Sequence[float] | None = None,
+        sand_request: Magnets | None = None,
+        track_brake_request: bool | int | None = None,
     ) -> Inputs:
         """Carry out commands for one controller cycle and return what the sensors show at its end.
 
@@ -155,13 +174,18 @@ class Rig:
             vent: venting magnets, 0 or 1, one per wheelset; vent without hold is forbidden.
             reference_speed: estimate of the train's speed for the recording, m/s.
             diagnosis: 32 bits for the recording.
+            dynamic_reduction: share taken off the dynamic brake, 0 to 1, one per wheelset. This and the next
+                two only with `contract=2`.
+            sand_request: 0 or 1, one per wheelset, for the recording.
+            track_brake_request: 0 or 1, for the recording.
 
         Raises:
             RuntimeError: before :meth:`reset`, or after the end of the stop.
             ValueError: commands that no valve can carry out; the stop stays where it is.
         """
         stop = self._running()
-        _write(stop, outputs or Outputs(hold, vent, reference_speed, diagnosis))
+        requested = dynamic_reduction, sand_request, track_brake_request
+        _write(stop, outputs or Outputs(hold, vent, reference_speed, diagnosis, *requested), self._contract)
         stop.step()
         _reject_failure(stop)
         return read_inputs(stop.inputs)
@@ -191,7 +215,8 @@ class Rig:
         """Return the recording of the stop; RuntimeError before its end or without `record`."""
         if self._record is None:
             raise RuntimeError("nothing was recorded: create the rig with record=100 (samples per second)")
-        return recording_of_stop(self.case, self._ended().finished(), from_outside=True)
+        finished = replace(self._ended().finished(), contract=self._contract)
+        return recording_of_stop(self.case, finished, from_outside=True)
 
     def _begun(self) -> SteppedStop:
         if self._stop is None:
@@ -217,17 +242,20 @@ def _checked_seed(seed: int) -> int:
     return int(seed)
 
 
-def _write(stop: SteppedStop, outputs: Outputs) -> None:
+def _write(stop: SteppedStop, outputs: Outputs, contract: int) -> None:
     try:
-        write_outputs(stop.outputs, outputs)
+        write_outputs(stop.outputs, outputs, contract)
     except ControllerError as error:
         raise ValueError(str(error)) from None
 
 
 def _reject_failure(stop: SteppedStop) -> None:
-    """Raise ValueError where machine code has refused the commands: the one kind that `_write` lets pass."""
-    if stop.exchange["failure"]:
+    """Raise ValueError where machine code has refused the commands: what `_write` lets pass."""
+    if failure := stop.exchange["failure"]:
         place = int(stop.exchange["failed_wheelset"])
+        if failure == NO_REDUCTION:
+            found = stop.exchange["dynamic_reduction"][place]
+            raise ValueError(f"dynamic_reduction[{place}] is {found}, expected 0 to 1")
         raise ValueError(
             f"vent[{place}] is 1 and hold[{place}] is 0, which is forbidden: both are 1 in order to vent"
         )

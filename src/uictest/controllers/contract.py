@@ -81,6 +81,22 @@ class ControlledWheelset(Record):
     valve_command: int  # newest command: FILL, HOLD or VENT
 
 
+class BrakedTrain(TrainMemory):
+    """What version 2 of the contract adds for the train."""
+
+    axle_load: float  # of one axle at rest, N
+    brake_command: float  # of the train, share of full service, before the delays of the brake
+    track_brake_request: int  # set by the controller: 1 asks for the track brake
+
+
+class BrakedWheelset(ControlledWheelset):
+    """What version 2 of the contract adds for a wheelset."""
+
+    dynamic_brake: float  # what its motor gives of what it could at its speed; 0 without a motor
+    dynamic_reduction: float  # set by the controller: share that is taken off it
+    sand_request: int  # set by the controller: 1 asks for sand
+
+
 class Conflict(NamedTuple):
     """Parameters that are acceptable one by one but not together.
 
@@ -109,6 +125,8 @@ class Controller(NamedTuple):
         begin: sets that memory at the start of a stop from a speed in m/s.
         decide: sets ``valve_command`` of each of the four wheelsets, once per controller cycle.
         conflicts: finds parameters that are impossible together.
+        contract: version of the contract; the memories of one of version 2 are a :class:`BrakedTrain` and a
+            :class:`BrakedWheelset`.
     """
 
     name: str
@@ -118,6 +136,7 @@ class Controller(NamedTuple):
     begin: Callable[[Any, Any, float], None]
     decide: Callable[[Any, Any, Any], None]
     conflicts: Callable[[Any], Iterator[Conflict]] = no_conflicts
+    contract: int = 1
 
     def declared_parameters(self) -> dict[str, DeclaredParameter]:
         """Return the declarations of the parameters by name, those that every controller has first."""

@@ -53,6 +53,10 @@ class Inputs:
         speed_valid: False where a speed sensor reports a fault.
         cylinder_pressure: as the sensor gives it, gauge, Pa, one per wheelset.
         brake_demand: share of full service; a brake is demanded above 0.
+        dynamic_brake: what the motor gives of what it could at its speed, 0 to 1, one per wheelset; 0 without
+            a motor. This and the next two belong to version 2 of the contract.
+        axle_load: of one axle at rest, N.
+        brake_command: of the train, share of full service, before the delays of the brake.
     """
 
     cycle: int
@@ -61,6 +65,9 @@ class Inputs:
     speed_valid: tuple[bool, ...]
     cylinder_pressure: tuple[float, ...]
     brake_demand: float
+    dynamic_brake: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0)
+    axle_load: float = 0.0
+    brake_command: float = 0.0
 
 
 @dataclass(slots=True)
@@ -73,16 +80,26 @@ class Outputs:
             alone holds its pressure, both vent it; vent without hold is forbidden and ends the stop.
         reference_speed: estimated speed of the train, m/s; NaN: none.
         diagnosis: 32 bits of the controller's own, recorded with the stop.
+        dynamic_reduction: share that is taken off the dynamic brake, 0 to 1, one per wheelset. This and the
+            next two belong to version 2 of the contract; None: nothing.
+        sand_request: whether sand is asked for, one per wheelset; only recorded.
+        track_brake_request: whether the track brake is asked for; only recorded.
     """
 
     hold: Sequence[bool | int]
     vent: Sequence[bool | int]
     reference_speed: float = math.nan
     diagnosis: int = 0
+    dynamic_reduction: Sequence[float] | None = None
+    sand_request: Sequence[bool | int] | None = None
+    track_brake_request: bool | int | None = None
 
 
 class PythonController(Protocol):
-    """A controller written in Python. It is created with a :class:`Config` for every stop, then reset."""
+    """A controller written in Python. It is created with a :class:`Config` for every stop, then reset.
+
+    A class of contract version 2 says so by the attribute ``contract = 2``.
+    """
 
     def reset(self) -> None:
         """Return to the state after creation."""
@@ -92,7 +109,8 @@ class PythonController(Protocol):
 
 
 WHEELSETS: Final = 4
-ABI_VERSION: Final = 1
+CONTRACTS: Final = (1, 2)
+"""Versions of the contract. What version 2 adds lies behind what version 1 has, in inputs and outputs."""
 
 INPUTS: Final = np.dtype(
     [
@@ -102,9 +120,12 @@ INPUTS: Final = np.dtype(
         ("cylinder_pressure", "f8", WHEELSETS),
         ("brake_demand", "f8"),
         ("speed_valid", "i4", WHEELSETS),
+        ("dynamic_brake", "f8", WHEELSETS),
+        ("axle_load", "f8"),
+        ("brake_command", "f8"),
     ]
 )
-"""`uictest_inputs`."""
+"""`uictest_inputs` of version 2."""
 OUTPUTS: Final = np.dtype(
     [
         ("reference_speed", "f8"),
@@ -112,9 +133,21 @@ OUTPUTS: Final = np.dtype(
         ("vent", "i4", WHEELSETS),
         ("diagnosis", "u4"),
         ("padding", "u4"),
+        ("dynamic_reduction", "f8", WHEELSETS),
+        ("sand_request", "i4", WHEELSETS),
+        ("track_brake_request", "i4"),
+        ("padding_2", "i4"),
     ]
 )
-"""`uictest_outputs`."""
+"""`uictest_outputs` of version 2."""
+_PLACES: Final[Any] = {**(INPUTS.fields or {}), **(OUTPUTS.fields or {})}
+INPUT_BYTES: Final = {1: _PLACES["dynamic_brake"][1], 2: INPUTS.itemsize}
+"""Size of `uictest_inputs` in each version."""
+OUTPUT_BYTES: Final = {1: _PLACES["dynamic_reduction"][1], 2: OUTPUTS.itemsize}
+"""Size of `uictest_outputs` in each version."""
+UNTOUCHED: Final = -1.0 / 3.0
+"""In each `dynamic_reduction` before a controller of version 1 is called, whose outputs end there: no byte
+is zero."""
 GUARD: Final = 0x5AFE_C0DE_5AFE_C0DE
 """Written behind the outputs: a controller that writes beyond them destroys it."""
 
@@ -128,6 +161,8 @@ STEP_FAILED: Final = 1
 FORBIDDEN_COMMAND: Final = 2
 NO_MAGNET_STATE: Final = 3
 WROTE_BEYOND: Final = 4
+NO_REDUCTION: Final = 5
+NO_REQUEST: Final = 6
 
 _OWN: Final = [(name, "i8") for name in ("guard", "calling", "failure", "failed_wheelset", "cycles")]
 EXCHANGE: Final = np.dtype([*INPUTS.descr, *OUTPUTS.descr, *_OWN])

@@ -7,7 +7,9 @@
  *
  *     gcc -O2 -fPIC -shared -o libwsp.so wsp.c        the header's folder: uictest init controller --c DIR
  *
- * SI units. Wheelset 0 is the leading one.
+ * Version 2 of the contract adds the dynamic brake: write `#define UICTEST_ABI_VERSION 2` before this header is
+ * included. Without that, inputs and outputs are those of version 1, with which a dynamic brake drops at the
+ * first hold or vent. SI units. Wheelset 0 is the leading one.
  */
 #ifndef UICTEST_CONTROLLER_H
 #define UICTEST_CONTROLLER_H
@@ -18,7 +20,9 @@
 extern "C" {
 #endif
 
+#ifndef UICTEST_ABI_VERSION
 #define UICTEST_ABI_VERSION 1
+#endif
 #define UICTEST_WHEELSETS 4
 
 #if defined(_WIN32)
@@ -45,18 +49,28 @@ typedef struct {
     double cylinder_pressure[UICTEST_WHEELSETS];/* as the sensor gives it, gauge, Pa */
     double brake_demand;                        /* share of full service; a brake is demanded above 0 */
     int32_t speed_valid[UICTEST_WHEELSETS];     /* 0: the sensor reports a fault */
+#if UICTEST_ABI_VERSION >= 2
+    double dynamic_brake[UICTEST_WHEELSETS];    /* what the motor gives of what it could at its speed, 0 to 1 */
+    double axle_load;                           /* of one axle at rest, N */
+    double brake_command;                       /* share of full service, before the delays of the brake */
+#endif
 } uictest_inputs;
 
 /* Magnets of the WSP valves: hold 0 vent 0 fills, 1 0 holds, 1 1 vents; 0 1 is forbidden and ends the stop.
- * Before every call hold, vent and diagnosis are 0, and reference_speed is NaN. */
+ * Before every call reference_speed is NaN, and all others are 0. */
 typedef struct {
     double reference_speed;                     /* estimated speed of the train, m/s; NaN: none */
     int32_t hold[UICTEST_WHEELSETS];            /* 0 or 1 */
     int32_t vent[UICTEST_WHEELSETS];            /* 0 or 1 */
     uint32_t diagnosis;                         /* any bits; recorded with the stop */
+#if UICTEST_ABI_VERSION >= 2
+    double dynamic_reduction[UICTEST_WHEELSETS];/* share that is taken off the dynamic brake, 0 to 1 */
+    int32_t sand_request[UICTEST_WHEELSETS];    /* 0 or 1; only recorded */
+    int32_t track_brake_request;                /* 0 or 1; only recorded */
+#endif
 } uictest_outputs;
 
-/* UICTEST_ABI_VERSION: any other number is rejected. */
+/* Return UICTEST_ABI_VERSION. */
 UICTEST_EXPORT uint32_t uictest_abi_version(void);
 /* Version of the controller for the reports, such as "2.1.0". May be left out. */
 UICTEST_EXPORT const char *uictest_version(void);

@@ -125,6 +125,7 @@ def _set_controller(parameters: Parameters, scenario: Scenario) -> None:
     section = scenario.controller
     chosen = EXTERNAL if section.program is not None else CONTROLLERS[section.algorithm]
     parameters.controller = CHOICES.index(chosen)
+    parameters.controller_contract = chosen.contract
     own = chosen.declared_parameters()
     for controller in CONTROLLERS.values():
         for field in controller.declared_parameters():

@@ -15,6 +15,7 @@ from uictest.rig.model.trace import (
     DISC_CHANNELS,
     DYNAMIC_BRAKE_CHANNELS,
     FAULT_CHANNELS,
+    REQUEST_CHANNELS,
     WHEELSET_CHANNELS,
 )
 from uictest.rig.single_stop import FinishedStop, noise_key_text
@@ -81,7 +82,8 @@ def recording_of_stop(case: Case, finished: FinishedStop, *, from_outside: bool)
         from_outside: whether the controller was one from outside, which may have a diagnosis.
     """
     train, wheelsets = finished.trace
-    of_train, of_wheelsets = _recorded(case, from_outside=from_outside)
+    speaks_version_2 = from_outside and finished.contract > 1
+    of_train, of_wheelsets = _recorded(case, from_outside=from_outside, speaks_version_2=speaks_version_2)
     channels = {name: train[name].copy() for name in of_train}
     units = dict(of_train)
     for i in range(4):
@@ -90,10 +92,13 @@ def recording_of_stop(case: Case, finished: FinishedStop, *, from_outside: bool)
     return Recording(channels, units, _facts(case, finished))
 
 
-def _recorded(case: Case, *, from_outside: bool) -> tuple[dict[str, str], dict[str, str]]:
+def _recorded(
+    case: Case, *, from_outside: bool, speaks_version_2: bool
+) -> tuple[dict[str, str], dict[str, str]]:
     """Return the channels of the train and of a wheelset that mean something in a stop, with their units."""
     missing = {
         *(() if from_outside else CONTROLLER_CHANNELS),
+        *(() if speaks_version_2 else REQUEST_CHANNELS),
         *(() if case.scenario.brake.models_disc_temperature else DISC_CHANNELS),
         *(() if case.scenario.brake.dynamic else DYNAMIC_BRAKE_CHANNELS),
         *(() if case.scenario.faults else FAULT_CHANNELS),

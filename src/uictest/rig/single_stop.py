@@ -90,8 +90,8 @@ class StopInputs(NamedTuple):
 class FinishedStop:
     """What a stop leaves: its measures, the final state and, if requested, the trace.
 
-    Of a controller from outside also the version that it names, and how it answered if cycles were paced by
-    the clock.
+    Of a controller from outside also the version that it names, how it answered if cycles were paced by the
+    clock, and the version of the contract.
     """
 
     measures: Any
@@ -101,6 +101,7 @@ class FinishedStop:
     trace: Trace
     controller_version: str = ""
     response_times: ResponseTimes | None = None
+    contract: int = 1
 
 
 def run_to_end(run_stop: RunStop, inputs: StopInputs, steps_per_sample: int = 0) -> FinishedStop:

@@ -23,8 +23,8 @@ ANSWERS = {
 class Program:
     """Listens on a port of its own until the test ends.
 
-    The answer with the number `at` goes through `fault`: what that returns is sent instead; after None the
-    connection is closed.
+    The answer with the number `at`, or each where that is None, goes through `fault`: what that returns is
+    sent instead; after None the connection is closed.
     """
 
     def __init__(self, fault=None, at=0):
@@ -70,7 +70,7 @@ class Program:
         if kind not in ANSWERS:
             return None
         answer = HEADER.pack(kind, len(ANSWERS[kind]), number) + ANSWERS[kind]
-        return self._fault(answer) if self._fault is not None and number == self._at else answer
+        return self._fault(answer) if self._fault is not None and self._at in (None, number) else answer
 
 
 Start = Callable[..., Program]

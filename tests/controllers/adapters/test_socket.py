@@ -27,6 +27,11 @@ def step(controller, cycle=0):
     """Call a controller as compiled code does; return its status and outputs."""
     inputs, outputs = np.zeros(1, INPUTS), np.zeros(1, OUTPUTS)
     inputs["cycle"], inputs["wheel_speed"], inputs["speed_valid"] = cycle, [[1.0, 2.0, 3.0, 4.0]], 1
+    inputs["dynamic_brake"], inputs["axle_load"], inputs["brake_command"] = (
+        [[0.1, 0.2, 0.3, 0.4]],
+        1.1e5,
+        0.75,
+    )
     status = controller._callback(None, inputs.ctypes.data, outputs.ctypes.data)
     return status, outputs[0]
 
@@ -80,6 +85,28 @@ def test_inputs_and_outputs_travel_as_they_lie_in_memory(start, at, config):
     ]
 
 
+def test_a_program_that_answers_with_version_2_gets_its_inputs_and_gives_its_outputs(start, at, config):
+    """The greeting is that of version 1: the program says what it speaks."""
+    added = struct.pack("<4d5ii", 0.0, 0.25, 0.5, 1.0, 0, 1, 0, 0, 1, 0)
+    frames_of_2 = {b"HELO": changed(16, "<I", 2), b"STEP": lambda frame: resized(frame + added)}
+    program = start(lambda frame: frames_of_2.get(frame[:4], bytes)(frame), at=None)
+    controller = open_controller(at(program.address), config)
+    controller.reset()
+    status, outputs = step(controller, cycle=7)
+    controller.close()
+    greeting, _, step_frame, _ = program.frames()
+    assert struct.unpack_from("<3I", greeting[2]) == (1, 104, 48)
+    assert (controller.contract, status, len(step_frame[2])) == (2, 0, 152)
+    assert struct.unpack_from("<6d", step_frame[2], 104) == (0.1, 0.2, 0.3, 0.4, 1.1e5, 0.75)
+    assert outputs["dynamic_reduction"].tolist() == [0.0, 0.25, 0.5, 1.0]
+    assert (outputs["sand_request"].tolist(), outputs["track_brake_request"]) == ([0, 1, 0, 0], 1)
+
+
+def resized(frame):
+    """State the size of the body in the header."""
+    return frame[:4] + struct.pack("<I", len(frame) - 16) + frame[8:]
+
+
 def test_the_digest_of_no_case_is_zero(start, at):
     program = start()
     open_controller(at(program.address), Config(4, 0.01, 30.0, (0.4,) * 4, {})).close()
@@ -112,8 +139,8 @@ FAULTS = {
         "the program closed the connection before its answer to the step frame",
     ),
     "other version": (
-        *(0, changed(16, "<I", 2)),
-        "the program has protocol version 2, expected 1",
+        *(0, changed(16, "<I", 3)),
+        "the program has protocol version 3, expected 1 or 2",
     ),
     "talks another protocol": (
         *(0, lambda frame: b"HTTP/1.1 400 Bad Request\r\n\r\n"),

@@ -168,3 +168,25 @@ def test_wheelsets_take_turns_to_sound(threshold_bench):
         assert all(commands[i] == VENT for i in sounding)
         turns += sounding
     assert [wheelset for wheelset, _ in groupby(turns)][:5] == [0, 1, 2, 3, 0]
+
+
+def test_a_dynamic_brake_is_taken_off_before_the_valve_vents_and_comes_back(threshold_bench):
+    """While the motor of the sliding wheelset still brakes, its valve holds; the others are left alone."""
+    controller = threshold_bench(20.0, refill_time=1.1)
+    down = [20.0 - 8.0 * k * CYCLE for k in range(60)]
+    answers = []
+    for k, speed in enumerate(down + [20.0] * 300):
+        dynamic = (1.0, 0.9 if k < 40 else 0.1, 0.5, 0.0)
+        command = controller.commands_of(20.0, speed, 20.0, 20.0, valid=(1, 1, 1, 1), dynamic=dynamic)[1]
+        answers.append((command, controller.wheelsets[1].dynamic_reduction))
+        assert [controller.wheelsets[i].dynamic_reduction for i in (0, 2, 3)] == [0.0, 0.0, 0.0]
+    commands, reductions = zip(*answers, strict=True)
+    slides = reductions.index(1.0)
+    assert set(commands[:slides]) == {FILL}
+    assert set(commands[slides:40]) == {HOLD}
+    assert commands[40] == VENT
+    refilling = reductions.index(0.5)
+    assert all(one >= other for one, other in pairwise(reductions[refilling:]))
+    assert reductions[refilling + 109] > 0.0
+    assert reductions[refilling + 110] == pytest.approx(0.0, abs=1e-12)
+    assert answers[-1] == (FILL, 0.0)

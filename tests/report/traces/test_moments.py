@@ -40,7 +40,8 @@ TIMES = [
 def faulty_stop():
     """A stop on a slippery rail in which a speed sensor fails, sampled in every cycle."""
     path = Path(__file__).parents[3] / "examples" / "faults" / "slip-120-with-fault.yaml"
-    (case,) = load([path], overrides=["brake.pad=disc-pad", "brake.dynamic={force: 60 kN, power: 1.6 MW}"])
+    motors = "brake.dynamic={force: 60 kN, power: 1.6 MW}"
+    (case,) = load([path], overrides=["brake.pad=disc-pad", motors, "controller=slip-band"])
     return simulate(case, record_every=0.01)
 
 

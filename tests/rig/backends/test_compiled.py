@@ -77,6 +77,14 @@ SETTINGS = {
         (
             *("brake.dynamic={force: 60 kN, power: 400 kW, wheelsets: [2, 3]}", "initial_speed=14 km/h"),
             *("rail.condition=wet", "rail.friction=0.05", "simulation.time_step=1 ms"),
+            "controller=slip-band",
+        ),
+        {**QUICK_BRAKE, "cycles": 90},
+    ),
+    "motors that are reduced": (
+        (
+            *("brake.dynamic={force: 60 kN, power: 400 kW, wheelsets: [2, 3]}", "initial_speed=30 km/h"),
+            *("rail.condition=wet", "rail.friction=0.05", "simulation.time_step=1 ms"),
         ),
         {**QUICK_BRAKE, "cycles": 90},
     ),
@@ -180,9 +188,8 @@ def test_plain_and_compiled_code_give_the_same_bits(rig, setting):
 def test_the_settings_reach_what_they_say(rig):
     """Standstill, venting and locks happen within the short stops that are compared."""
     ends = {name: rig.stop(*overrides, **fields) for name, (overrides, fields) in SETTINGS.items()}
-    standstill, slides, band, air, counted, fading, motors, blocks, downhill, cleaned, varied, faulty = (
-        ends.values()
-    )
+    standstill, slides, band, air, counted, fading, motors, reduced, blocks, *others = ends.values()
+    downhill, cleaned, varied, faulty = others
     assert standstill.measures.stopped == 1.0
     assert slides.wheelset_measures.valve_actuations.all()
     assert slides.wheelset_measures.locked_time.any()
@@ -196,7 +203,8 @@ def test_the_settings_reach_what_they_say(rig):
         assert 0.005 < abs(pads.wheelsets["pad_friction"] - 0.38).min() < 0.2
     assert (fading.wheelset_measures.maximum_disc_temperature > 473.2).all()
     assert (motors.wheelsets["dynamic_energy"] > 0.0).tolist() == [False, True, True, False]
-    assert motors.car.dynamic_dropped == 1.0
+    assert (motors.car.dynamic_dropped, reduced.car.dynamic_dropped) == (1.0, 0.0)
+    assert reduced.wheelsets["dynamic_reduction"][1:3].max() > 0.0
     assert downhill.measures.end_speed > 0.0
     assert cleaned.wheelsets["cleaned_share"].min() > 0.01
     assert cleaned.car.position > 4.0 * rig.parameters()[0].half_wheelbase

@@ -81,6 +81,7 @@ VARIANTS = (
     (LEAKS, "rig.topology=four-caliper", "controller=slip-band", *WET),
     (TEETH, "rig.sensors=pole-wheel", *WET),
     (MOTORS, *WET),
+    (MOTORS, "controller=slip-band", *WET),
     (MOTORS, FAILING, "rig.wsp=bypassed"),
 )
 

@@ -51,6 +51,19 @@ VARIABLES: Final = (
 """Those that are no parameters. A scenario finds all of them by these names."""
 
 
+VARIABLES_2: Final = (
+    *of_wheelsets(_input("dynamic_brake", "What the motor gives of what it could at its speed")),
+    _input("axle_load", "Of one axle at rest", "N"),
+    _input("brake_command", "Share of full service, before the delays of the brake"),
+    *of_wheelsets(
+        _output("dynamic_reduction", "Share that is taken off the dynamic brake", kind="real"),
+        _output("sand_request", "Asks for sand"),
+    ),
+    _output("track_brake_request", "Asks for the track brake"),
+)
+"""Further ones of a controller of contract version 2."""
+
+
 class ControllerFmu(NamedTuple):
     """The file of an FMU, and what its user should know of it."""
 
@@ -142,6 +155,7 @@ def _variables(controller: Exported, config: Config, paths: dict[str, str]) -> t
     radius = Parameter("wheel_radius", config.wheel_radius[0], "m", None, "That its speed is computed with")
     variables = (
         *VARIABLES,
+        *(VARIABLES_2 if controller.contract > 1 else ()),
         speed.variable("initial_speed"),
         parameter_of("cycle_time", config.cycle_time, cycle_time).variable("cycle_time"),
         *of_wheelsets(radius.variable("wheel_radius")),

@@ -76,6 +76,7 @@ class Exported(NamedTuple):
     library: bytes
     version: str
     parameters: tuple[Parameter, ...]
+    contract: int
 
 
 def library_of_sources(compiler: str, sources: Sequence[Path]) -> bytes:
@@ -124,7 +125,8 @@ def _in_library(part: Any, config: Config) -> Exported:
         each = declared.get(name)
         about = (each.unit, tuple(each.range) if each.range else None, each.description) if each else ()
         parameters.append(Parameter(name, value, *about))
-    return Exported(path.read_bytes(), part.version or shown_version(said.version), tuple(parameters))
+    version = part.version or shown_version(said.version)
+    return Exported(path.read_bytes(), version, tuple(parameters), said.contract)
 
 
 def parameter_of(name: str, value: float, declared: DeclaredParameter) -> Parameter:
@@ -145,7 +147,7 @@ def _built_in(part: Any, compiler: str) -> Exported:
     }
     library = link(compiler, inputs, ["built_in.c", "code.o", "-lm"])
     parameters = (parameter_of(name, float(getattr(part, name)), each) for name, each in declared.items())
-    return Exported(library, __version__, tuple(parameters))
+    return Exported(library, __version__, tuple(parameters), controller.contract)
 
 
 def _memory_header(controller: Controller, parameters: Sequence[str], function: str) -> str:
@@ -154,6 +156,7 @@ def _memory_header(controller: Controller, parameters: Sequence[str], function: 
     places = {name: place_of(memory, f"parameters.{name}")[0] for name in ("cycle_time", *parameters)}
     rows = (f"{{{json.dumps(json.dumps(name) + ':')}, {places[name]}}}" for name in parameters)
     lines = {
+        "UICTEST_ABI_VERSION": controller.contract,
         "FUNCTION": function,
         "MEMORY_SIZE": memory.itemsize,
         "REMEMBERED_SIZE": memory.fields["parameters"][1],

@@ -6,9 +6,14 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
-from uictest.controllers.adapters.instance import ControllerError, ControllerInstance, reject_undeclared
+from uictest.controllers.adapters.instance import (
+    ControllerError,
+    ControllerInstance,
+    checked_contract,
+    reject_undeclared,
+)
 from uictest.controllers.declared import ControllerProgram
-from uictest.controllers.interface import ABI_VERSION, WHEELSETS, Config
+from uictest.controllers.interface import WHEELSETS, Config
 
 _Radii = ctypes.c_double * WHEELSETS
 
@@ -46,6 +51,7 @@ class LibraryInstance(ControllerInstance):
 
     def __init__(self, library: Any, config: Config, parameters: str) -> None:
         self._library = library
+        self.contract = library.uictest_abi_version()
         self.version, self.declares = (
             _stated_text(library, name) or "" for name in ("version", "parameters")
         )
@@ -100,9 +106,7 @@ def _loaded(location: str, sha256: str) -> Any:
     for name, (result, arguments) in _FUNCTIONS.items():
         function = getattr(library, f"uictest_{name}")
         function.restype, function.argtypes = result, arguments
-    found = library.uictest_abi_version()
-    if found != ABI_VERSION:
-        raise ControllerError(f"{path.name} has ABI version {found}, expected {ABI_VERSION}")
+    checked_contract(library.uictest_abi_version(), f"{path.name} has ABI version")
     return library
 
 

@@ -13,7 +13,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from uictest.controllers.declared import ControllerProgram, nothing_declared, parameter_problems
-from uictest.controllers.interface import INPUTS, OUTPUTS, WHEELSETS, Inputs, Outputs
+from uictest.controllers.interface import CONTRACTS, INPUTS, OUTPUTS, WHEELSETS, Inputs, Outputs
 
 STEP: Final = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 """`uictest_step`."""
@@ -62,6 +62,7 @@ class ControllerInstance(ABC):
     Attributes:
         version: what it says of itself, empty if nothing.
         declares: the JSON in which it declares its parameters, empty if it does not.
+        contract: version of the contract that it keeps.
         runs_beside_others: whether its step is machine code, and others of its kind may be open meanwhile.
         step_address: address of a function like `uictest_step`.
         handle: first argument of that function.
@@ -69,6 +70,7 @@ class ControllerInstance(ABC):
 
     version: str = ""
     declares: str = ""
+    contract: int = 1
     runs_beside_others: bool = False
     step_address: int
     handle: int = 0
@@ -125,7 +127,8 @@ class CalledInstance(CallbackInstance):
 
     def answer(self, inputs: int, outputs: int) -> None:
         """Call the method."""
-        write_outputs(at_address(outputs, OUTPUTS), self.step(read_inputs(at_address(inputs, INPUTS))))
+        answered = self.step(read_inputs(at_address(inputs, INPUTS)))
+        write_outputs(at_address(outputs, OUTPUTS), answered, self.contract)
 
 
 def reason_of(error: BaseException) -> str:
@@ -157,14 +160,25 @@ def at_address(address: int, layout: Any) -> Any:
 
 def read_inputs(record: Any) -> Inputs:
     """Return inputs as a Python controller sees them."""
-    cycle, time, speeds, pressures, demand, valid = record.tolist()
+    cycle, time, speeds, pressures, demand, valid, dynamic, load, command = record.tolist()
     # Arrays give their numbers as Python's by tolist alone.
-    valid = tuple(map(bool, valid.tolist()))
-    return Inputs(cycle, time, tuple(speeds.tolist()), valid, tuple(pressures.tolist()), demand)
+    valid, dynamic = tuple(map(bool, valid.tolist())), tuple(dynamic.tolist())
+    read = tuple(speeds.tolist()), valid, tuple(pressures.tolist()), demand
+    return Inputs(cycle, time, *read, dynamic, load, command)
 
 
-def write_outputs(record: Any, outputs: Outputs) -> None:
-    """Write the answer of a Python controller. Raises ControllerError where it is none."""
+def checked_contract(version: Any, said: str) -> int:
+    """Return a version of the contract. Raises ControllerError for an unknown one; `said` is who says it."""
+    if type(version) is not int or version not in CONTRACTS:
+        raise ControllerError(f"{said} {version!r}, expected {' or '.join(map(str, CONTRACTS))}")
+    return version
+
+
+def write_outputs(record: Any, outputs: Outputs, contract: int) -> None:
+    """Write the answer of a Python controller of a contract version. Raises ControllerError where it is none.
+
+    Whether reductions are within 0 to 1 is left to who reads them.
+    """
     try:
         hold, vent, reference, diagnosis = (
             *(outputs.hold, outputs.vent),
@@ -177,19 +191,46 @@ def write_outputs(record: Any, outputs: Outputs) -> None:
     if isinstance(diagnosis, float) or not 0 <= int(diagnosis) <= _LARGEST_DIAGNOSIS:
         raise ControllerError(f"diagnosis is {diagnosis!r}, expected a whole number of 32 bits")
     record["diagnosis"] = int(diagnosis)
+    added = [getattr(outputs, name, None) for name in _ADDED]
+    if contract > 1:
+        _write_version_2(record, *added)
+    elif any(each is not None for each in added):
+        name = next(name for name, each in zip(_ADDED, added, strict=True) if each is not None)
+        raise ControllerError(f"{name} belongs to contract version 2, and the controller is of version 1")
+
+
+_ADDED: Final = ("dynamic_reduction", "sand_request", "track_brake_request")
+"""What version 2 has added to the outputs."""
+_NONE: Final = (0,) * WHEELSETS
+
+
+def _write_version_2(record: Any, reduction: Any, sand: Any, track_brake: Any) -> None:
+    shares = _four("dynamic_reduction", _NONE if reduction is None else reduction)
+    record["dynamic_reduction"] = [
+        _number(f"dynamic_reduction[{place}]", share) for place, share in enumerate(shares)
+    ]
+    record["sand_request"] = _magnets("sand_request", _NONE if sand is None else sand)
+    if track_brake not in (None, 0, 1):
+        raise ControllerError(f"track_brake_request is {track_brake!r}, expected 0 or 1")
+    record["track_brake_request"] = int(track_brake or 0)
 
 
 def _magnets(name: str, values: Any) -> list[int]:
+    listed = _four(name, values)
+    for place, value in enumerate(listed):
+        if value not in (0, 1):
+            raise ControllerError(f"{name}[{place}] is {value!r}, expected 0 or 1")
+    return [int(value) for value in listed]
+
+
+def _four(name: str, values: Any) -> list[Any]:
     try:
         listed = list(values)
     except TypeError:
         raise ControllerError(f"{name} is {values!r}, expected {WHEELSETS} values") from None
     if len(listed) != WHEELSETS:
         raise ControllerError(f"{name} has {len(listed)} values, expected {WHEELSETS}")
-    for place, value in enumerate(listed):
-        if value not in (0, 1):
-            raise ControllerError(f"{name}[{place}] is {value!r}, expected 0 or 1")
-    return [int(value) for value in listed]
+    return listed
 
 
 def _number(name: str, value: Any) -> float:

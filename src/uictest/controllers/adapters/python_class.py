@@ -10,7 +10,12 @@ from threading import Lock
 from types import ModuleType
 from typing import Any, Final
 
-from uictest.controllers.adapters.instance import CalledInstance, ControllerError, reason_of
+from uictest.controllers.adapters.instance import (
+    CalledInstance,
+    ControllerError,
+    checked_contract,
+    reason_of,
+)
 from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import Config, Inputs, Outputs
 
@@ -49,8 +54,9 @@ _loading = Lock()
 class PythonInstance(CalledInstance):
     """An object of the user's class."""
 
-    def __init__(self, controller: Any, version: str) -> None:
+    def __init__(self, controller: Any, version: str, contract: int) -> None:
         super().__init__()
+        self.contract = contract
         self._controller = controller
         self.version = version
 
@@ -91,8 +97,9 @@ def object_of(kind: type, config: Config, version: str) -> PythonInstance:
     for method in ("reset", "step"):
         if not callable(getattr(kind, method, None)):
             raise ControllerError(f"class {name} has no method {method!r}")
+    contract = checked_contract(getattr(kind, "contract", 1), f"class {name} is of contract version")
     try:
-        return PythonInstance(kind(config), version)
+        return PythonInstance(kind(config), version, contract)
     except (Exception, SystemExit) as error:
         raise ControllerError(f"{name}(config) failed: {reason_of(error)}") from error
 

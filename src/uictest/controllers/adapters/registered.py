@@ -15,6 +15,7 @@ import numpy as np
 from uictest.controllers.adapters.instance import (
     ControllerError,
     ControllerInstance,
+    checked_contract,
     reason_of,
     reject_undeclared,
 )
@@ -129,6 +130,7 @@ class CompiledInstance(ControllerInstance):
         self, controller: Controller, parameters: Mapping[str, Any], config: Config, version: str
     ) -> None:
         self.version = version
+        self.contract = checked_contract(controller.contract, f"{controller.name} is of contract version")
         self._memory: Any = np.zeros(1, memory_of(controller))
         values = parameter_values(controller, parameters, config.cycle_time)
         for name, value in values.items():
@@ -198,6 +200,7 @@ def functions_of_addresses(controller: Controller, compile_inner: Callable[[Any]
     number_at = lanes.record_at(np.dtype([("value", "f8")]))
     inputs_at, outputs_at = lanes.record_at(INPUTS), lanes.record_at(OUTPUTS)
     begin, decide = _translated(controller, compile_inner)
+    give, answer = (compile_inner(each) for each in _VERSIONS[controller.contract])
 
     def four_wheelsets(handle: int) -> Any:
         return (
@@ -219,15 +222,39 @@ def functions_of_addresses(controller: Controller, compile_inner: Callable[[Any]
         for i in range(WHEELSETS):
             wheelsets[i].measured_speed = inputs.wheel_speed[i]
             wheelsets[i].speed_valid = inputs.speed_valid[i]
+        give(train, wheelsets, inputs)
         decide(train, wheelsets, parameters_at(handle + parameters_place))
         for i in range(WHEELSETS):
             command = wheelsets[i].valve_command
             outputs.hold[i] = 0 if command == FILL else 1
             outputs.vent[i] = 1 if command == VENT else 0
         outputs.reference_speed = train.reference_speed
+        answer(train, wheelsets, outputs)
         return 0
 
     return begin_at, step_at
+
+
+def _nothing(train: Any, wheelsets: Any, memory: Any) -> None:
+    """Version 1 has no more."""
+
+
+def _give_version_2(train: Any, wheelsets: Any, inputs: Any) -> None:
+    train.axle_load = inputs.axle_load
+    train.brake_command = inputs.brake_command
+    for i in range(WHEELSETS):
+        wheelsets[i].dynamic_brake = inputs.dynamic_brake[i]
+
+
+def _answer_version_2(train: Any, wheelsets: Any, outputs: Any) -> None:
+    outputs.track_brake_request = train.track_brake_request
+    for i in range(WHEELSETS):
+        outputs.dynamic_reduction[i] = wheelsets[i].dynamic_reduction
+        outputs.sand_request[i] = wheelsets[i].sand_request
+
+
+_VERSIONS: Final = {1: (_nothing, _nothing), 2: (_give_version_2, _answer_version_2)}
+"""What a controller of a contract version is given besides, and what it answers besides."""
 
 
 def _translated(controller: Controller, compile_inner: Callable[[Any], Any]) -> tuple[Any, Any]:

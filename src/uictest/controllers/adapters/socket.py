@@ -13,6 +13,8 @@ reason.
     FAIL   -                                                    reason in UTF-8, at most 1000 bytes
 
 Header, order of the frames and the first field of HELO stay as they are in every version of the protocol.
+uictest greets with version 1. Where the program answers with version 2, STEP has the inputs and outputs of
+version 2 of the contract.
 """
 
 import ctypes
@@ -23,12 +25,18 @@ from contextlib import suppress
 from time import monotonic, sleep
 from typing import Final
 
-from uictest.controllers.adapters.instance import CallbackInstance, ControllerError, ResponseTimes
+from uictest.controllers.adapters.instance import (
+    CallbackInstance,
+    ControllerError,
+    ResponseTimes,
+    checked_contract,
+)
 from uictest.controllers.adapters.turns import Turn
 from uictest.controllers.declared import ControllerProgram
-from uictest.controllers.interface import INPUTS, OUTPUTS, WHEELSETS, Config
+from uictest.controllers.interface import INPUT_BYTES, OUTPUT_BYTES, WHEELSETS, Config
 
 PROTOCOL_VERSION: Final = 1
+"""That a greeting states."""
 
 HEADER: Final = struct.Struct("<4sIQ")
 """Kind, bytes of the body, number of the frame."""
@@ -55,7 +63,7 @@ def greeting(config: Config, parameters: str) -> bytes:
         raise ControllerError(
             f"parameters: {len(text)} bytes as JSON, at most {LONGEST_PARAMETERS} can be sent"
         )
-    sizes = INPUTS.itemsize, OUTPUTS.itemsize, config.wheelsets
+    sizes = INPUT_BYTES[PROTOCOL_VERSION], OUTPUT_BYTES[PROTOCOL_VERSION], config.wheelsets
     speeds = config.cycle_time, config.initial_speed, *config.wheel_radius
     return GREETING.pack(PROTOCOL_VERSION, *sizes, *speeds, bytes.fromhex(config.case_sha256)) + text
 
@@ -224,8 +232,7 @@ class SocketInstance(CallbackInstance):
         self._clock = RealTime(config.cycle_time) if program.real_time else None
         answer = connection.request(HELLO, greeting(config, program.parameters), PROGRAM.size)
         protocol, name = PROGRAM.unpack(answer)
-        if protocol != PROTOCOL_VERSION:
-            raise ControllerError(f"the program has protocol version {protocol}, expected {PROTOCOL_VERSION}")
+        self.contract = checked_contract(protocol, "the program has protocol version")
         self.version = text_of(name)
 
     @property
@@ -241,10 +248,11 @@ class SocketInstance(CallbackInstance):
         """Let the program answer one cycle, in real time once the cycle is due."""
         if self._clock is not None:
             self._clock.begin_cycle()
-        body = self._connection.request(STEP, ctypes.string_at(inputs, INPUTS.itemsize), OUTPUTS.itemsize)
+        given, size = ctypes.string_at(inputs, INPUT_BYTES[self.contract]), OUTPUT_BYTES[self.contract]
+        body = self._connection.request(STEP, given, size)
         if self._clock is not None:
             self._clock.end_cycle()
-        ctypes.memmove(outputs, body, OUTPUTS.itemsize)
+        ctypes.memmove(outputs, body, size)
 
     def close(self) -> None:
         """Say that the stop is over, and close the connection."""

@@ -6,15 +6,17 @@ HOLDs while the wheel catches up, and REFILLs in pulses until the brake is back 
 four slide nothing shows the train's speed; after a while one of them is PROBING: vented until it rolls
 and shows that speed. A wheelset whose speed is not plausible (:mod:`uictest.controllers.plausibility`) has no
 part in the estimate and gets the commands of the other one of its bogie; where that has no speed either, it
-is filled. No WSP maker publishes thresholds: all of them are parameters.
+is filled. A dynamic brake is taken off before a valve vents, and comes back while it refills. No WSP maker
+publishes thresholds: all of them are parameters.
 """
 
 from collections.abc import Iterator, Sequence
 
 from uictest.controllers.contract import (
+    BrakedTrain,
+    BrakedWheelset,
     Conflict,
     Controller,
-    TrainMemory,
     acceleration,
     duration,
     low_speed,
@@ -66,14 +68,14 @@ class Parameters(PlausibilityParameters):
     refill_time: float = duration("Time of filling in pulses after which the tank fills freely.")
 
 
-class Train(TrainMemory):
+class Train(BrakedTrain):
     """What the controller remembers about the train."""
 
     blind_cycles: int  # since a wheelset last showed the train's speed
     probed: int  # wheelset that was probed last, 0..3
 
 
-class Wheelset(WatchedWheelset):
+class Wheelset(WatchedWheelset, BrakedWheelset):
     """What the controller reads, sets and remembers of a wheelset."""
 
     measured_acceleration: float  # low-pass filtered, m/s2
@@ -86,17 +88,13 @@ VENTING = 1
 HOLDING = 2
 REFILLING = 3
 PROBING = 4
+TAKEN_OFF, LEFT_OFF = 0.2, 0.5  # of a dynamic brake: no valve waits for less; when refilling begins; chosen
 
 
 def conflicts(parameters: Parameters) -> Iterator[Conflict]:
     """Yield durations too short for the controller to see, and thresholds in the wrong order."""
-    times = (
-        ("vent_watchdog", parameters.vent_watchdog),
-        ("hold_limit", parameters.hold_limit),
-        ("fill_pulse_on", parameters.fill_pulse_on),
-    )
-    for name, time in times:
-        if time < parameters.cycle_time:
+    for name in ("vent_watchdog", "hold_limit", "fill_pulse_on"):
+        if getattr(parameters, name) < parameters.cycle_time:
             yield Conflict(name, f"{{{name}}} is shorter than one controller cycle ({{cycle_time}})")
     if parameters.holding_deceleration > parameters.reference_deceleration:
         yield Conflict("holding_deceleration", "it must not exceed reference_deceleration")
@@ -110,8 +108,7 @@ def begin(train: Train, wheelsets: Sequence[Wheelset], speed: float) -> None:
     train.blind_cycles, train.probed = 0, 3
     for i in range(4):
         begin_watch(wheelsets[i], speed)
-        wheelsets[i].measured_acceleration = 0.0
-        wheelsets[i].mode, wheelsets[i].mode_cycles = FREE, 0
+        wheelsets[i].measured_acceleration, wheelsets[i].mode, wheelsets[i].mode_cycles = 0.0, FREE, 0
 
 
 def decide(train: Train, wheelsets: Sequence[Wheelset], parameters: Parameters) -> None:
@@ -126,7 +123,10 @@ def decide(train: Train, wheelsets: Sequence[Wheelset], parameters: Parameters) 
     for i in range(4):
         # A wheelset without a speed gets the command of the other one of its bogie.
         source = i if wheelsets[i].distrusted == 0 else i + 1 - 2 * (i % 2)
-        wheelsets[i].valve_command = _command(wheelsets[source], parameters)
+        command = _command(wheelsets[source], parameters)
+        waits = command == VENT and wheelsets[i].dynamic_brake > TAKEN_OFF
+        wheelsets[i].valve_command = HOLD if waits else command
+        wheelsets[i].dynamic_reduction = _reduction(wheelsets[source], parameters)
 
 
 def _read_speed(wheelset: Wheelset, parameters: Parameters) -> None:
@@ -158,8 +158,7 @@ def _estimate_speed(train: Train, wheelsets: Sequence[Wheelset], parameters: Par
     Only a wheelset that rolls shows that the train is too slow for protection.
     """
     fastest = 0.0
-    rolling = False
-    probed = False
+    rolling, probed = False, False
     for i in range(4):
         wheelset = wheelsets[i]
         if shows_speed_of_train(wheelset):
@@ -196,9 +195,8 @@ def _probe(train: Train, wheelsets: Sequence[Wheelset], parameters: Parameters) 
 
 def _rolls(wheelset: Wheelset, parameters: Parameters) -> bool:
     """Return True once a wheelset has been free for so long that it must roll."""
-    return bool(
-        wheelset.mode == FREE and wheelset.mode_cycles * parameters.cycle_time > parameters.rolling_time
-    )
+    time_in_mode = wheelset.mode_cycles * parameters.cycle_time
+    return bool(wheelset.mode == FREE and time_in_mode > parameters.rolling_time)
 
 
 def _shows_speed(wheelset: Wheelset, parameters: Parameters) -> bool:
@@ -206,9 +204,8 @@ def _shows_speed(wheelset: Wheelset, parameters: Parameters) -> bool:
     time_in_mode = wheelset.mode_cycles * parameters.cycle_time
     if wheelset.mode != PROBING or time_in_mode < parameters.sounding_time:
         return False
-    gains = wheelset.measured_acceleration > parameters.reacceleration_threshold
-    loses = wheelset.measured_acceleration < -parameters.reference_deceleration
-    return not (gains or loses)
+    acceleration = wheelset.measured_acceleration
+    return bool(-parameters.reference_deceleration <= acceleration <= parameters.reacceleration_threshold)
 
 
 def _enter(wheelset: Wheelset, mode: int) -> None:
@@ -234,17 +231,15 @@ def _next_mode(wheelset: Wheelset, reference: float, parameters: Parameters) -> 
         return _after_holding(wheelset, slip, reference, time_in_mode, parameters)
     if _slides(wheelset, slip, _slip_threshold(reference, parameters), parameters):
         return VENTING
-    if wheelset.mode == REFILLING and time_in_mode <= parameters.refill_time:
-        return REFILLING
-    return FREE
+    refills = wheelset.mode == REFILLING and time_in_mode <= parameters.refill_time
+    return REFILLING if refills else FREE
 
 
 def _slides(wheelset: Wheelset, slip: float, threshold: float, parameters: Parameters) -> bool:
     """Return True when the wheel slides: slip above the threshold without recovery, or an impossible fall."""
     losing = wheelset.measured_acceleration < parameters.reacceleration_threshold
-    return bool(
-        (slip > threshold and losing) or wheelset.measured_acceleration < -parameters.vent_deceleration
-    )
+    falling = wheelset.measured_acceleration < -parameters.vent_deceleration
+    return bool((slip > threshold and losing) or falling)
 
 
 def _after_venting(
@@ -285,6 +280,14 @@ def _command(wheelset: Wheelset, parameters: Parameters) -> int:
     return FILL
 
 
+def _reduction(wheelset: Wheelset, parameters: Parameters) -> float:
+    """Return the share that a mode takes off the dynamic brake: all; half and ever less while refilling."""
+    if wheelset.mode == REFILLING:
+        time_left = parameters.refill_time - wheelset.mode_cycles * parameters.cycle_time
+        return LEFT_OFF * maximum(time_left / parameters.refill_time, 0.0)
+    return 0.0 if wheelset.mode == FREE else 1.0
+
+
 CONTROLLER = Controller(
     name="threshold",
     parameters=Parameters,
@@ -293,4 +296,5 @@ CONTROLLER = Controller(
     begin=begin,
     decide=decide,
     conflicts=conflicts,
+    contract=2,
 )

@@ -17,12 +17,15 @@ from uictest.controllers import (
     GUARD,
     NO_FAILURE,
     NO_MAGNET_STATE,
+    NO_REDUCTION,
+    NO_REQUEST,
     NOT_CALLED,
     OPENING,
     OUTPUTS,
     OUTPUTS_AT,
     STEP_FAILED,
     STEPPING,
+    UNTOUCHED,
     WROTE_BEYOND,
     Config,
     ControllerError,
@@ -40,6 +43,8 @@ _FAILURES: Final = {
     FORBIDDEN_COMMAND: "forbidden command for wheelset {wheelset}: vent without hold",
     NO_MAGNET_STATE: "a magnet of wheelset {wheelset} is neither 0 nor 1: hold {hold}, vent {vent}",
     WROTE_BEYOND: "the controller wrote beyond its outputs",
+    NO_REDUCTION: "the reduction of the dynamic brake of wheelset {wheelset} is {reduction}, expected 0 to 1",
+    NO_REQUEST: "a request is neither 0 nor 1: sand at wheelset {wheelset} {sand}, track brake {track_brake}",
 }
 
 
@@ -65,6 +70,7 @@ def opened(
             exchange["calling"] = NOT_CALLED
             parameters["controller_step"] = instance.step_address
             parameters["controller_handle"] = instance.handle
+            parameters["controller_contract"] = instance.contract
             parameters["controller_exchange"] = exchange.__array_interface__["data"][0]
             yield instance
             raise_failure(exchange, instance)
@@ -87,6 +93,9 @@ def raise_failure(exchange: Any, instance: ControllerInstance) -> None:
         wheelset=place + 1,
         hold=exchange["hold"][place],
         vent=exchange["vent"][place],
+        reduction=exchange["dynamic_reduction"][place],
+        sand=exchange["sand_request"][place],
+        track_brake=exchange["track_brake_request"],
     )
     raise ControllerError(f"{reason} (cycle {exchange['cycle']})")
 
@@ -108,8 +117,12 @@ def run_in_process(inputs: StopInputs, steps_per_sample: int = 0, exchange: Any 
     exchange = empty_exchange() if exchange is None else exchange
     with opened(inputs.program, inputs.config, inputs.parameters, exchange) as controller:
         finished = run_to_end(run_stop, inputs, steps_per_sample)
-    version = shown_version(controller.version)
-    return replace(finished, controller_version=version, response_times=controller.response_times)
+    return replace(
+        finished,
+        controller_version=shown_version(controller.version),
+        response_times=controller.response_times,
+        contract=controller.contract,
+    )
 
 
 FILLING_TIME: Final = 2.0
@@ -151,11 +164,14 @@ class Driven(NamedTuple):
 
 
 class Drives(NamedTuple):
-    """What a controller says of itself, its drives, and the JSON in which it declares its parameters."""
+    """What a controller says of itself, its drives, the JSON in which it declares its parameters, and the
+    version of the contract that it keeps.
+    """
 
     version: str
     drives: tuple[Driven, ...]
     declares: str = ""
+    contract: int = 1
 
 
 def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
@@ -175,8 +191,9 @@ def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
             instance.reset()
             exchange["calling"] = NOT_CALLED
             drives.append(drive(instance, request.inputs, request.config.cycle_time, exchange))
-        version, declares = (instance.version, instance.declares) if instance else ("", "")
-        return Drives(version, tuple(drives), declares)
+        if instance is None:
+            return Drives("", ())
+        return Drives(instance.version, tuple(drives), instance.declares, instance.contract)
     finally:
         _close(instance, exchange)
 
@@ -186,13 +203,16 @@ def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float,
     seconds, answers = np.zeros(len(inputs)), bytearray()
     address = exchange.__array_interface__["data"][0]
     memory: Any = (ctypes.c_char * EXCHANGE.itemsize).from_address(address)
-    pressure, hold, vent = (exchange[name] for name in ("cylinder_pressure", "hold", "vent"))
+    names = "cylinder_pressure", "hold", "vent", "dynamic_reduction", "sand_request"
+    pressure, hold, vent, reduction, sand = (exchange[name] for name in names)
+    untouched = UNTOUCHED if instance.contract == 1 else 0.0
     newest = [0.0] * len(pressure)
     for cycle, demanded in enumerate(inputs["cylinder_pressure"].tolist()):
         memory[:OUTPUTS_AT] = inputs[cycle].tobytes()
         pressure[:] = newest
         exchange["reference_speed"] = np.nan
-        hold[:] = vent[:] = exchange["diagnosis"] = 0
+        hold[:] = vent[:] = sand[:] = exchange["diagnosis"] = exchange["track_brake_request"] = 0
+        reduction[:] = untouched
         exchange["guard"] = GUARD
         exchange["cycles"] += 1
         exchange["calling"] = STEPPING
@@ -200,7 +220,7 @@ def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float,
         status = call_step(instance.step_address, instance.handle, address)
         seconds[cycle] = perf_counter() - started
         exchange["calling"] = NOT_CALLED
-        if exchange["guard"] != GUARD:
+        if exchange["guard"] != GUARD or (untouched and any(reduction != untouched)):
             exchange["failure"] = WROTE_BEYOND
         elif status != 0:
             exchange["failure"] = STEP_FAILED

@@ -120,14 +120,16 @@ def drive_request_of(message: Message) -> DriveRequest:
 def drives_message(drives: Drives) -> Message:
     """Return what a controller has answered as a message."""
     records = [each for driven in drives.drives for each in driven]
-    return Message({"version": drives.version, "declares": drives.declares}, bytes_of(records))
+    head = {"version": drives.version, "declares": drives.declares, "contract": drives.contract}
+    return Message(head, bytes_of(records))
 
 
 def drives_of(message: Message) -> Drives:
     """Return what a controller has answered from its message."""
     pairs = zip(message.blocks[::2], message.blocks[1::2], strict=True)
     drives = (Driven(np.frombuffer(outputs, OUTPUTS), np.frombuffer(seconds)) for outputs, seconds in pairs)
-    return Drives(message.head["version"], tuple(drives), message.head["declares"])
+    said = (message.head[name] for name in ("declares", "contract"))
+    return Drives(message.head["version"], tuple(drives), *said)
 
 
 _STOP: Final = (STOP_MEASURES, WHEELSET_MEASURES, CAR, WHEELSET, TRAIN_SAMPLE, WHEELSET_SAMPLE)
@@ -154,7 +156,7 @@ def stop_of(message: Message) -> tuple[StopInputs, int]:
 def finished_message(finished: FinishedStop) -> Message:
     """Return what a stop leaves as a message."""
     own = finished.measures, finished.wheelset_measures, finished.car, finished.wheelsets
-    head = {"controller_version": finished.controller_version}
+    head = {"controller_version": finished.controller_version, "contract": finished.contract}
     return Message(head, bytes_of((*own, *finished.trace)))
 
 
@@ -169,6 +171,7 @@ def finished_of(message: Message) -> FinishedStop:
         wheelsets.view(np.recarray),
         Trace(train, samples.reshape(-1, 4)),
         message.head["controller_version"],
+        contract=message.head["contract"],
     )
 
 

@@ -19,10 +19,13 @@ from uictest.controllers import (
     GUARD,
     NO_FAILURE,
     NO_MAGNET_STATE,
+    NO_REDUCTION,
+    NO_REQUEST,
     NOT_CALLED,
     OUTPUTS_AT,
     STEP_FAILED,
     STEPPING,
+    UNTOUCHED,
     WROTE_BEYOND,
     ControlledWheelset,
     Controller,
@@ -52,7 +55,7 @@ def decide_external(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> N
     if status != 0:
         exchange.failure = STEP_FAILED
     else:
-        read_outputs(exchange, car, wheelsets)
+        read_outputs(exchange, car, wheelsets, p)
     car.controller_failed = 1 if exchange.failure != NO_FAILURE else 0
 
 
@@ -63,19 +66,25 @@ def write_inputs(exchange: Any, car: Car, wheelsets: Sequence[Wheelset], p: Para
     exchange.brake_demand = car.command_pressure * p.demand_per_pressure
     exchange.reference_speed = _NAN
     exchange.diagnosis = 0
+    exchange.axle_load = car.axle_load
+    exchange.brake_command = car.brake_command
+    exchange.track_brake_request = 0
     exchange.guard = GUARD
     for i in range(4):
         exchange.wheel_speed[i] = wheelsets[i].measured_speed
         pressure = wheelsets[i].pressure_reading
         exchange.cylinder_pressure[i] = wheelsets[i].shown_pressure if p.fault_count > 0 else pressure
         exchange.speed_valid[i] = wheelsets[i].speed_valid
+        exchange.dynamic_brake[i] = wheelsets[i].dynamic_brake
         exchange.hold[i] = 0
         exchange.vent[i] = 0
+        exchange.dynamic_reduction[i] = 0.0 if p.controller_contract > 1 else UNTOUCHED
+        exchange.sand_request[i] = 0
 
 
-def read_outputs(exchange: Any, car: Car, wheelsets: Sequence[Wheelset]) -> None:
-    """Set the valve commands; a command that no valve has is a failure."""
-    if exchange.guard != GUARD:
+def read_outputs(exchange: Any, car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Set what the controller commands and requests; a command that no valve has is a failure."""
+    if exchange.guard != GUARD or (p.controller_contract == 1 and _was_touched(exchange)):
         exchange.failure = WROTE_BEYOND
     car.reference_speed = exchange.reference_speed
     car.diagnosis = exchange.diagnosis
@@ -87,6 +96,34 @@ def read_outputs(exchange: Any, car: Car, wheelsets: Sequence[Wheelset]) -> None
             exchange.failure = problem
             exchange.failed_wheelset = i
         wheelsets[i].valve_command = VENT if vent == 1 else (HOLD if hold == 1 else FILL)
+    if p.controller_contract > 1:
+        _read_version_2(exchange, car, wheelsets)
+
+
+def _was_touched(exchange: Any) -> bool:
+    """Whether a controller of version 1 has written where the outputs of version 2 go on."""
+    touched = False
+    for i in range(4):
+        touched = touched or exchange.dynamic_reduction[i] != UNTOUCHED
+    return touched
+
+
+def _read_version_2(exchange: Any, car: Car, wheelsets: Sequence[Wheelset]) -> None:
+    for i in range(4):
+        reduction = exchange.dynamic_reduction[i]
+        sand = exchange.sand_request[i]
+        problem = NO_FAILURE if 0.0 <= reduction <= 1.0 else NO_REDUCTION  # not a number: no reduction
+        if sand < 0 or sand > 1:
+            problem = NO_REQUEST
+        if problem != NO_FAILURE and exchange.failure == NO_FAILURE:
+            exchange.failure = problem
+            exchange.failed_wheelset = i
+        wheelsets[i].dynamic_reduction = reduction
+        wheelsets[i].sand_request = sand
+    request = exchange.track_brake_request
+    if (request < 0 or request > 1) and exchange.failure == NO_FAILURE:
+        exchange.failure = NO_REQUEST
+    car.track_brake_request = request
 
 
 def _problem(hold: int, vent: int) -> int:

@@ -119,6 +119,7 @@ def command_valve(wheelset: Wheelset, p: Parameters) -> None:
     command = select(p.wsp_active == 0, FILL, wheelset.valve_command)
     register = remember(wheelset.command_register, command)
     wheelset.valve_command = command
+    wheelset.dynamic_reduction *= select(p.wsp_active == 0, 0.0, p.has_dynamic_brake)
     wheelset.command_register = register
     before = command_before(register, wheelset.valve_delay_cycles + 1)
     after = command_before(register, wheelset.valve_delay_cycles)

@@ -4,8 +4,10 @@ The friction demand is one for the car, since one brake line feeds its four whee
 car can give at the speed of the train is taken off it, whether or not they all can use it. The friction
 brake replaces what fade-out, power limit or a failure take, through the dynamics of its line.
 
-A controller that cannot reduce the dynamic brake loses it: with its first hold or vent the dynamic brake of
-the car drops, for the rest of the application, and the friction brake takes over.
+A controller of contract version 2 takes a share of it off single wheelsets, which the friction brake does not
+replace: the blending counts on what is available. One of version 1 cannot and loses it: with its first hold
+or vent the dynamic brake of the car drops, for the rest of the application, and the friction brake takes
+over.
 """
 
 from collections.abc import Sequence
@@ -29,7 +31,8 @@ def start_dynamic_brake(wheelset: Wheelset, number: int, p: Parameters) -> None:
 
 def demand_dynamic_brake(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Divide the force that the command asks for between both brakes, for the coming cycle; scalar code."""
-    _drop_if_wheels_slide(car, wheelsets)
+    if p.controller_contract == 1:
+        _drop_if_wheels_slide(car, wheelsets)
     pressure = demanded_pressure(car.time, p.commanded_pressure, p.dead_time, p.filling_rate)
     wanted = p.force_per_pressure * maximum(pressure - p.zero_force_pressure, 0.0)
     available = 0.0
@@ -60,8 +63,10 @@ def _available(wheelset: Wheelset, car: Car, p: Parameters) -> float:
 
 def _follow(wheelset: Wheelset, car: Car, request: float, p: Parameters) -> None:
     """Let the effort of a motor follow what is asked of it; a failed one gives nothing at once."""
-    effort = wheelset.motor_effort + p.motor_response * (request - wheelset.motor_effort)
+    wanted = request * (1.0 - wheelset.dynamic_reduction)
+    effort = wheelset.motor_effort + p.motor_response * (wanted - wheelset.motor_effort)
     wheelset.motor_effort = (1.0 - car.dynamic_failed) * effort
+    wheelset.dynamic_brake = wheelset.motor_effort if wheelset.motor_force > 0.0 else 0.0
 
 
 def brake_dynamically(wheelsets: Sequence[Wheelset], p: Parameters) -> None:

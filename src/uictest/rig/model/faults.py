@@ -116,7 +116,10 @@ def _falsify(wheelset: Wheelset, car: Car, p: Parameters, k: int) -> None:
 
 
 def silence_controller(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    """While no command reaches the valves, let them keep the last one, and fill once that lasts too long."""
+    """While no command reaches the valves, let them keep the last one, and fill once that lasts too long.
+
+    So it is with the reduction of the dynamic brake, which then comes back.
+    """
     silent = False
     released = False
     for k in range(p.fault_count):
@@ -125,10 +128,13 @@ def silence_controller(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -
             released = released or car.silent_cycles >= p.fault_release_cycles[k]
     car.silent_cycles = car.silent_cycles + 1 if silent else 0
     for i in range(4):
+        wheelset = wheelsets[i]
         if silent:
-            wheelsets[i].valve_command = FILL if released else wheelsets[i].kept_command
+            wheelset.valve_command = FILL if released else wheelset.kept_command
+            wheelset.dynamic_reduction = 0.0 if released else wheelset.kept_reduction
         else:
-            wheelsets[i].kept_command = wheelsets[i].valve_command
+            wheelset.kept_command = wheelset.valve_command
+            wheelset.kept_reduction = wheelset.dynamic_reduction
 
 
 def limit_valves(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:

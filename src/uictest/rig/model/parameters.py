@@ -50,6 +50,9 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     wsp_active: int = derived()  # 0: the valves always fill
     demand_per_pressure: float = derived()  # share of full service per demanded pressure, 1/Pa
     controller: int = derived()  # number of rig.model.controller.CHOICES
+    controller_contract: int = (
+        derived()
+    )  # version that the controller keeps; from outside: said where it is opened
     # a controller from outside: addresses, set where it is opened
     controller_step: int = derived()
     controller_handle: int = derived()

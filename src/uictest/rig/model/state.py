@@ -3,7 +3,7 @@
 SI units; pressures are absolute unless named gauge. The order of fields carries no meaning.
 """
 
-from uictest.controllers import CONTROLLERS, ControlledWheelset, TrainMemory
+from uictest.controllers import CONTROLLERS, BrakedTrain, BrakedWheelset
 from uictest.core.record import Record, layout_of
 from uictest.rig.model.wheelset_parameters import WheelsetParameters
 
@@ -23,7 +23,7 @@ class Frame(Record):
     moment: float  # N m
 
 
-class Car(Frame, TrainMemory):
+class Car(Frame, BrakedTrain):
     """State of the car body, the air supply and the ledgers."""
 
     steps: float  # done so far
@@ -79,7 +79,7 @@ class Bogie(Frame):
     ahead: float  # of the car body's centre, m
 
 
-class Wheelset(ControlledWheelset, WheelsetParameters):
+class Wheelset(BrakedWheelset, WheelsetParameters):
     """State of one wheelset and its module; four of them, numbered from the leading end."""
 
     has_caliper: float  # 1 when its module has a real caliper, 0 when it is a tank
@@ -140,6 +140,7 @@ class Wheelset(ControlledWheelset, WheelsetParameters):
     held_pressure: float  # the last reading of that, gauge, Pa
     shown_pressure: float  # to the controller, gauge, Pa
     kept_command: int  # the last that reached the valve
+    kept_reduction: float  # the last that reached the motor
     tank_leak: float  # conductance of its leaks, m3/(s Pa)
     leaked_air: float  # kg
     leaked_enthalpy: float  # J

@@ -66,6 +66,8 @@ def start(
         start_module(wheelsets[i], select(i < p.calipers, 1.0, 0.0), p)
         wheelsets[i].ahead = side * p.half_wheelbase
         wheelsets[i].behind = p.half_pivot_distance - bogie.ahead + p.half_wheelbase * (1.0 - side)
+    car.axle_load = 2.0 * p.static_wheel_load
+    car.brake_command = p.commanded_pressure * p.demand_per_pressure
     begin(car, wheelsets, p)
     car.initial_energy = stored_energy(car, bogies, wheelsets, p)
     car.initial_air = stored_air(car, wheelsets)
@@ -254,7 +256,7 @@ def step_stop(
         begin_stop(car, bogies, wheelsets, p, wheelset_parameters, memory, measures, wheelset_measures)
     else:
         exchange.failure = NO_FAILURE
-        read_outputs(exchange, car, wheelsets)
+        read_outputs(exchange, car, wheelsets, p)
         if exchange.failure != NO_FAILURE:
             return rows
         rows = finish_cycle(

@@ -17,6 +17,7 @@ class TrainSample(Record):
     speed: float = channel("m/s")
     reference_speed: float = channel("m/s")
     diagnosis: float = channel("1")  # 32 bits of a controller from outside, as a number
+    track_brake_request: float = channel("1")  # 1 while the controller asks for the track brake
     active_faults: float = channel("1")  # one bit for each fault of the list, as a number
     demanded_pressure: float = channel("Pa")
     brake_line_pressure: float = channel("Pa")
@@ -37,6 +38,8 @@ class WheelsetSample(Record):
     valve_command: float = channel("1")  # 0 fill, 1 hold, 2 vent
     hold_magnet: float = channel("1")  # 1 while the valve is commanded to hold or to vent
     vent_magnet: float = channel("1")  # 1 while it is commanded to vent
+    dynamic_reduction: float = channel("1")  # share that the controller takes off the dynamic brake
+    sand_request: float = channel("1")  # 1 while the controller asks for sand
     tank_pressure: float = channel("Pa")
     cylinder_pressure: float = channel("Pa")  # measured, or computed by the cylinder dynamics
     stroke: float = channel("m")
@@ -56,10 +59,13 @@ WHEELSET_CHANNELS = units_of(WheelsetSample)
 """Channels of each wheelset and their units."""
 DISC_CHANNELS = ("disc_temperature", "disc_surface_temperature")
 """Channels of each wheelset that mean something only where the temperature of the discs is modelled."""
-DYNAMIC_BRAKE_CHANNELS = ("dynamic_torque",)
+DYNAMIC_BRAKE_CHANNELS = ("dynamic_torque", "dynamic_reduction")
 """Channels of each wheelset that mean something only where the car has a dynamic brake."""
 CONTROLLER_CHANNELS = ("diagnosis",)
 """Channels of the train that mean something only where the controller comes from outside."""
+REQUEST_CHANNELS = ("track_brake_request", "sand_request")
+"""Channels of the train and of each wheelset that mean something only where a controller from outside is of
+contract version 2."""
 FAULT_CHANNELS = ("active_faults", "speed_valid")
 """Channels of the train and of each wheelset that mean something only in stops with faults."""
 TRAIN_SAMPLE = layout_of(TrainSample)
@@ -91,6 +97,7 @@ def _sample_train(row: TrainSample, car: Car, p: Parameters) -> None:
     row.speed = car.speed
     row.reference_speed = car.reference_speed
     row.diagnosis = car.diagnosis
+    row.track_brake_request = car.track_brake_request
     row.active_faults = car.active_faults
     row.demanded_pressure = car.demanded_pressure
     row.brake_line_pressure = car.line_pressure - p.atmospheric_pressure
@@ -110,6 +117,8 @@ def _sample_wheelset(row: WheelsetSample, wheelset: Wheelset, car: Car, p: Param
     row.valve_command = wheelset.valve_command
     row.hold_magnet = 0.0 if wheelset.valve_command == FILL else 1.0
     row.vent_magnet = 1.0 if wheelset.valve_command == VENT else 0.0
+    row.dynamic_reduction = wheelset.dynamic_reduction
+    row.sand_request = wheelset.sand_request
     row.tank_pressure = wheelset.pressure - p.atmospheric_pressure
     row.cylinder_pressure = wheelset.compensated_pressure
     row.stroke = wheelset.stroke

@@ -74,6 +74,7 @@ class PlainInstance(CalledInstance):
     def __init__(self, controller: Controller, parameters: Any, config: Config) -> None:
         super().__init__()
         self._controller = controller
+        self.contract = controller.contract
         self._parameters = parameters
         self._initial_speed = config.initial_speed
 

@@ -150,10 +150,12 @@ def open_fmu():
 def ask():
     """Ask a controller for its answer to four speeds; a failure is a ControllerError."""
 
-    def asked(instance, *speeds, cycle=0):
+    def asked(instance, *speeds, cycle=0, **more):
         exchange = np.zeros(1, EXCHANGE)[0]
         exchange["cycle"], exchange["time"], exchange["wheel_speed"] = cycle, cycle * CYCLE_TIME, speeds
         exchange["speed_valid"] = 1
+        for name, value in more.items():
+            exchange[name] = value
         address = exchange.__array_interface__["data"][0]
         if STEP(instance.step_address)(instance.handle, address, address + OUTPUTS_AT):
             raise ControllerError(instance.last_error())

@@ -104,6 +104,36 @@ def test_everything_else_that_a_controller_is_given_is_set_where_there_is_a_vari
     assert shown == {"time": 0.03, "brake_demand": 0.0, "initial_speed": 20.0}
 
 
+def test_an_fmu_with_a_reduction_is_of_version_2_of_the_contract(make_fmu, started, fmi):
+    """Outputs show the places of inputs: the reduction what each motor gives, the estimate the load."""
+    real, whole = {2: "Real", 3: "Float64"}[fmi], {2: "Boolean", 3: "Int8"}[fmi]
+    listed = make_fmu.variables(
+        fmi,
+        axle_load=(45, "input", real),
+        seen=(45, "output", real),
+        **{f"motor{n}": (40 + n, "input", real) for n in (1, 2, 3, 4)},
+        **{f"dynamic_reduction_{n}": (40 + n, "output", real) for n in (1, 2, 3, 4)},
+        **{f"sand_request_{n}": (20 + n, "output", whole) for n in (1, 2, 3, 4)},
+    )
+    names = {"dynamic_brake": "motor%d", "reference_speed": "seen"}
+    ask = started(make_fmu(fmi, listed), {"threshold": 10.0}, **names)
+    answer = ask(*SPEEDS, dynamic_brake=[0.5, 0.25, 0.0, 1.0], axle_load=9e4)
+    assert answer["dynamic_reduction"].tolist() == [0.5, 0.25, 0.0, 1.0]
+    assert (answer["reference_speed"], answer["sand_request"].tolist()) == (9e4, [0, 1, 0, 1])
+    assert magnets(answer) == VENTS_TWO_AND_FOUR
+
+
+def test_what_only_version_2_has_is_not_set_in_an_fmu_of_version_1(make_fmu, open_fmu, ask, fmi):
+    real = {2: "Real", 3: "Float64"}[fmi]
+    listed = make_fmu.variables(fmi, axle_load=(43, "input", real), seen=(43, "output", real))
+    path = make_fmu(fmi, listed)
+    instance = open_fmu(path, reference_speed="seen")
+    instance.reset()
+    assert (instance.contract, ask(instance, *SPEEDS, axle_load=9e4)["reference_speed"]) == (1, 0.0)
+    message = "has no output dynamic_reduction: without it variables.axle_load has no use"
+    assert refused(open_fmu, path, axle_load="axle_load") == message
+
+
 def test_a_diagnosis_with_a_sign_is_its_32_bits(make_fmu, started):
     """The place of `late` is shown as the diagnosis."""
     listed = make_fmu.variables(2, diagnosis=(34, "output", "Integer"))

@@ -1,11 +1,10 @@
 /* A built-in controller behind uictest_controller.h: its machine code, which is linked with this file. */
+#include "memory.h"
 #include "uictest_controller.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "memory.h"
 
 static const struct {
     const char *key;

@@ -1,5 +1,7 @@
-/* A controller behind uictest_controller.h, in the shared library that lies beside this one. */
+/* A controller behind uictest_controller.h, in the shared library that lies beside this one. One of version 1
+ * reads and writes the first part of inputs and outputs. */
 #define _GNU_SOURCE
+#define UICTEST_ABI_VERSION 2
 #include "instance.h"
 
 #include <dlfcn.h>

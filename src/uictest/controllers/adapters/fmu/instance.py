@@ -1,5 +1,8 @@
 """An FMU as a controller for one stop, by our names of variables or by those that the scenario gives.
 
+An FMU with the output ``dynamic_reduction`` is of version 2 of the contract; any other is of version 1, and
+what only version 2 has is then neither set nor read.
+
 An FMU is instantiated once per thread and reset between stops: some tools' FMUs fail after a thousand
 instances. Each thread unpacks a copy of its library, so that static variables are not shared.
 """
@@ -47,6 +50,20 @@ OUTPUTS: Final = (
     Declared("diagnosis", "output", is_whole=True),
 )
 """Read in every cycle."""
+REDUCTION: Final = Declared("dynamic_reduction", "output", WHEELSETS)
+"""What makes an FMU one of version 2."""
+INPUTS_2: Final = (
+    Declared("dynamic_brake", "input", WHEELSETS),
+    Declared("axle_load", "input"),
+    Declared("brake_command", "input"),
+)
+"""Set in every cycle as well, in version 2."""
+OUTPUTS_2: Final = (
+    REDUCTION,
+    Declared("sand_request", "output", WHEELSETS, is_whole=True),
+    Declared("track_brake_request", "output", is_whole=True),
+)
+"""Read in every cycle as well, in version 2."""
 _BITS: Final = 0xFFFF_FFFF
 
 
@@ -77,7 +94,7 @@ class FmuInstance(CalledInstance):
     def __init__(self, slave: Slave, idle: list[Slave], config: Config, names: Mapping[str, str]) -> None:
         super().__init__()
         slave.check_step_size(config.cycle_time)
-        known = [declared.name for declared in (*INPUTS, *CONSTANTS, *OUTPUTS)]
+        known = [declared.name for declared in (*INPUTS, *CONSTANTS, *OUTPUTS, *INPUTS_2, *OUTPUTS_2)]
         for name in names:
             if name not in known:
                 raise ControllerError(f"has no use for variables.{name}; the keys are {', '.join(known)}")
@@ -85,8 +102,16 @@ class FmuInstance(CalledInstance):
         self._slave = slave
         self._idle = idle
         self._config = config
+        self.contract = 2 if bind(slave.description, (REDUCTION,), names) else 1
+        added = (INPUTS_2, OUTPUTS_2) if self.contract > 1 else ((), ())
+        for each in (*INPUTS_2, *OUTPUTS_2):
+            if self.contract == 1 and each.name in names:
+                raise ControllerError(
+                    f"has no output {REDUCTION.name}: without it variables.{each.name} has no use"
+                )
         inputs, constants, outputs = (
-            bind(slave.description, declared, names) for declared in (INPUTS, CONSTANTS, OUTPUTS)
+            bind(slave.description, declared, names)
+            for declared in ((*INPUTS, *added[0]), CONSTANTS, (*OUTPUTS, *added[1]))
         )
         parameters, self._parameter_values = bound_parameters(slave, config.parameters)
         self._inputs = grouped(slave, inputs)
@@ -120,6 +145,9 @@ class FmuInstance(CalledInstance):
             "vent": [0] * WHEELSETS,
             "reference_speed": [math.nan],
             "diagnosis": [0],
+            "dynamic_reduction": [0.0] * WHEELSETS,
+            "sand_request": [0] * WHEELSETS,
+            "track_brake_request": [0],
         }
         with self._slave.checked():
             self._set_inputs(inputs)
@@ -127,7 +155,11 @@ class FmuInstance(CalledInstance):
             for group in self._outputs:
                 group.get(read)
         hold, vent = (_magnets(read[name], self._magnets[name]) for name in ("hold", "vent"))
-        return Outputs(hold, vent, read["reference_speed"][0], _bits(read["diagnosis"][0]))
+        answer = Outputs(hold, vent, read["reference_speed"][0], _bits(read["diagnosis"][0]))
+        if self.contract > 1:
+            answer.dynamic_reduction, answer.sand_request = read["dynamic_reduction"], read["sand_request"]
+            answer.track_brake_request = read["track_brake_request"][0]
+        return answer
 
     def close(self) -> None:
         """Keep the FMU for the next stop of this thread; one that has failed is released."""
@@ -144,6 +176,9 @@ class FmuInstance(CalledInstance):
             "brake_demand": (inputs.brake_demand,),
             "time": (inputs.time,),
             "cycle": (inputs.cycle,),
+            "dynamic_brake": inputs.dynamic_brake,
+            "axle_load": (inputs.axle_load,),
+            "brake_command": (inputs.brake_command,),
         }
         _set(self._inputs, values)
 

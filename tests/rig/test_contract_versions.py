@@ -1,0 +1,239 @@
+"""Versions of the contract of controllers: what version 2 does to the dynamic brake, and that 1 stays.
+
+Stops are run in this process; every kind of controller is opened as in any stop.
+"""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from uictest.controllers import HEADER, ControllerError
+from uictest.plans.scenario import load
+from uictest.rig.assembly import assemble
+from uictest.rig.external.block import BlockInputs, run_block
+from uictest.rig.external.in_process import run_in_process
+from uictest.rig.simulation import simulate
+
+SLIP_BAND = Path(__file__).parents[1] / "sweeps" / "controllers" / "slip_band.py"
+SCENARIO = """\
+schema: uictest/scenario/1
+name: stop
+initial_speed: 60 km/h
+brake: {dynamic: {force: 60 kN, power: 1.6 MW}}
+"""
+SLIPPERY = "rail: {condition: wet, friction: 0.07}\n"
+PYTHON = """\
+from uictest.controllers import Outputs
+class Wsp:
+    contract = 2
+    def __init__(self, config): pass
+    def reset(self): pass
+    def step(self, inputs):
+        late = inputs.cycle >= 600
+        answer = Outputs([0, 0, 0, int(late)], [0] * 4, dynamic_reduction=[0, float(late), 0, 0.25])
+        {change}
+        return answer
+"""
+C = """\
+#define UICTEST_ABI_VERSION 2
+#include "uictest_controller.h"
+uint32_t uictest_abi_version(void) { return UICTEST_ABI_VERSION; }
+void *uictest_create(const uictest_config *config) { (void)config; static int any; return &any; }
+int32_t uictest_reset(void *controller) { (void)controller; return 0; }
+int32_t uictest_step(void *controller, const uictest_inputs *inputs, uictest_outputs *outputs)
+{
+    (void)controller;
+    outputs->hold[3] = inputs->cycle >= 600;
+    outputs->dynamic_reduction[1] = inputs->cycle >= 600;
+    outputs->dynamic_reduction[3] = 0.25;
+    CHANGE
+    return 0;
+}
+void uictest_destroy(void *controller) { (void)controller; }
+const char *uictest_last_error(void *controller) { (void)controller; return ""; }
+"""
+
+
+@pytest.fixture
+def stop_of(tmp_path, monkeypatch):
+    """What the rig is given for a stop with a controller; more lines of YAML say how it differs."""
+    monkeypatch.chdir(tmp_path)
+
+    def case(controller, extra=""):
+        path = tmp_path / "stop.yaml"
+        path.write_text(f"{SCENARIO}{extra}controller: {controller}\n")
+        return load([path])[0]
+
+    return case
+
+
+@pytest.fixture
+def python(tmp_path):
+    """Write the class, changed in its last line but one."""
+
+    def written(change="pass", name="wsp.py", text=PYTHON):
+        (tmp_path / name).write_text(text.format(change=change) if "{change}" in text else text)
+        return f"{{python: {name}, class: Wsp}}"
+
+    return written
+
+
+@pytest.fixture
+def library(tmp_path):
+    """Compile the same in C."""
+
+    def built(change="", name="libwsp.so"):
+        compiler = shutil.which("gcc")
+        if compiler is None:
+            pytest.skip("no C compiler")
+        (tmp_path / "wsp.c").write_text(C.replace("CHANGE", change))
+        options = ["-O1", "-fPIC", "-shared", f"-I{HEADER.parent}", "-o", name, "wsp.c"]
+        subprocess.run([compiler, *options], cwd=tmp_path, check=True)
+        return f"{{library: {name}}}"
+
+    return built
+
+
+def bits(stop):
+    return stop.measures.tobytes() + stop.wheelset_measures.tobytes()
+
+
+def test_a_reduction_takes_the_brake_of_its_wheelset_within_the_response_and_of_no_other(stop_of, python):
+    """With a lag of 0.3 s, exp(-5) is left of it after 1.5 s; a hold does not drop the dynamic brake."""
+    stop = run_in_process(assemble(stop_of(python())), 20)
+    train, torque = stop.trace.train, stop.trace.wheelsets["dynamic_torque"]
+    before, after = np.searchsorted(train["time"], [5.99, 7.5])
+    share = torque[after] / torque[before]
+    assert share[1] == pytest.approx(np.exp(-5.0), rel=0.05)
+    # What each of the others gives is limited by the demand, and by how the train slows down meanwhile.
+    assert share[0] == pytest.approx(share[2], rel=1e-3)
+    assert share[0] > 0.9
+    assert torque[after, 3] / torque[after, 0] == pytest.approx(0.75, rel=1e-3)
+    assert abs(stop.measures.energy_residual) < 1e-9
+    assert stop.car.dynamic_dropped == 0.0
+
+
+def test_what_it_is_given_is_what_the_motor_gives_and_the_load_of_an_axle(stop_of, python):
+    shown = (
+        "answer.reference_speed = [inputs.dynamic_brake[1], inputs.axle_load, inputs.brake_command,"
+        " inputs.brake_demand][inputs.cycle % 4]"
+    )
+    case = stop_of(python(shown))
+    inputs = assemble(case)
+    stop = run_in_process(inputs, 20)
+    seen = stop.trace.train["reference_speed"][1:]  # behind each cycle, of which the answer holds
+    load_of_axle = case.scenario.vehicle.total_mass * 9.80665 / 4.0
+    assert seen[1::4] == pytest.approx(load_of_axle)
+    assert seen[2::4] == pytest.approx(1.0)
+    assert seen[3] == 0.0  # the demand follows the command with the delays of the brake
+    effort = seen[0::4]
+    assert effort.max() <= 1.0
+    assert effort[149] > 0.5
+    assert effort[300:].max() < 1e-3
+
+
+def test_requests_are_recorded_of_version_2_alone(stop_of, python):
+    asking = "answer.sand_request, answer.track_brake_request = [0, 0, 1, 0], late"
+    recording = simulate(stop_of(python(asking)), 0.1, run_in_process).recording
+    assert recording is not None
+    time = recording["time"]
+    assert set(recording["sand_request_3"]) == {1.0}
+    assert set(recording["sand_request_1"]) == {0.0}
+    assert np.array_equal(recording["track_brake_request"], (time > 6.0 + 1e-9).astype(float))
+    assert np.array_equal(recording["dynamic_reduction_2"], (time > 6.0 + 1e-9).astype(float))
+    of_version_1 = PYTHON.replace("    contract = 2\n", "").format(change="answer.dynamic_reduction = None")
+    old = simulate(stop_of(python(text=of_version_1)), 0.1, run_in_process).recording
+    assert old is not None
+    added = {"track_brake_request", *(f"sand_request_{n}" for n in (1, 2, 3, 4))}
+    assert recording.channels.keys() - old.channels.keys() == added
+
+
+def test_a_library_gives_the_bits_of_the_class_alone_and_in_lanes(stop_of, python, library):
+    case = stop_of(python(), SLIPPERY)
+    expected = run_in_process(assemble(case))
+    other = assemble(stop_of(library(), SLIPPERY))
+    assert bits(run_in_process(other)) == bits(expected)
+    stops = [other, assemble(stop_of("threshold", SLIPPERY)), assemble(case)]
+    programs, configs = ([getattr(each, name) for each in stops] for name in ("program", "config"))
+    records = ("parameters", "wheelset_parameters", "rail")
+    block = BlockInputs(
+        programs, configs, *(np.array([getattr(each, name) for each in stops]) for name in records)
+    )
+    run = run_block(block)
+    assert run.failures == ["", "", ""]
+    for place in (0, 2):
+        own = run.measures[place].tobytes() + run.wheelset_measures[place].tobytes()
+        assert own == bits(expected)
+
+
+def test_a_controller_of_version_1_has_the_bits_of_the_one_that_is_built_in(stop_of, tmp_path):
+    """Beside a dynamic brake, which it loses."""
+    shutil.copy(SLIP_BAND, tmp_path)
+    built_in = run_in_process(assemble(stop_of("slip-band", SLIPPERY)))
+    outside = run_in_process(assemble(stop_of("{python: slip_band.py, class: SlipBand}", SLIPPERY)))
+    assert bits(outside) == bits(built_in)
+    assert (outside.contract, outside.car.dynamic_dropped) == (1, 1.0)
+
+
+NO_SHARE = r"^the reduction of the dynamic brake of wheelset 3 is %s, expected 0 to 1 \(cycle 650\)$"
+AT = "if inputs.cycle == 650: "
+IN_PYTHON = {
+    f"{AT}answer.dynamic_reduction[2] = float('nan')": NO_SHARE % "nan",
+    f"{AT}answer.dynamic_reduction[2] = 1.01": NO_SHARE % r"1\.01",
+    f"{AT}answer.dynamic_reduction[2] = -1e-9": NO_SHARE % "-1e-09",
+    f"{AT}answer.dynamic_reduction = [0.0]": r"dynamic_reduction has 1 values, expected 4 \(cycle 650\)$",
+    f"{AT}answer.dynamic_reduction[2] = 'all'": r"dynamic_reduction\[2\] is 'all', expected a number",
+    f"{AT}answer.sand_request = [0, 2, 0, 0]": r"sand_request\[1\] is 2, expected 0 or 1 \(cycle 650\)$",
+    f"{AT}answer.track_brake_request = 7": r"track_brake_request is 7, expected 0 or 1 \(cycle 650\)$",
+}
+IN_C = {
+    "outputs->dynamic_reduction[2] = 0.0 / 0.0;": NO_SHARE.replace("650", "0") % "-?nan",
+    "outputs->sand_request[3] = 2;": r"^a request .* sand at wheelset 4 2, track brake 0 \(cycle 0\)$",
+    "outputs->track_brake_request = -1;": r"^a request .*, track brake -1 \(cycle 0\)$",
+    "((char *)(outputs + 1))[0] = 0;": r"^the controller wrote beyond its outputs \(cycle 0\)$",
+}
+
+
+@pytest.mark.parametrize("change", IN_PYTHON)
+def test_what_is_no_reduction_or_request_ends_the_stop(stop_of, python, change):
+    with pytest.raises(ControllerError, match=IN_PYTHON[change]):
+        run_in_process(assemble(stop_of(python(change))))
+
+
+@pytest.mark.parametrize("change", IN_C)
+def test_what_is_no_reduction_or_request_in_c_ends_the_stop(stop_of, library, change):
+    with pytest.raises(ControllerError, match=IN_C[change]):
+        run_in_process(assemble(stop_of(library(change))))
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "message"),
+    [
+        ("    contract = 2\n", "", "dynamic_reduction belongs to contract version 2, and the controller is"),
+        ("contract = 2", "contract = 3", "class Wsp is of contract version 3, expected 1 or 2"),
+        ("contract = 2", "contract = '2'", "class Wsp is of contract version '2', expected 1 or 2"),
+    ],
+)
+def test_a_version_that_is_not_stated_or_unknown_is_said(stop_of, python, before, after, message):
+    controller = python(text=PYTHON.replace(before, after).replace("{change}", "pass"))
+    with pytest.raises(ControllerError, match=message):
+        run_in_process(assemble(stop_of(controller)))
+
+
+def test_with_the_wsp_bypassed_nothing_is_taken_off(stop_of, python):
+    stop = run_in_process(assemble(stop_of(python(), "rig: {wsp: bypassed}\n")), 20)
+    assert not stop.trace.wheelsets["dynamic_reduction"].any()
+    assert np.ptp(stop.trace.wheelsets["dynamic_torque"][700]) < 1.0
+
+
+def test_a_silent_controller_keeps_its_reduction_and_then_loses_it(stop_of, python):
+    fault = "faults: [{at: 6.5 s, until: 8 s, part: controller, kind: silent, value: 500 ms}]\n"
+    stop = run_in_process(
+        assemble(stop_of(python("answer.dynamic_reduction[1] *= inputs.time < 6.7"), fault)), 20
+    )
+    time, reduction = stop.trace.train["time"], stop.trace.wheelsets["dynamic_reduction"][:, 1]
+    assert reduction[(time > 6.01) & (time < 7.0)].min() == 1.0
+    assert reduction[time > 7.02].max() == 0.0
