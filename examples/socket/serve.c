@@ -2,9 +2,9 @@
  *
  *     gcc -O2 -ffp-contract=off -IFOLDER -o wsp serve.c wsp.c -lm && ./wsp 5025
  *
- * FOLDER is that of uictest_controller.h. wsp.c is the controller: put your own in its place. With port 0 the
- * system chooses one. One connection is served at a time, with a controller of its own. Frames are
- * little-endian, as this machine has to be; docs/socket.md describes them. */
+ * FOLDER is that of uictest_controller.h. Put your own controller, of either version, in the place of wsp.c. With
+ * port 0 the system chooses one. One connection is served at a time. Frames, little-endian: docs/socket.md. */
+#define UICTEST_ABI_VERSION 2                                  /* version 1 has the first part of its memory */
 #include "uictest_controller.h"
 
 #include <arpa/inet.h>
@@ -17,7 +17,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-enum { PROTOCOL_VERSION = 1, LARGEST_BODY = 65536, LARGEST_ANSWER = 1000 };
+enum { LARGEST_BODY = 65536, LARGEST_ANSWER = 1000, INPUTS_1 = 104, OUTPUTS_1 = 48 };
 
 typedef struct { char kind[4]; uint32_t size; uint64_t number; } header;
 typedef struct {                                               /* the parameters follow as JSON */
@@ -51,10 +51,9 @@ static int fail(int stream, const char *reason) {
 static int create(int stream) {
     const greeting *given = &body.greeting;
     uictest_config config = {UICTEST_WHEELSETS, 0, given->cycle_time, given->initial_speed, {0}, NULL};
-    program own = {PROTOCOL_VERSION, ""};
-    if (head.size < sizeof *given || given->version != PROTOCOL_VERSION
-        || given->inputs_size != sizeof(uictest_inputs) || given->outputs_size != sizeof(uictest_outputs))
-        return fail(stream, "expected protocol version 1");
+    program own = {uictest_abi_version(), ""};
+    int known = given->version == 1 && given->inputs_size == INPUTS_1 && given->outputs_size == OUTPUTS_1;
+    if (head.size < sizeof *given || !known) return fail(stream, "expected protocol version 1");
     memcpy(config.wheel_radius, given->wheel_radius, sizeof config.wheel_radius);
     body.bytes[head.size] = '\0';
     config.parameters = body.bytes + sizeof *given;
@@ -67,7 +66,8 @@ static int create(int stream) {
 static int step(int stream) {
     uictest_outputs out = {.reference_speed = NAN};
     int32_t status = uictest_step(controller, &body.inputs, &out);
-    return status ? fail(stream, uictest_last_error(controller)) : answer(stream, &out, sizeof out);
+    if (status) return fail(stream, uictest_last_error(controller));
+    return answer(stream, &out, uictest_abi_version() > 1 ? sizeof out : OUTPUTS_1);
 }
 
 static int serve(int stream) {                                 /* 0: the stop is over */

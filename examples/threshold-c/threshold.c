@@ -10,9 +10,13 @@
  * Readings beyond what a wheelset on a rail can do are rejected. A wheelset without a speed that can be
  * believed has no part in the estimate and gets the commands of the other wheelset of its bogie.
  *
+ * It keeps version 2 of the contract: a dynamic brake is taken off before a valve vents, and comes back while it
+ * refills.
+ *
  * All thresholds are parameters of the scenario, in SI units: see threshold.yaml. Compile with
  * -ffp-contract=off, or some processors round a product and a sum at once and the last bits differ.
  */
+#define UICTEST_ABI_VERSION 2
 #include "uictest_controller.h"
 
 #include <math.h>
@@ -23,6 +27,7 @@
 #include <string.h>
 
 enum { WHEELSETS = UICTEST_WHEELSETS };
+static const double TAKEN_OFF = 0.2, LEFT_OFF = 0.5; /* of a dynamic brake: no valve waits for less; refilling */
 
 typedef struct {
     double cycle_time;                  /* s */
@@ -313,6 +318,16 @@ static void probe(Controller *c)
     }
 }
 
+/* Share that a mode takes off the dynamic brake: all; LEFT_OFF and ever less while refilling. */
+static double reduction(const Wheelset *wheelset, const Parameters *p)
+{
+    if (wheelset->mode == REFILLING) {
+        double time_left = p->refill_time - wheelset->mode_cycles * p->cycle_time;
+        return LEFT_OFF * larger(time_left / p->refill_time, 0.0);
+    }
+    return wheelset->mode == FREE ? 0.0 : 1.0;
+}
+
 /* ---- parameters ---- */
 
 /* Read a number of a flat JSON object. */
@@ -402,9 +417,11 @@ int32_t uictest_step(void *controller, const uictest_inputs *inputs, uictest_out
     for (int i = 0; i < WHEELSETS; i++) {
         int other = i + 1 - 2 * (i % 2);
         const Wheelset *wheelset = &c->wheelsets[c->wheelsets[i].distrusted ? other : i];
-        outputs->vent[i] = wheelset->mode == VENTING || wheelset->mode == PROBING;
+        bool vents = wheelset->mode == VENTING || wheelset->mode == PROBING;
         bool pause = wheelset->mode == REFILLING && !fills(wheelset, p);
-        outputs->hold[i] = outputs->vent[i] || wheelset->mode == HOLDING || pause;
+        outputs->hold[i] = vents || wheelset->mode == HOLDING || pause;
+        outputs->vent[i] = vents && inputs->dynamic_brake[i] <= TAKEN_OFF;
+        outputs->dynamic_reduction[i] = reduction(wheelset, p);
     }
     outputs->reference_speed = c->reference_speed;
     return 0;

@@ -113,8 +113,9 @@ def with_controller():
 
 @pytest.fixture(scope="session")
 def shipped():
-    """Every shipped case with the threshold controller."""
-    cases = load([ROOT / "scenarios"])
+    """Every shipped case with the threshold controller, and one with a dynamic brake on a slippery rail."""
+    motors = ["brake.dynamic={force: 40 kN, power: 1 MW, wheelsets: [1, 2, 4]}", "rail.friction=0.07"]
+    cases = [*load([ROOT / "scenarios"]), *load([ROOT / "scenarios" / "slide-80.yaml"], motors)[-1:]]
     return [case for case in cases if case.scenario.controller.algorithm == DEFAULT]
 
 

@@ -114,7 +114,7 @@ class BuiltIn:
 
     def asked(self, speeds, valid):
         for wheelset, speed, sound in zip(self.wheelsets, speeds.tolist(), valid.tolist(), strict=True):
-            wheelset.measured_speed, wheelset.speed_valid = speed, sound
+            wheelset.measured_speed, wheelset.speed_valid, wheelset.dynamic_brake = speed, sound, 0.0
         threshold.decide(self.train, self.wheelsets, self.parameters)
         self.modes |= {wheelset.mode for wheelset in self.wheelsets}
         self.distrusted |= {wheelset.distrusted for wheelset in self.wheelsets}
