@@ -26,25 +26,41 @@ from uictest.core.recording.formats import isolation, reader
 _LONGEST = (
     "rig/backends/test_lanes.py",
     "api/test_page.py",
-    "docs/test_examples.py",
     "identification/test_cylinder.py",
     "rig/model/test_module_air.py",
-    "cli/test_closed_streams.py",
+    "docs/test_examples.py",
+    "rig/external/test_workers.py",
     "studies/test_bands.py",
     "cli/commands/test_sweep.py",
-    "cli/test_entry.py",
-    "rig/external/test_workers.py",
-    "conformance/test_checks.py",
+    "studies/experiments/test_independent_integration.py",
     "fitting/test_cleaning.py",
-    "ci/test_jobs.py",
+    "cli/test_closed_streams.py",
+    "public_sources/test_pages.py",
     "examples/test_fmu.py",
-    "sweeps/running/test_cluster.py",
+    "test_damaged_files.py",
+    "cli/commands/test_run_firm.py",
+    "recording/formats/test_hostile_files.py",
+    "recording/formats/test_isolation.py",
+    "conformance/test_checks.py",
+    "report/test_stop_browser.py",
+    "fmu/test_controller.py",
+    "cli/commands/test_controller.py",
+    "examples/test_threshold_c.py",
     "rig/backends/test_compiled.py",
+    "sweeps/running/test_cluster.py",
+    "rig/bench/test_identified_air.py",
+    "lanes/test_operators.py",
+    "cli/commands/test_compare_firm.py",
+    "pytest_plugin/test_reports.py",
+    "cli/commands/test_series.py",
+    "templates/test_controller.py",
+    "ci/test_jobs.py",
+    "cli/test_entry.py",
 )
 """Files that take longest. They begin first, lest one process works on them while the others are done.
 
-The first compiles what most others run. One process has the first and the third, the other the second, the
-fourth and the fifth, which run nothing of it: no process waits for what the other one compiles.
+The first compiles what most others run. The other process has the next three, which run nothing of it: it
+does not wait for what the first one compiles.
 """
 
 # How long an example takes says nothing about it on a machine that others use as well.
