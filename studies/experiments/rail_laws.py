@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FOUND = "wet"
-LAWS = (FOUND, "wet-varied", "wet-cleaning", "wet-curves", "leaf-layer")
+LAWS = (FOUND, "wet-varied", "wet-cleaning", "wet-curves", "leaf-layer", "leaf-film")
 """Rails of the library; the first keeps its friction, the second one at each place."""
-USED = ("wet-cleaning", "wet-curves", "leaf-layer")
+USED = ("wet-cleaning", "wet-curves", "leaf-layer", "leaf-film")
 """Those that sliding cleans."""
 CONTROLLERS = ("threshold", "slip-band")
 FRICTIONS = (0.04, 0.06, 0.10)
@@ -38,7 +38,7 @@ _LEAVES = "not asked; Lewis et al. (2023): ultra-low (at most 0.05), low over a 
 _LEAF_BAND = "Lewis et al. 2023, ultra-low as in Buckley-Johnstone et al. 2020"
 _LEAF_MISS = (
     "Friction rises in proportion to the worn share of the layer, so that the first tenth that is worn "
-    "counts as much as the last; a layer that stays as low where it is partly removed needs another law."
+    "counts as much as the last; the law of leaf-film counts what is left of it."
 )
 _SHORTER = "not asked; Allotta et al. (2014): sliding cleans the rail, and stops become shorter"
 _LONGER = (
@@ -111,17 +111,20 @@ def _quantities() -> Iterator[StudyQuantity]:
                 ),
                 digits=2,
             )
-    for stop in (1, *(after + 1 for after in AFTER)):
-        first = stop == 1
+    for law, stop in _LEAF_STOPS:
+        set_by, misses = stop == 1, law == "leaf-layer" and stop > 1
         yield StudyQuantity(
-            f"leaf_layer_adhesion_{stop}",
-            f"mean deceleration of stop {stop}, leaf-layer",
+            f"{_word(law)}_adhesion_{stop}",
+            f"mean deceleration of stop {stop}, {law}",
             "g",
             _LEAVES,
-            status="by construction" if first else "predicted",
-            band=SourceBand(upper=ULTRA_LOW, reason=_LEAF_BAND, declared_miss="" if first else _LEAF_MISS),
+            status="by construction" if set_by else "predicted",
+            band=SourceBand(upper=ULTRA_LOW, reason=_LEAF_BAND, declared_miss=_LEAF_MISS if misses else ""),
             digits=3,
         )
+
+
+_LEAF_STOPS = [(law, stop) for law in ("leaf-layer", "leaf-film") for stop in (1, *(n + 1 for n in AFTER))]
 
 
 def _word(law: str) -> str:
@@ -190,9 +193,9 @@ def _values(conditions: Sequence[Condition], used: Used) -> Iterator[tuple[str, 
         for controller in CONTROLLERS:
             ratios = [rail.distances[-1] / rail.distances[0] for rail in used[law, controller]]
             yield f"{_word(law)}_last_{controller}", spread(ratios)
-    for stop in (1, *(after + 1 for after in AFTER)):
-        found = [rail.adhesions[stop - 1] for rail in used["leaf-layer", CONTROLLERS[0]]]
-        yield f"leaf_layer_adhesion_{stop}", spread(found)
+    for law, stop in _LEAF_STOPS:
+        found = [rail.adhesions[stop - 1] for rail in used[law, CONTROLLERS[0]]]
+        yield f"{_word(law)}_adhesion_{stop}", spread(found)
 
 
 def turned(conditions: Sequence[Condition], law: str) -> list[Condition]:
@@ -222,7 +225,7 @@ def _notes(conditions: Sequence[Condition]) -> Iterator[str]:
         f"Stops on one rail: from {USED_SPEED} km/h, friction {USED_FRICTION:g} as found, threshold; the "
         "table has slip-band as well. Each meets the contact loss of all before it, spread evenly along the "
         "track. The other rails keep nothing. Median and range of the seeds, which change the sensors' noise "
-        "alone. How much a rail keeps is chosen for every law, for leaf-layer so that some ten stops wear it."
+        "alone. How much a rail keeps is chosen for every law, of leaves so that some ten stops wear them."
     )
 
 
@@ -259,7 +262,7 @@ def draw(conditions: Sequence[Condition], used: Used, figure: Figure) -> None:
     figure.set_size_inches(WIDTH, 2.8)
     left, right = figure.subplots(1, 2, width_ratios=(1.6, 1.0))
     _draw_ratios(left, conditions)
-    for law, colour in zip(USED, (BLUE, ORANGE, GREEN), strict=True):
+    for law, colour in zip(USED, (BLUE, ORANGE, GREEN, PINK), strict=True):
         found = [
             median(each) for each in zip(*(rail.found for rail in used[law, CONTROLLERS[0]]), strict=True)
         ]
