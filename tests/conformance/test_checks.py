@@ -82,6 +82,12 @@ def test_a_controller_that_breaks_a_fact_is_found(examine, before, after, expect
 
 
 @pytest.mark.usefixtures("here")
+def test_a_controller_of_version_2_that_reduces_no_motor_is_found(examine):
+    examination = examine("class MyWsp:\n", "class MyWsp:\n    contract = 2\n\n")
+    assert missed(examination) == {"motor-first"}
+    assert "motor-first" not in {each.id for each in examine().findings}
+
+
 def test_memory_that_controllers_share_is_found(examine):
     """A second controller must not begin where the first one is."""
     examination = examine("        self.reference_speed = self.initial_speed\n", SHARED)
@@ -146,7 +152,8 @@ def test_the_report_has_every_check_in_each_form(examine):
     table = list(report.document_lines(selftest.finding_document(examination), None))
     assert table[-2].startswith("fail vents-sliding: ")
     document = json.loads(selftest.findings_json(examination))
-    assert [each["id"] for each in document["checks"]] == [each.id for each in conformance.CHECKS]
+    of_version_1 = [each.id for each in conformance.CHECKS if each.contract == 1]
+    assert [each["id"] for each in document["checks"]] == of_version_1
     assert document["about"]["controller.version"] == "0.1.0"
     suite = ElementTree.fromstring(report.junit_text([selftest.findings_suite(examination)]))[0]
     assert suite.get("tests") == str(len(conformance.CHECKS))

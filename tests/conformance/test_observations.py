@@ -52,7 +52,12 @@ def observed(check_id, write, only="", wheelset=0):
     def sensor_lost(which):
         return answers("lost", situations.sensor_lost(CYCLE, which), which)
 
+    def motor_slides(which):
+        return answers("motor", situations.motor_slides(CYCLE, which), which)
+
     bench = SimpleNamespace(
+        contract=2,
+        motor_slides=motor_slides,
         subject=SimpleNamespace(config=SimpleNamespace(cycle_time=CYCLE)),
         good_rail=good_rail,
         one_slides=one_slides,
@@ -109,6 +114,60 @@ def test_a_slide_is_answered_by_the_first_vent_while_it_lasts(begin, end, value)
     third = "never" if value == NEVER else f"{value:.2f} s"
     assert found.words.endswith(f"wheelsets 1 to 4: never, never, {third}, never")
     assert found.value == NEVER
+
+
+def reduces(wheelset, begin, end):
+    """Take the dynamic brake off one wheelset from one time to another."""
+
+    def write(outputs, time):
+        outputs["dynamic_reduction"][(time > begin - 1e-6) & (time < end - 1e-6), wheelset] = 0.5
+
+    return write
+
+
+@pytest.mark.parametrize(("vented", "found"), [(3.2, "0.50 s"), (2.5, "never"), (2.2, "never")])
+def test_a_motor_is_reduced_before_its_valve_vents(vented, found):
+    """Wheelset 2 is asked alone; what happens at once does not come first."""
+
+    def write(outputs, time):
+        reduces(1, SLIDE_BEGINS + 0.5, 7.0)(outputs, time)
+        vents(1, vented, 7.0)(outputs, time)
+
+    observation = observed("motor-first", write, "motor", 1)
+    assert observation.words.endswith(f"wheelsets 1 to 4: never, {found}, never, never")
+    assert observation.value == NEVER
+
+
+def test_motors_of_the_other_bogie_are_left_alone():
+    assert observed("spares-motors", reduces(1, 3.0, 3.5), "motor", 0).value == 0
+    assert observed("spares-motors", reduces(1, 3.0, 3.5), "motor", 2).value == 10
+
+
+def test_a_motor_is_given_back_with_the_last_reduction_after_the_wheelset_rolls():
+    last, later = (observed("motor-back", reduces(0, 3.0, end), "motor").value for end in (9.0, 12.0))
+    assert last is not None
+    assert later == pytest.approx(last + 3.0)
+    assert 1.0 < last < 2.0
+    assert observed("motor-back", reduces(0, 3.0, 99.0), "motor").value == NEVER
+    assert observed("motor-back", nothing).value == 0.0
+
+
+@pytest.mark.parametrize(
+    ("field", "place", "value", "illegal"),
+    [
+        ("dynamic_reduction", (7, 2), 1.0, 0),
+        ("dynamic_reduction", (7, 2), 1.01, 1),
+        ("dynamic_reduction", (7, 2), float("nan"), 1),
+        ("sand_request", (7, 2), 1, 0),
+        ("sand_request", (7, 2), 2, 1),
+        ("track_brake_request", 7, -1, 1),
+    ],
+)
+def test_reductions_and_requests_have_their_range(field, place, value, illegal):
+    def write(outputs, time):
+        outputs[field][place] = value
+
+    assert observed("legal-commands", write, "rolls").value == illegal
 
 
 def test_wheelsets_that_are_vented_beside_the_one_that_slides_are_counted_by_cycles():

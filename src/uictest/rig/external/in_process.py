@@ -130,6 +130,9 @@ FILLING_TIME: Final = 2.0
 VENTING_TIME: Final = 0.6
 """Time from full service pressure to empty, s; chosen, likewise."""
 
+DYNAMIC_RESPONSE: Final = 0.3
+"""Time constant of a motor that follows what is asked of it, s; chosen, that of `brake.dynamic`."""
+
 Beginning = Literal["create", "reset"]
 """How a drive begins: with a new controller, or with the one of the drive before."""
 
@@ -141,7 +144,8 @@ class DriveRequest(NamedTuple):
         program: what is loaded.
         config: what it is given.
         inputs: its inputs, one :data:`~uictest.controllers.INPUTS` for each cycle. The cylinder pressure is
-            that of a brake which is never vented; valves make of it what the controller asks for.
+            that of a brake which is never vented, and the dynamic brake that of a motor which is never
+            reduced; valves and motors make of it what the controller asks for.
         beginnings: the drives through these cycles.
     """
 
@@ -203,13 +207,19 @@ def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float,
     seconds, answers = np.zeros(len(inputs)), bytearray()
     address = exchange.__array_interface__["data"][0]
     memory: Any = (ctypes.c_char * EXCHANGE.itemsize).from_address(address)
-    names = "cylinder_pressure", "hold", "vent", "dynamic_reduction", "sand_request"
-    pressure, hold, vent, reduction, sand = (exchange[name] for name in names)
+    names = "cylinder_pressure", "hold", "vent", "dynamic_reduction", "sand_request", "dynamic_brake"
+    pressure, hold, vent, reduction, sand, dynamic = (exchange[name] for name in names)
+    brakes, gain = bool(inputs["dynamic_brake"].any()), min(cycle_time / DYNAMIC_RESPONSE, 1.0)
+    effort = inputs["dynamic_brake"][:1].copy()
     untouched = UNTOUCHED if instance.contract == 1 else 0.0
     newest = [0.0] * len(pressure)
     for cycle, demanded in enumerate(inputs["cylinder_pressure"].tolist()):
         memory[:OUTPUTS_AT] = inputs[cycle].tobytes()
         pressure[:] = newest
+        if brakes:
+            wanted = dynamic * (1.0 - np.clip(reduction, 0.0, 1.0)) if cycle else dynamic
+            effort += gain * (wanted - effort)
+            dynamic[:] = effort[0]
         exchange["reference_speed"] = np.nan
         hold[:] = vent[:] = sand[:] = exchange["diagnosis"] = exchange["track_brake_request"] = 0
         reduction[:] = untouched

@@ -86,16 +86,25 @@ class PlainInstance(CalledInstance):
 
     def step(self, inputs: Inputs) -> Outputs:
         """Decide as in a stop."""
-        readings = zip(self._wheelsets, inputs.wheel_speed, inputs.speed_valid, strict=True)
-        for wheelset, speed, valid in readings:
+        self._train.axle_load, self._train.brake_command = inputs.axle_load, inputs.brake_command
+        readings = zip(
+            *(self._wheelsets, inputs.wheel_speed, inputs.speed_valid, inputs.dynamic_brake), strict=True
+        )
+        for wheelset, speed, valid, dynamic in readings:
             wheelset.measured_speed, wheelset.speed_valid = speed, int(valid)
+            wheelset.dynamic_brake = dynamic
         self._controller.decide(self._train, self._wheelsets, self._parameters)
         commands = [wheelset.valve_command for wheelset in self._wheelsets]
-        return Outputs(
+        outputs = Outputs(
             hold=[command != FILL for command in commands],
             vent=[command == VENT for command in commands],
             reference_speed=self._train.reference_speed,
         )
+        if self.contract > 1:
+            outputs.dynamic_reduction = [wheelset.dynamic_reduction for wheelset in self._wheelsets]
+            outputs.sand_request = [wheelset.sand_request for wheelset in self._wheelsets]
+            outputs.track_brake_request = self._train.track_brake_request
+        return outputs
 
 
 def _blank(record: Any) -> Any:
@@ -128,6 +137,11 @@ class Answers:
         return self.drives[0].outputs["vent"]
 
     @property
+    def reduction(self) -> Any:
+        """Shares taken off the dynamic brake, shape (cycles, wheelsets); of contract version 2 alone."""
+        return self.drives[0].outputs["dynamic_reduction"]
+
+    @property
     def reference_speed(self) -> Any:
         """Estimated speed of the train, m/s, shape (cycles,)."""
         return self.drives[0].outputs["reference_speed"]
@@ -139,6 +153,7 @@ class Bench:
     def __init__(self, subject: Subject) -> None:
         self.subject = subject
         self.version = ""
+        self.contract = 1 if subject.built_in is None else subject.built_in.contract
         self._cycle_time = subject.config.cycle_time
         self._driven: dict[str, Answers | ControllerError] = {}
         self.asked: dict[str, Answers] = {}
@@ -160,6 +175,13 @@ class Bench:
         """Answers while one wheelset slides, then rolls again."""
         return self._once(
             f"wheelset {wheelset + 1} slides", partial(situations.one_slides, wheelset=wheelset)
+        )
+
+    def motor_slides(self, wheelset: int) -> Answers:
+        """Answers while one wheelset slides under a dynamic brake, then rolls again."""
+        return self._once(
+            f"wheelset {wheelset + 1} slides under a dynamic brake",
+            partial(situations.motor_slides, wheelset=wheelset),
         )
 
     def locked(self, *wheelsets: int) -> Answers:
@@ -214,7 +236,7 @@ class Bench:
         if program is None:
             return tuple(self._drive_plain(situation) for _ in beginnings)
         drives = self._workers.drive(rig.DriveRequest(program, config, situation.inputs, beginnings))
-        self.version = drives.version
+        self.version, self.contract = drives.version, drives.contract
         return drives.drives
 
     def _drive_plain(self, situation: Situation) -> rig.Driven:

@@ -30,6 +30,7 @@ class Check:
         unit: of that value.
         observe: reads the value. Raises ControllerError.
         advisory: whether a larger value is only a warning.
+        contract: version of the contract from which on it is checked.
     """
 
     id: str
@@ -38,18 +39,29 @@ class Check:
     unit: str
     observe: Callable[[Bench], Observation]
     advisory: bool = False
+    contract: int = 1
 
 
 def _legal_commands(bench: Bench) -> Observation:
-    illegal = sum(
-        int(_illegal(driven.outputs).sum()) for each in bench.every_situation() for driven in each.drives
-    )
-    return Observation(illegal, "hold and vent are 0 or 1, and vent only with hold, whatever the inputs")
+    drives = [driven.outputs for each in bench.every_situation() for driven in each.drives]
+    illegal = sum(int(_illegal(outputs).sum()) for outputs in drives)
+    words = "hold and vent are 0 or 1, and vent only with hold"
+    if bench.contract > 1:
+        illegal += sum(int(_illegal_in_version_2(outputs).sum()) for outputs in drives)
+        words += ", reductions 0 to 1, requests 0 or 1"
+    return Observation(illegal, f"{words}, whatever the inputs")
 
 
 def _illegal(outputs: Any) -> Any:
     hold, vent = outputs["hold"], outputs["vent"]
     return (hold != 0) & (hold != 1) | (vent != 0) & (vent != 1) | (vent > hold)
+
+
+def _illegal_in_version_2(outputs: Any) -> Any:
+    shares, sand = outputs["dynamic_reduction"], outputs["sand_request"]
+    track_brake = outputs["track_brake_request"][:, np.newaxis]
+    asks_otherwise = ~np.isin(np.concatenate((sand, track_brake), axis=1), (0, 1))
+    return np.concatenate((~((shares >= 0.0) & (shares <= 1.0)), asks_otherwise), axis=1)
 
 
 def _same_after_reset(bench: Bench) -> Observation:
@@ -61,7 +73,7 @@ def _same_after_reset(bench: Bench) -> Observation:
 
 def _different(one: Any, other: Any) -> int:
     """Return in how many cycles answers differ by a bit; C may leave anything between and behind fields."""
-    names = [name for name in one.dtype.names if name != "padding"]
+    names = [name for name in one.dtype.names if not name.startswith("padding")]
     differs = np.zeros(len(one), bool)
     for name in names:
         first, second = (each[name].reshape(len(one), -1) for each in (one, other))
@@ -104,9 +116,7 @@ def _gives_back(bench: Bench) -> Observation:
 
 def _time_to_fill(answers: Answers, wheelset: int) -> float:
     """Return the time from rolling again until the last command that is not to fill, s."""
-    time, train = answers.situation.time, answers.situation.train_speed
-    speed = answers.situation.inputs["wheel_speed"][:, wheelset]
-    rolls = time[(time > ROLLS_AGAIN) & (speed > 0.99 * train)][0]
+    time, rolls = answers.situation.time, _rolls_at(answers, wheelset)
     acting = (answers.hold[:, wheelset] != 0) | (answers.vent[:, wheelset] != 0)
     if acting[-1]:
         return np.inf
@@ -157,6 +167,51 @@ def _short(seconds: float) -> str:
     return f"{seconds * 1e6:.0f} us" if seconds < 1e-3 else f"{seconds * 1e3:.1f} ms"
 
 
+def _motor_first(bench: Bench) -> Observation:
+    times = [_time_to_reduce(bench.motor_slides(each), each) for each in range(WHEELSETS)]
+    words = f"until it is reduced, never where the valve vents by then; wheelsets 1 to 4: {_listed(times)}"
+    return Observation(max(times), words)
+
+
+def _time_to_reduce(answers: Answers, wheelset: int) -> float:
+    time = answers.situation.time
+    slides = (time >= SLIDE_BEGINS) & (time < ROLLS_AGAIN)
+    reduced = time[(answers.reduction[:, wheelset] > 0.0) & slides]
+    vented = time[(answers.vent[:, wheelset] != 0) & slides]
+    if len(reduced) == 0 or (len(vented) and vented[0] <= reduced[0]):
+        return np.inf
+    return float(reduced[0] - SLIDE_BEGINS)
+
+
+def _spares_motors(bench: Bench) -> Observation:
+    """Motors of one bogie may have one converter."""
+    others = [slice(2, 4) if each < 2 else slice(0, 2) for each in range(WHEELSETS)]
+    reduced = [
+        (bench.motor_slides(n).reduction[:, each] > 0.0).any(axis=1).sum() for n, each in enumerate(others)
+    ]
+    return Observation(int(sum(reduced)), "in the bogie beside that of a sliding wheelset")
+
+
+def _motor_back(bench: Bench) -> Observation:
+    times = [_time_to_restore(bench.motor_slides(each), each) for each in range(WHEELSETS)]
+    return Observation(max(times), f"until nothing is taken off for good; wheelsets 1 to 4: {_listed(times)}")
+
+
+def _time_to_restore(answers: Answers, wheelset: int) -> float:
+    reduced = answers.reduction[:, wheelset] > 0.0
+    if reduced[-1]:
+        return np.inf
+    last = answers.situation.time[reduced][-1] if reduced.any() else 0.0
+    return max(float(last) - _rolls_at(answers, wheelset), 0.0)
+
+
+def _rolls_at(answers: Answers, wheelset: int) -> float:
+    """Return when a wheelset that has slid rolls again, s."""
+    time, train = answers.situation.time, answers.situation.train_speed
+    speed = answers.situation.inputs["wheel_speed"][:, wheelset]
+    return float(time[(time > ROLLS_AGAIN) & (speed > 0.99 * train)][0])
+
+
 def _listed(times: list[float]) -> str:
     return ", ".join("never" if np.isinf(time) else f"{time:.2f} s" for time in times)
 
@@ -174,8 +229,11 @@ CHECKS: Final = (
     Check(
         "in-time", "Answers come within the cycle.", 100.0, "% of the cycle", _answers_in_time, advisory=True
     ),
+    Check("motor-first", "A sliding wheelset loses its motor first.", 1.0, "s", _motor_first, contract=2),
+    Check("spares-motors", "Other motors are not reduced.", 0, "cycles", _spares_motors, contract=2),
+    Check("motor-back", "A motor gets its brake back.", 3.0, "s", _motor_back, contract=2),
 )
-"""In the order of the report."""
+"""In the order of the report; what only a later version of the contract has comes last."""
 
 
 class Examined(NamedTuple):
@@ -195,6 +253,8 @@ def examined(subject: Subject, checks: Sequence[Check] = CHECKS) -> Examined:
     findings, missed = [], {}
     with Bench(subject) as bench:
         for check in checks:
+            if check.contract > bench.contract:
+                continue
             bench.asked = {}
             finding = _finding(check, bench, subject.name)
             findings.append(finding)

@@ -38,6 +38,8 @@ REACCELERATION: Final = 10.0
 """Of a wheelset on the way back to rolling, m/s2; chosen."""
 SENSOR_FAILS: Final = 2.0
 """Time at which a speed sensor reports a fault, s; chosen."""
+AXLE_LOAD: Final = 110e3
+"""Of a car with a dynamic brake, N; chosen, of the size of an empty passenger car's."""
 _SLIDING_UNTIL: Final = 14.0
 _LOCKED_FOR: Final = 20.0
 _STANDSTILL: Final = 3.0
@@ -83,6 +85,16 @@ def one_slides(cycle_time: float, wheelset: int) -> Situation:
     rising = at_end * (1.0 - DEEPEST_SLIDE) + REACCELERATION * (time - ROLLS_AGAIN)
     speeds[wheelset] = np.where(time < ROLLS_AGAIN, sliding, np.minimum(rising, train))
     return _situation(cycle_time, train, speeds)
+
+
+@cache
+def motor_slides(cycle_time: float, wheelset: int) -> Situation:
+    """A wheelset slides and rolls again as in :func:`one_slides`, under a dynamic brake of all four."""
+    situation = one_slides(cycle_time, wheelset)
+    inputs = situation.inputs.copy()
+    inputs["dynamic_brake"] = inputs["brake_command"] = 1.0
+    inputs["axle_load"] = AXLE_LOAD
+    return Situation(inputs, situation.train_speed)
 
 
 @cache
