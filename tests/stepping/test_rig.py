@@ -178,3 +178,36 @@ def test_the_package_is_imported_without_the_rig():
     program = "import sys, uictest; uictest.__version__; print({'numpy', 'pydantic'} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == "set()\n"
+
+
+MOTORS = "brake: {dynamic: {force: 60 kN, power: 1.6 MW}}\n"
+
+
+def test_commands_of_version_2_reduce_the_dynamic_brake_which_does_not_drop(write_scenario):
+    rig = uictest.Rig(write_scenario(MOTORS), record=100, contract=2)
+    inputs = rig.reset()
+    while not rig.stopped:
+        rig.step(hold=[0, 0, 0, 1], dynamic_reduction=[0, 1, 0, 0], sand_request=[1, 0, 0, 0])
+    assert (inputs.brake_command, inputs.brake_demand) == (1.0, 0.0)
+    recording = rig.recording()
+    assert recording["dynamic_torque_2"].max() == 0.0
+    assert min(recording[f"dynamic_torque_{n}"].max() for n in (1, 3, 4)) > 1000.0
+    assert set(recording["sand_request_1"]) == {1.0}
+    dropped = uictest.Rig(write_scenario(MOTORS), record=100)
+    dropped.reset()
+    while not dropped.stopped:
+        dropped.step(hold=[0, 0, 0, 1])
+    assert dropped.recording()["dynamic_torque_1"].max() == 0.0
+
+
+def test_what_belongs_to_no_contract_is_refused(write_scenario):
+    rig = uictest.Rig(write_scenario(MOTORS), contract=2)
+    rig.reset()
+    with pytest.raises(ValueError, match=r"^dynamic_reduction\[1\] is 1\.5, expected 0 to 1$"):
+        rig.step(dynamic_reduction=[0, 1.5, 0, 0])
+    old = uictest.Rig(write_scenario(MOTORS))
+    old.reset()
+    with pytest.raises(ValueError, match="sand_request belongs to contract version 2"):
+        old.step(sand_request=[0, 0, 0, 0])
+    with pytest.raises(ValueError, match="contract is 3, expected 1 or 2"):
+        uictest.Rig(write_scenario(), contract=3)
