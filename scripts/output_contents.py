@@ -38,7 +38,7 @@ RULES: Final = tuple(
         # Lines that appear only where the machine is slow or has compiled nothing yet.
         (r"^uictest: (?:compil(?:ing|ed) |\d+% compiled|\d+ of \d+ \w+ after )[^\n]*\n", ""),
         # The program: its version, and the digest of its code in the manifest of a sweep.
-        (r"(?<=\buictest )\d+\.\d+\.\d+\b", "<version>"),
+        (r"(?<=\buictest )\d+\.\d+\.\d+(?:\.dev\d+)?\b", "<version>"),
         (r'(?<="program": ")[0-9a-f]{16}(?=")', "<digest>"),
         (r"(?<=^Provenance \| program \| )[0-9a-f]{16}\b", "<digest>"),
     )

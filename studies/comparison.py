@@ -33,7 +33,8 @@ def band_text(quantity: StudyQuantity) -> str:
     if band.lower is None:
         return _with_unit(f"{'<' if band.below else '<='} {band.upper:g}", quantity)
     upper = "" if band.upper is None else f"{band.upper:g}"
-    return _with_unit(f"{band.lower:g} .. {upper}" if upper else f">= {band.lower:g}", quantity)
+    least = f"{'>' if band.above else '>='} {band.lower:g}"
+    return _with_unit(f"{band.lower:g} .. {upper}" if upper else least, quantity)
 
 
 def band_origin(quantity: StudyQuantity) -> str:
@@ -222,6 +223,7 @@ def _quantity(comparison: PaperComparison) -> dict[str, Any]:
             "of": band_origin(quantity),
             "lower": band.lower,
             "upper": band.upper,
+            "lower_excluded": band.above,
             "upper_excluded": band.below,
             "reason": band.reason,
         },

@@ -31,20 +31,21 @@ class Band:
     """Values that hold: an :class:`OwnBand` or a :class:`SourceBand`.
 
     Args:
-        lower: least value that holds, itself included.
+        lower: least value that holds; itself excluded where `above` is set.
         upper: greatest value that holds; itself excluded where `below` is set.
-        below: whether the value must stay below the upper bound.
+        above, below: whether the value must stay above the lower, below the upper bound.
         reason: where the band comes from.
     """
 
     lower: float | None = None
     upper: float | None = None
+    above: bool = False
     below: bool = False
     reason: str
 
     def contains(self, value: float) -> bool:
         """Return whether a value lies in the band; NaN never does."""
-        above_lower = self.lower is None or value >= self.lower
+        above_lower = self.lower is None or value > self.lower or (value == self.lower and not self.above)
         below_upper = self.upper is None or value < self.upper or (value == self.upper and not self.below)
         return above_lower and below_upper and not math.isnan(value)
 

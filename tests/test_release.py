@@ -1,4 +1,4 @@
-"""A release: one version, stated in one place and named alike wherever a user copies it from."""
+"""A version, stated in one place; the last release, named alike wherever a user copies it from."""
 
 import re
 import shutil
@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+from packaging.version import Version
 
 import uictest
 
@@ -21,25 +22,37 @@ def read(name):
     return (REPOSITORY / name).read_text("utf-8")
 
 
+_HEADINGS = re.findall(r"^## \[(\S+)\](?: - (\d{4}-\d{2}-\d{2}))?$", read("CHANGELOG.md"), re.MULTILINE)
+RELEASED, DATE = next(each for each in _HEADINGS if each[0] != "Unreleased")
+
+
 def test_the_installed_version_is_that_of_the_sources():
     assert metadata.version("uictest") == VERSION
 
 
-def test_the_changelog_and_the_known_errors_begin_with_it():
-    headings = re.findall(r"^## \[(\S+)\](?: - \d{4}-\d{2}-\d{2})?$", read("CHANGELOG.md"), re.MULTILINE)
-    assert next(each for each in headings if each != "Unreleased") == VERSION
-    assert re.findall(r"^## (\d\S*)$", read("docs/known-errors.md"), re.MULTILINE)[0] == VERSION
+def test_a_build_with_unreleased_changes_has_a_version_that_no_release_has():
+    if _HEADINGS[0][0] == "Unreleased":
+        assert Version(VERSION).is_devrelease
+        assert Version(VERSION) > Version(RELEASED)
+    else:
+        assert VERSION == RELEASED
 
 
-def test_it_is_cited_with_its_date():
+def test_the_known_errors_are_those_of_this_version_and_say_whether_it_is_a_release():
+    page = read("docs/known-errors.md")
+    assert re.findall(r"^## (\d\S*)$", page, re.MULTILINE)[0] == VERSION
+    said = f"This build is not a release: it differs from {RELEASED} by"
+    assert (said in page) == Version(VERSION).is_devrelease
+
+
+def test_the_release_is_cited_with_its_date():
     citation = yaml.safe_load(read("CITATION.cff"))
-    assert citation["version"] == VERSION
-    assert f"## [{VERSION}] - {citation['date-released']}\n" in read("CHANGELOG.md")
+    assert (citation["version"], str(citation["date-released"])) == (RELEASED, DATE)
 
 
 @pytest.mark.parametrize("name", ["docs/ci.md", "docs/trust.md", "examples/ci/github.yml", "scripts/sbom.py"])
-def test_what_users_copy_names_it(name):
-    assert set(_NAMED.findall(read(name))) == {VERSION}
+def test_what_users_copy_names_the_release(name):
+    assert set(_NAMED.findall(read(name))) == {RELEASED}
 
 
 @pytest.fixture(scope="session")

@@ -35,6 +35,7 @@ def outputs(contents):
         ("uictest: 12 of 64 cases after 30 s\nnext\n", "next\n"),
         ("in-time     pass     0.429   100   % of", "in-time     pass     <duration>  100   % of"),
         ('"version": "uictest 0.2.0"', '"version": "uictest <version>"'),
+        ('"version": "uictest 0.3.0.dev0"', '"version": "uictest <version>"'),
         ('"program": "0123456789abcdef"', '"program": "<digest>"'),
         (f"{REPOSITORY}/src/uictest", "<path>/src/uictest"),
     ],

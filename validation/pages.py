@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from validation.source import TOLERANCE, Agreement, Comparison, Validation
 
-SCHEMA: Final = "uictest/public-sources/1"
+SCHEMA: Final = "uictest/public-sources/2"
 _KINDS: Final = {
     "measured": "measurement",
     "tabulated": "design table",
@@ -145,6 +145,8 @@ def _entry(validation: Validation) -> dict[str, Any]:
         "title": source.title,
         "place": source.place,
         "kind": source.kind,
+        "shows": source.shows,
+        "does_not_show": source.does_not_show,
         "fitted": source.fitted,
         "fitted_numbers": validation.fitted,
         "predicted_numbers": found.count,
@@ -154,6 +156,20 @@ def _entry(validation: Validation) -> dict[str, Any]:
         "worst_percent": _rounded(found.worst.difference if found.worst else None),
         "worst": found.worst.quantity if found.worst else None,
         "result": found.result,
+        "numbers": [_number(each) for each in validation.findings.comparisons],
+        "notes": list(validation.findings.notes),
+    }
+
+
+def _number(comparison: Comparison) -> dict[str, Any]:
+    """Return one number of the source beside ours, as the page shows it."""
+    return {
+        "quantity": comparison.quantity,
+        "source": _of_source(comparison),
+        "here": _ours(comparison),
+        "difference_percent": _rounded(comparison.difference),
+        "status": "fitted" if comparison.fitted else "predicted",
+        "result": comparison.result,
     }
 
 

@@ -12,9 +12,12 @@ from pathlib import Path, PurePosixPath
 from posixpath import normpath
 
 import pytest
+from markupsafe import escape
 
 from uictest import selftest
 from uictest.selftest import dossier
+from uictest.selftest.dossier.build import Release, identity
+from uictest.selftest.dossier.cover import meaning
 from uictest.selftest.findings import Examination, Finding
 
 REPOSITORY = Path(__file__).parents[2]
@@ -103,7 +106,7 @@ def test_no_folder_of_the_machine_is_named():
 
 
 def test_programs_find_requirements_with_tests_errors_studies_and_packages(whole):
-    assert whole["schema"] == "uictest/dossier/1"
+    assert whole["schema"] == "uictest/dossier/2"
     assert [each["id"] for each in whole["requirements"]] == [
         f"TOOL-{number}" for number in range(1, len(whole["requirements"]) + 1)
     ]
@@ -115,10 +118,26 @@ def test_programs_find_requirements_with_tests_errors_studies_and_packages(whole
     assert re.fullmatch(r"[0-9a-f]{64}", whole["installed_sha256"])
 
 
-def test_studies_that_are_kept_are_those_of_the_catalogue_and_misses_stand_first(files, whole):
+def test_every_study_of_the_catalogue_is_there_with_a_result_or_the_reason_for_none(files, whole):
+    from studies.study import STUDIES
+
+    assert [each["name"] for each in whole["studies"]] == list(STUDIES)
+    page = text(files, "studies.html")
+    for kept in whole["studies"]:
+        assert f'id="{kept["name"]}"' in page
+        if kept["result"] == "not run":
+            assert kept["why"]
+            assert escape(f"Not run in this dossier: {kept['why']}.") in page
+        else:
+            assert all(escape(note) in page for note in kept["notes"]), kept["name"]
+
+
+def test_results_that_are_kept_are_those_of_the_catalogue(whole):
     from studies.study import STUDIES
 
     for kept in whole["studies"]:
+        if kept["result"] == "not run":
+            continue
         quantities = {each.key: each for each in STUDIES[kept["name"]].quantities}
         assert [each["key"] for each in kept["quantities"]] == list(quantities)
         for each in kept["quantities"]:
@@ -127,16 +146,64 @@ def test_studies_that_are_kept_are_those_of_the_catalogue_and_misses_stand_first
             assert (each["band"] or {}).get("upper") == (now.band and now.band.upper)
             assert each["declared_miss"] == now.declared_miss
             assert not each["fails"], f"{kept['name']}: {each['key']}"
-    shown = re.findall(r">(misses|holds|shown)<", text(files, "studies.html"))
-    assert shown == sorted(shown, key=("misses", "holds", "shown").index)
+
+
+def test_misses_stand_first_among_studies_and_in_each(files, whole):
+    order = ("misses", "holds", "shown", "not run")
+    _, overview, *sections = text(files, "studies.html").split("<section")
+    shown = re.findall(rf">({'|'.join(order)})<", overview)
+    assert len(shown) == len(whole["studies"])
+    for each in (shown, *(re.findall(r">(misses|holds|shown)<", section) for section in sections)):
+        assert each == sorted(each, key=order.index)
 
 
 @pytest.mark.slow
 def test_a_release_keeps_the_results_of_every_study(whole):
     """Run ./reproduce and scripts/dossier_studies.py."""
-    from studies.study import STUDIES
+    assert [each["name"] for each in whole["studies"] if each["result"] == "not run"] == []
 
-    assert [each["name"] for each in whole["studies"]] == list(STUDIES)
+
+def test_the_range_of_repeats_is_shown(files):
+    section = text(files, "studies.html").partition('id="slide-test"')[2].partition("</section>")[0]
+    assert re.search(r"17\.5\d* s</td>.*?17\.\d+ \.\. 17\.\d+", section, re.DOTALL)
+
+
+def test_every_number_of_every_public_source_is_shown_with_the_tolerance(files):
+    page, read = text(files, "public-sources.html"), json.loads(files["public-sources.json"])
+    assert f"within {read['tolerance_percent']:g} %" in page
+    for source in read["sources"]:
+        section = page.partition(f'id="{source["name"]}"')[2].partition("</section>")[0]
+        assert section.count('<th scope="row">') == len(source["numbers"])
+        missed = [
+            each for each in source["numbers"] if each["status"] == "predicted" and each["result"] == "misses"
+        ]
+        assert len(missed) == source["missed"]
+
+
+SOURCE = {"kind": "measured", "title": "A train", "result": "misses", "missed": 1, "predicted_numbers": 2}
+PREDICTED = {"quantity": "time", "status": "predicted", "difference_percent": 2.0, "result": "holds"}
+
+
+def test_the_cover_says_what_passing_means_from_the_numbers_of_the_sources():
+    fitted = {**PREDICTED, "quantity": "distance", "status": "fitted"}
+    missed = {**PREDICTED, "quantity": "deceleration", "difference_percent": -7.0, "result": "misses"}
+    other = {"kind": "computed", "title": "A theory", "result": "holds", "missed": 0, "predicted_numbers": 3}
+    said = list(meaning([{**SOURCE, "numbers": [PREDICTED, fitted, missed]}, {**other, "numbers": []}]))
+    assert said[1:] == [
+        (
+            "Public sources: 1 of 2 holds (A theory: another theory, solved by the authors of uictest), "
+            "1 miss; of 5 predicted numbers 1 miss."
+        ),
+        "A train: 1 of 2 predicted numbers misses: time +2.0 % (holds), deceleration -7.0 % (misses).",
+        "Independent verification: none.",
+    ]
+
+
+def test_the_cover_says_of_a_build_between_releases_that_it_is_none(files):
+    release = Release("0.2.0", "2026-11-22")
+    assert identity("0.2.0", release) == "This build is uictest 0.2.0, the release of 2026-11-22."
+    assert "which is not a release. It differs from 0.2.0 of 2026-11-22" in identity("0.3.0.dev0", release)
+    assert escape(identity()) in text(files, "index.html")
 
 
 def test_twenty_questions_and_more_have_an_answer_with_its_place(files):

@@ -39,6 +39,7 @@ def test_lines_have_the_papers_value_ours_and_the_band(made_up):
         (OwnBand(upper=8.0, reason="ours"), "<= 8 %"),
         (OwnBand(upper=8.0, below=True, reason="ours"), "< 8 %"),
         (OwnBand(lower=9.0, reason="ours"), ">= 9 %"),
+        (OwnBand(lower=9.0, above=True, reason="ours"), "> 9 %"),
         (SourceBand(lower=0.0, upper=9.5), "0 .. 9.5 %"),
         (None, "-"),
     ],

@@ -7,42 +7,29 @@ import io
 import json
 import tempfile
 import zipfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
-from functools import partial
 from importlib import metadata
 from operator import itemgetter
 from pathlib import Path
 from typing import Any, Final
 
-from markupsafe import Markup, escape
-
 from uictest import __version__
 from uictest.core.document import Column, Lines, Table
-from uictest.report import counted, junit_text
-from uictest.report.page import render
+from uictest.report import junit_text
+from uictest.selftest.dossier.build import is_release, last_release
+from uictest.selftest.dossier.cover import cover
 from uictest.selftest.dossier.inventory import cyclonedx, installed_packages, package_digest
 from uictest.selftest.dossier.manual import QUESTIONS, known_errors, pages, rendered, requirements
-from uictest.selftest.dossier.studies import studies, study_table
+from uictest.selftest.dossier.sheet import COVER, Section, sheet
+from uictest.selftest.dossier.sources import public_sources, sources_page
+from uictest.selftest.dossier.studies import studies, studies_page
 from uictest.selftest.findings import Examination, finding_document, findings_json, findings_suite
 
-SCHEMA: Final = "uictest/dossier/1"
+SCHEMA: Final = "uictest/dossier/2"
 _EPOCH: Final = (1980, 1, 1, 0, 0, 0)
 _PACKAGE: Final = Path(__file__).parents[2]
-_TITLES: Final = {
-    "questions.html": "Questions of an assessor, answered, each with its place",
-    "known-answers.html": "Self-test: what was expected and found",
-    "manual/requirements.html": "Requirements of the tool with their tests, constraints on use",
-    "manual/tool-errors.html": "Error analysis: how each function could lie, what detects it, what remains",
-    "manual/known-errors.html": "Known errors",
-    "manual/trust.html": "Purpose, domain, verification, uncertainty, configuration control",
-    "manual/validation.html": "Validation",
-    "public-sources.html": "Public sources beside the rig: bias, spread and misses",
-    "studies.html": "Studies and their results, misses first",
-    "materials.html": "Installed packages with versions and licences",
-}
-"""What an assessor opens first -> what it is; the rest follows by name."""
 
 
 def dossier_files(examination: Examination, schemas: Mapping[str, str], made: datetime) -> dict[str, bytes]:
@@ -55,23 +42,23 @@ def dossier_files(examination: Examination, schemas: Mapping[str, str], made: da
     """
     examination = _without_places(examination)
     packages, kept = installed_packages(), studies()
-    sources = json.loads((_PACKAGE / "selftest" / "public_sources.json").read_text("utf-8"))
+    sources = public_sources()
     parts: dict[str, str] = {
-        "questions.html": _page("Questions of an assessor", Markup(rendered(QUESTIONS, ""))),
+        "questions.html": sheet("Questions of an assessor", body=rendered(QUESTIONS, "")),
         "known-answers.html": _answers_page(examination),
         "known-answers.json": findings_json(examination),
         "known-answers.junit.xml": junit_text([findings_suite(examination)]),
-        "public-sources.html": _page("Public sources", Markup(""), _source_table(sources["sources"])),
+        "public-sources.html": sources_page(sources),
         "public-sources.json": json.dumps(sources, indent=1, ensure_ascii=False) + "\n",
-        "studies.html": _page("Studies", Markup(""), study_table(kept)),
+        "studies.html": studies_page(kept),
         "studies.json": json.dumps(kept, indent=1) + "\n",
-        "materials.html": _page("Installed packages", Markup(""), _package_table(packages)),
+        "materials.html": sheet("Installed packages", [Section("Packages", _package_table(packages))]),
         "materials.cdx.json": cyclonedx(packages),
         "constraints.txt": (_PACKAGE / "constraints.txt").read_text("utf-8"),
         "LICENSE.txt": _licence(),
     }
     for path in pages():
-        page = _page(path.stem, Markup(rendered(path, "manual")), home="../index.html")
+        page = sheet(f"Manual: {path.stem}", body=rendered(path, "manual"), home=f"../{COVER}")
         parts[f"manual/{path.stem}.html"] = page
     parts |= {f"schema/{name}": text for name, text in sorted(schemas.items())}
     contents = {name: text.encode("utf-8") for name, text in parts.items()}
@@ -85,6 +72,8 @@ def dossier_files(examination: Examination, schemas: Mapping[str, str], made: da
     whole = {
         "schema": SCHEMA,
         "version": __version__,
+        "is_release": is_release(),
+        "last_release": last_release()._asdict(),
         "status": examination.status,
         "made": made.isoformat(timespec="seconds"),
         "installed_sha256": package_digest(),
@@ -97,9 +86,8 @@ def dossier_files(examination: Examination, schemas: Mapping[str, str], made: da
         "packages": packages,
         "files": digests,
     }
-    cover = _cover(examination, facts, list(contents))
     return {
-        "index.html": cover.encode("utf-8"),
+        COVER: cover(examination, facts, sources["sources"], list(contents)).encode("utf-8"),
         "dossier.json": (json.dumps(whole, indent=1, allow_nan=False) + "\n").encode("utf-8"),
         **contents,
     }
@@ -140,60 +128,12 @@ def _without_places(examination: Examination) -> Examination:
     )
 
 
-def _cover(examination: Examination, facts: Mapping[str, str], names: Sequence[str]) -> str:
-    """Return the first page: whether the self-test passed, of what and where, and a link to every part."""
-    rest = ["dossier.json", *sorted(set(names) - set(_TITLES)), "SHA256SUMS"]
-    opened_first = [(name, title) for name, title in _TITLES.items() if name in names]
-    items = "".join(f'<li><a href="{name}">{escape(title)}</a></li>' for name, title in opened_first)
-    others = "".join(f'<li><a href="{name}">{name}</a></li>' for name in rest)
-    table = Table(
-        [
-            Column(heading="what", text=lambda each: each[0], literal=True),
-            Column(heading="is", text=lambda each: each[1], wraps=True),
-        ],
-        [each for each in facts.items() if each[1]],
-    )
-    statuses = [each.status for each in examination.findings]
-    counts = ", ".join(f"{statuses.count(each)} {each}" for each in dict.fromkeys(statuses))
-    failed = examination.status in ("fail", "error")
-    headline = (
-        f"{'FAILED' if failed else 'Passed'}: {counted(len(statuses), 'check')} of the self-test, {counts}"
-    )
-    body = Markup(f"<h2>Read first</h2><ul>{items}</ul><h2>All other files</h2><ul>{others}</ul>")
-    return render(
-        "dossier.html.j2",
-        with_plots=False,
-        running_head=f"uictest {__version__}",
-        headline=headline,
-        subline=f"Dossier of uictest {__version__} for an assessor",
-        table=table,
-        label="Installation",
-        body=body,
-        home="",
-    )
-
-
-def _page(title: str, body: Markup, table: Table | None = None, home: str = "index.html") -> str:
-    return render(
-        "dossier.html.j2",
-        with_plots=False,
-        running_head=title,
-        headline=title,
-        subline=f"uictest {__version__}",
-        table=table,
-        label=title,
-        body=body,
-        home=home,
-    )
-
-
 def _answers_page(examination: Examination) -> str:
     """Return the page of what was expected and found."""
     _, table, remarks = finding_document(examination).sections
     assert isinstance(table, Table)
     assert isinstance(remarks, Lines)
-    lines = "".join(f"<li>{escape(each)}</li>" for each in remarks.sentences)
-    return _page("Self-test", Markup(f"<ul>{lines}</ul>"), table)
+    return sheet("Self-test", [Section("Known answers", table, before=remarks.sentences)])
 
 
 def _package_table(packages: Sequence[Mapping[str, str]]) -> Table:
@@ -202,35 +142,6 @@ def _package_table(packages: Sequence[Mapping[str, str]]) -> Table:
         for name in ("name", "version", "licence")
     ]
     return Table(columns, packages)
-
-
-def _source_table(sources: Sequence[Mapping[str, Any]]) -> Table:
-    """Return a row for each public source that the rig was compared with, misses first."""
-    rows = sorted(sources, key=lambda each: each["result"] != "misses")
-    columns: dict[str, Callable[[Mapping[str, Any]], object]] = {
-        "source": itemgetter("title"),
-        "place": itemgetter("place"),
-        "fitted": itemgetter("fitted"),
-        "predicted": itemgetter("predicted_numbers"),
-        "missed": itemgetter("missed"),
-        "bias, %": itemgetter("bias_percent"),
-        "spread, %": itemgetter("spread_percent"),
-        "worst, %": itemgetter("worst_percent"),
-        "worst is": itemgetter("worst"),
-        "result": itemgetter("result"),
-    }
-    return Table(
-        [
-            Column(heading=heading, text=partial(_cell, read), wraps=heading in ("place", "fitted"))
-            for heading, read in columns.items()
-        ],
-        rows,
-    )
-
-
-def _cell(read: Callable[[Mapping[str, Any]], object], row: Mapping[str, Any]) -> str:
-    value = read(row)
-    return "-" if value is None else str(value).replace("`", "")
 
 
 def _licence() -> str:

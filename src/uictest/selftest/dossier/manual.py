@@ -22,9 +22,13 @@ _ERROR: Final = re.compile(r"^\| ([^|]+) \| ([^|]+) \| ([^|]+) \|$", re.MULTILIN
 
 def pages() -> list[Path]:
     """Return every page of the manual, and the changes of each version."""
-    change_log = PAGES / "CHANGELOG.md" if PAGES == _OF_WHEEL else PAGES.parent / "CHANGELOG.md"
     named = [path for path in sorted(PAGES.glob("*.md")) if path.stem != "index"]
-    return [*named, *([] if change_log.parent == PAGES else [change_log])]
+    return [*named, *([] if change_log().parent == PAGES else [change_log()])]
+
+
+def change_log() -> Path:
+    """Return the changes of each version."""
+    return (PAGES if PAGES == _OF_WHEEL else PAGES.parent) / "CHANGELOG.md"
 
 
 def requirements() -> list[dict[str, Any]]:
