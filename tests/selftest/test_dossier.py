@@ -16,8 +16,10 @@ from markupsafe import escape
 
 from uictest import selftest
 from uictest.selftest import dossier
+from uictest.selftest.dossier.answers import requirements_of
 from uictest.selftest.dossier.build import Release, identity
 from uictest.selftest.dossier.cover import meaning
+from uictest.selftest.dossier.inventory import untested
 from uictest.selftest.findings import Examination, Finding
 
 REPOSITORY = Path(__file__).parents[2]
@@ -114,7 +116,8 @@ def test_programs_find_requirements_with_tests_errors_studies_and_packages(whole
     page = (REPOSITORY / "docs/known-errors.md").read_text("utf-8")
     assert len(whole["known_errors"]) == sum(line.startswith("| ") for line in page.splitlines()) - 1
     assert {each["name"] for each in whole["packages"]} >= {"uictest", "numpy", "numba", "pydantic"}
-    assert {each["licence"] for each in whole["packages"]} & {"", "not stated"} == set()
+    needed = [each for each in whole["packages"] if each["needed_by"] == "uictest"]
+    assert {each["licence"] for each in needed} & {"", "not stated"} == set()
     assert re.fullmatch(r"[0-9a-f]{64}", whole["installed_sha256"])
 
 
@@ -204,6 +207,94 @@ def test_the_cover_says_of_a_build_between_releases_that_it_is_none(files):
     assert identity("0.2.0", release) == "This build is uictest 0.2.0, the release of 2026-11-22."
     assert "which is not a release. It differs from 0.2.0 of 2026-11-22" in identity("0.3.0.dev0", release)
     assert escape(identity()) in text(files, "index.html")
+
+
+def test_every_named_test_has_its_file_in_the_archive(files, whole):
+    page = text(files, "tests.html")
+    named = {test["name"] for each in whole["requirements"] for test in each["tests"]}
+    assert {each["test"] for each in whole["tests"]} == named
+    assert sorted(re.findall(r'<tr id="(test_\w+)"', page)) == sorted(named)
+    for each in whole["tests"]:
+        assert f"def {each['test']}(" in (REPOSITORY / each["file"]).read_text("utf-8")
+        assert each["requirements"]
+        assert each["file"] in page
+    rendered = text(files, "manual/requirements.html")
+    assert all(f'href="../tests.html#{name}"' in rendered for name in named)
+
+
+def test_a_test_has_the_functions_whose_error_it_detects(whole):
+    functions = {each["test"]: each["functions"] for each in whole["tests"]}
+    assert functions["test_firm_is_never_said_where_the_sample_contradicts_it"] == "firmness"
+
+
+def test_each_requirement_and_each_mention_of_it_can_be_followed(files):
+    assert '<td id="TOOL-13">' in text(files, "manual/requirements.html")
+    assert '<td><a href="requirements.html#TOOL-30">TOOL-30</a></td>' in text(
+        files, "manual/tool-errors.html"
+    )
+    assert 'href="manual/requirements.html#TOOL-13"' in text(files, "questions.html")
+
+
+def test_every_number_of_the_library_is_there_with_mark_source_and_range(files, whole):
+    numbers = whole["numbers"]
+    library = REPOSITORY / "src/uictest/plans/library"
+    parts = {f"{path.parent.name}/{path.stem}" for path in library.glob("*/*.yaml")}
+    without = {each for each in parts if each.startswith("channel_maps/")} | {"pads/constant"}
+    assert {each["part"] for each in numbers} == parts - without
+    assert {each["mark"] for each in numbers} == {"stated", "published", "identified", "chosen"}
+    assert all(each["source"] for each in numbers)
+    [friction] = [
+        each for each in numbers if (each["part"], each["key"]) == ("rails/leaf-layer", "friction_decay")
+    ]
+    assert friction["range"] == "0.1 s/m .. 0.4 s/m"
+    page = text(files, "numbers.html")
+    marks = [each["mark"] for each in numbers]
+    assert f"{len(marks)} numbers of the library: {marks.count('chosen')} chosen" in page
+    assert page.count("<tr>") >= len(numbers)
+
+
+def test_every_limit_says_that_it_is_not_verified(whole):
+    bounds = {(each["criterion"], each["limit"]): each for each in whole["limits"]}
+    slide = bounds["minimum-slide", "> 35 %"]
+    assert (slide["clause"], slide["mark"]) == ("Appendix B", "stated")
+    assert slide["verified"] == "no: read second-hand"
+    assert bounds["energy-balance", "< 0.1 %"]["verified"] == "ours, no leaflet's"
+
+
+def test_answers_say_that_the_tolerance_is_relative_and_where_they_come_from(files):
+    found = replace(PASSED, tolerance=2e-3, origin="closed form")
+    page = text(files_of(found), "known-answers.html")
+    assert "as a share of what is expected" in page
+    assert re.search(r">0\.2 %<.*>closed form<.*>TOOL-51<", page, re.DOTALL)
+
+
+def test_every_check_of_the_self_test_has_a_requirement_and_an_origin(stops):
+    checks = selftest.all_checks(stops)
+    origins = {each.id: each.origin for each in checks}
+    assert origins["creep-on-wet-rail"] == "publication"
+    assert origins["textbook-stop"] == "closed form of the rig's own force"
+    known = {each["id"] for each in dossier.requirements()}
+    for each in checks:
+        of = requirements_of(replace(PASSED, id=each.id, group=each.group))
+        assert set(of.split(", ")) <= known
+
+
+def test_packages_of_extras_are_listed_and_what_differs_from_the_tested_is_marked(files, whole):
+    needed = {each["needed_by"] for each in whole["packages"]}
+    assert "extra fmu" in needed
+    same = {"name": "scipy", "version": "1", "tested": "1"}
+    assert untested([{**same, "name": "numpy", "version": "2"}, same]) == ["numpy 2 (tested: 1)"]
+    assert all(each in text(files, "index.html") for each in untested(whole["packages"]))
+    licences = " ".join(each["licence"] for each in whole["packages"])
+    assert not re.search("===|Copyright", licences)
+    bill = {each["name"]: each["licenses"] for each in json.loads(files["materials.cdx.json"])["components"]}
+    assert bill["uictest"] == [{"expression": "Apache-2.0"}]
+
+
+def test_known_errors_for_programs_lead_into_the_archive(files, whole):
+    targets = re.findall(r"\]\(([^)#]+)", json.dumps(whole["known_errors"]))
+    assert targets
+    assert set(targets) <= set(files)
 
 
 def test_twenty_questions_and_more_have_an_answer_with_its_place(files):

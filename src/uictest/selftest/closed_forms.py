@@ -68,18 +68,21 @@ AIR_CHECKS: Final = (
         "physics",
         "an evacuated tank, filled without heat: k T outside",
         *(_filled_tank, 1e-12, "K"),
+        origin="closed form",
     ),
     Check(
         "isothermal-tank",
         "physics",
         "choked blow-down at one temperature: pressure left after 0.1 s, an exponential",
         *(_blown_down_tank, 1e-5, "1"),
+        origin="closed form",
     ),
     Check(
         "choked-orifice",
         "physics",
         "1 l/(s bar) at 1 bar carries the density of ISO 8778",
         *(_choked_flow, 1e-12, "kg/s"),
+        origin="publication",
     ),
 )
 
@@ -147,12 +150,14 @@ FRICTION_CHECKS: Final = (
         "physics",
         "area of the closed loop of a play between two lines: h dp - h2/s",
         *(_play_loop, 1e-9, "N Pa"),
+        origin="closed form",
     ),
     Check(
         "caliper-loop",
         "physics",
         "width of the caliper's loop: twice the friction over the piston area",
         *(_caliper_loop, 1e-6, "Pa"),
+        origin="closed form",
     ),
 )
 
@@ -187,18 +192,21 @@ CONTACT_CHECKS: Final = (
         "physics",
         "creep force over Q mu at eps = 1, kA = kS = 1: 1/pi + 1/2",
         *(lambda stops: Answer(1.0 / math.pi + 0.5, _share_of_limit(1.0, 1.0, 1.0)), 1e-12, "1"),
+        origin="closed form",
     ),
     Check(
         "creep-on-wet-rail",
         "physics",
         "the same at eps = 4.467 with the factors of a wet rail (Polach 2005): 0.573",
         *(lambda stops: Answer(0.573, _share_of_limit(4.467, 0.3, 0.1)), 1e-3, "1"),
+        origin="publication",
     ),
     Check(
         "highest-creep",
         "physics",
         "the same while everything slides: the friction limit",
         *(lambda stops: Answer(1.0, _share_of_limit(1e9, 1.0, 1.0)), 1e-8, "1"),
+        origin="closed form",
     ),
 )
 
@@ -253,5 +261,6 @@ DRY_STOP_CHECKS: Final = (
         "physics",
         "distance of a stop on a good rail: v0 te + v0^2/(2 a)",
         *(_distance, _TOLERANCE, "m"),
+        origin="closed form of the rig's own force",
     ),
 )

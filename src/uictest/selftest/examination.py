@@ -15,7 +15,14 @@ from uictest.core import user_cache
 from uictest.core.lanes import fuses, register_width
 from uictest.selftest.closed_forms import AIR_CHECKS, CONTACT_CHECKS, DRY_STOP_CHECKS, FRICTION_CHECKS
 from uictest.selftest.findings import Examination, Finding, Status
-from uictest.selftest.known_stops import Answer, Check, KnownStops, NotCheckedError, reference_version
+from uictest.selftest.known_stops import (
+    Answer,
+    Check,
+    KnownStops,
+    NotCheckedError,
+    compiler_version,
+    reference_version,
+)
 from uictest.selftest.stored_answers import controller_checks, data_checks, judging_checks, stop_checks
 
 _PACKAGES: Final = ("numpy", "scipy", "numba", "llvmlite", "pydantic", "pyyaml", "pandas", "pyarrow")
@@ -31,6 +38,7 @@ def environment() -> dict[str, str]:
         "python": f"{platform.python_implementation()} {platform.python_version()}",
         "platform": platform.platform(),
         "processor": _processor(),
+        "C compiler": compiler_version(),
         **{name: version(name) for name in _PACKAGES},
         **{f"extra {name}": state for name, state in _extras()},
     }
@@ -39,9 +47,11 @@ def environment() -> dict[str, str]:
 def environment_checks() -> Iterator[Check]:
     """Yield the checks of the installed files and of the cache."""
     what = "installed files that differ from those of the package"
-    yield Check("installed-files", "environment", what, _installed_files, unit="files")
+    yield Check(
+        "installed-files", "environment", what, _installed_files, unit="files", origin="installed files"
+    )
     what = "what is written to the cache is read back"
-    yield Check("cache", "environment", what, _cache, advisory=True)
+    yield Check("cache", "environment", what, _cache, advisory=True, origin="made by hand")
 
 
 def _processor() -> str:
@@ -139,12 +149,20 @@ def _finding(check: Check, stops: KnownStops) -> Finding:
     status = _status(check, answer)
     described = check.id, check.group, check.what
     return Finding(
-        *described, status, answer.expected, answer.found, check.tolerance, check.unit, answer.words
+        *described,
+        status,
+        answer.expected,
+        answer.found,
+        check.tolerance,
+        check.unit,
+        answer.words,
+        check.origin,
     )
 
 
 def _without_answer(check: Check, status: Status, reason: str) -> Finding:
-    return Finding(check.id, check.group, check.what, status, None, None, check.tolerance, check.unit, reason)
+    described = check.id, check.group, check.what
+    return Finding(*described, status, None, None, check.tolerance, check.unit, reason, check.origin)
 
 
 def _status(check: Check, answer: Answer) -> Status:

@@ -30,6 +30,7 @@ class Finding:
             to `expected` passes.
         unit: of numbers.
         reason: what differs, or why it was skipped.
+        origin: where the known answer comes from; empty for a controller, which is held to a contract.
     """
 
     id: str
@@ -41,6 +42,7 @@ class Finding:
     tolerance: float | None
     unit: str
     reason: str = ""
+    origin: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +78,7 @@ _COLUMNS: Final[tuple[Column[Finding], ...]] = (
     Column(heading="found", text=lambda each: _text(each, each.found), rank=1, right=True),
     Column(
         heading="within",
-        text=lambda each: f"{each.tolerance:.0e}" if each.tolerance else "exact",
+        text=lambda each: f"{100.0 * each.tolerance:.3g} %" if each.tolerance else "exact",
         rank=3,
         right=True,
     ),
@@ -112,11 +114,16 @@ def findings_json(examination: Examination) -> str:
         "status": examination.status,
         "about": dict(examination.about),
         "checks": [
-            {**asdict(each), "expected": _number(each.expected), "found": _number(each.found)}
+            {**_entries(each), "expected": _number(each.expected), "found": _number(each.found)}
             for each in examination.findings
         ],
     }
     return json.dumps(content, indent=2, allow_nan=False)
+
+
+def _entries(finding: Finding) -> dict[str, Answer]:
+    """Return what a finding has, without an origin where there is none."""
+    return {name: value for name, value in asdict(finding).items() if value or name != "origin"}
 
 
 def findings_suite(examination: Examination) -> Suite:

@@ -80,6 +80,15 @@ def _text(number: Any) -> str:
 
 # As the Makefile of the template has them.
 Group = Literal["numerics", "physics", "lanes", "judging", "controllers", "environment"]
+Origin = Literal[
+    "own stored output",
+    "closed form",
+    "closed form of the rig's own force",
+    "publication",
+    "made by hand",
+    "installed files",
+]
+"""Where a known answer comes from: only closed forms and publications are true without this program."""
 
 
 class NotCheckedError(Exception):
@@ -106,6 +115,7 @@ class Check:
         tolerance: largest difference of two numbers that passes, as a share of the known one; 0: none.
         unit: of the numbers.
         advisory: whether another answer is only a warning.
+        origin: of the known answer.
     """
 
     id: str
@@ -115,6 +125,7 @@ class Check:
     tolerance: float = 0.0
     unit: str = ""
     advisory: bool = False
+    origin: Origin = "own stored output"
 
 
 _FLAGS: Final = ("-O2", "-std=c99", "-ffp-contract=off", "-fPIC", "-shared", "-o", "libwsp.so", "wsp.c")
@@ -153,6 +164,15 @@ def _compiler() -> str:
     if compiler is None:
         raise NotCheckedError(f"no C compiler ({' or '.join(names)}); name one in the variable CC")
     return compiler
+
+
+def compiler_version() -> str:
+    """Return what the C compiler of the check says of itself, or why there is none."""
+    try:
+        done = subprocess.run([_compiler(), "--version"], capture_output=True, text=True, check=False)
+    except (NotCheckedError, OSError) as error:
+        return f"absent: {error}"
+    return (done.stdout.splitlines() or ["not known"])[0]
 
 
 _PACKAGE: Final = Path(__file__).parents[1]

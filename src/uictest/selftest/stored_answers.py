@@ -98,7 +98,7 @@ _MOST_FILES_NAMED: Final = 5
 def data_checks() -> Iterator[Check]:
     """Yield the check of the shipped data, which a working tree has as an installed package does."""
     what = "files of the library, known stops and templates that are not those of this version"
-    yield Check("shipped-data", "environment", what, _shipped_data, unit="files")
+    yield Check("shipped-data", "environment", what, _shipped_data, unit="files", origin="installed files")
 
 
 def _shipped_data(stops: KnownStops) -> Answer:
@@ -144,12 +144,40 @@ def judging_checks() -> Iterator[Check]:
     """Yield a check of every verdict, of two figures and of the outcome."""
     of_record = "of a record made by hand: {}"
     distance, mean = of_record.format("v0^2/(2 a)"), of_record.format("v0^2/(2 s)")
-    yield Check("record-distance", "judging", f"braking distance {distance}", _distance, 1e-6, "m")
-    yield Check("record-deceleration", "judging", f"deceleration {mean}", _deceleration, 1e-6, "m/s2")
+    yield Check(
+        "record-distance",
+        "judging",
+        f"braking distance {distance}",
+        _distance,
+        1e-6,
+        "m",
+        origin="closed form",
+    )
+    yield Check(
+        "record-deceleration",
+        "judging",
+        f"deceleration {mean}",
+        _deceleration,
+        1e-6,
+        "m/s2",
+        origin="closed form",
+    )
     for criterion, status in _VERDICTS.items():
         what = f"verdict {of_record.format(criterion)}"
-        yield Check(f"verdict-{criterion}", "judging", what, partial(_verdict, criterion, status))
-    yield Check("record-outcome", "judging", f"outcome {of_record.format('two limits missed')}", _outcome)
+        yield Check(
+            f"verdict-{criterion}",
+            "judging",
+            what,
+            partial(_verdict, criterion, status),
+            origin="made by hand",
+        )
+    yield Check(
+        "record-outcome",
+        "judging",
+        f"outcome {of_record.format('two limits missed')}",
+        _outcome,
+        origin="made by hand",
+    )
 
 
 def _distance(stops: KnownStops) -> Answer:

@@ -55,7 +55,7 @@ def test_exit_code_is_that_of_the_worst_finding(call, asks, names, code):
 def test_the_table_names_what_was_expected_and_found_to_the_tenth_digit_and_hides_nothing(call, asks):
     asks(*FOUR)
     lines = call("selftest").out.splitlines()
-    assert "tank   pass     1         1.001  1e-02   K     a tank" in lines
+    assert "tank   pass     1         1.001  1 %     K     a tank" in lines
     assert "stop   fail     a1        b2     exact         a stop" in lines
     assert lines[-4:] == [
         "fail stop: 1 differs",
@@ -104,6 +104,7 @@ def test_json_has_the_installation_and_every_finding_with_numbers_as_numbers(cal
         "tolerance": 0.0,
         "unit": "",
         "reason": "1 differs",
+        "origin": "own stored output",
     }
 
 

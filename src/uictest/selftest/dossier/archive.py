@@ -11,21 +11,29 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
 from importlib import metadata
-from operator import itemgetter
 from pathlib import Path
 from typing import Any, Final
 
 from uictest import __version__
-from uictest.core.document import Column, Lines, Table
-from uictest.report import junit_text
+from uictest.report import counted, junit_text
+from uictest.selftest.dossier.answers import answers_page
 from uictest.selftest.dossier.build import is_release, last_release
 from uictest.selftest.dossier.cover import cover
-from uictest.selftest.dossier.inventory import cyclonedx, installed_packages, package_digest
-from uictest.selftest.dossier.manual import QUESTIONS, known_errors, pages, rendered, requirements
-from uictest.selftest.dossier.sheet import COVER, Section, sheet
+from uictest.selftest.dossier.inventory import cyclonedx, installed_packages, package_digest, untested
+from uictest.selftest.dossier.manual import (
+    QUESTIONS,
+    TESTS,
+    known_errors,
+    named_tests,
+    pages,
+    rendered,
+    requirements,
+)
+from uictest.selftest.dossier.numbers import library_numbers, limits, numbers_page
+from uictest.selftest.dossier.sheet import COVER, Section, entries, sheet
 from uictest.selftest.dossier.sources import public_sources, sources_page
 from uictest.selftest.dossier.studies import studies, studies_page
-from uictest.selftest.findings import Examination, finding_document, findings_json, findings_suite
+from uictest.selftest.findings import Examination, findings_json, findings_suite
 
 SCHEMA: Final = "uictest/dossier/2"
 _EPOCH: Final = (1980, 1, 1, 0, 0, 0)
@@ -42,17 +50,19 @@ def dossier_files(examination: Examination, schemas: Mapping[str, str], made: da
     """
     examination = _without_places(examination)
     packages, kept = installed_packages(), studies()
-    sources = public_sources()
+    sources, numbers, bounds = public_sources(), library_numbers(), limits()
     parts: dict[str, str] = {
         "questions.html": sheet("Questions of an assessor", body=rendered(QUESTIONS, "")),
-        "known-answers.html": _answers_page(examination),
+        "known-answers.html": answers_page(examination),
         "known-answers.json": findings_json(examination),
         "known-answers.junit.xml": junit_text([findings_suite(examination)]),
+        TESTS: _tests_page(),
+        "numbers.html": numbers_page(numbers, bounds),
         "public-sources.html": sources_page(sources),
         "public-sources.json": json.dumps(sources, indent=1, ensure_ascii=False) + "\n",
         "studies.html": studies_page(kept),
         "studies.json": json.dumps(kept, indent=1) + "\n",
-        "materials.html": sheet("Installed packages", [Section("Packages", _package_table(packages))]),
+        "materials.html": _packages_page(packages),
         "materials.cdx.json": cyclonedx(packages),
         "constraints.txt": (_PACKAGE / "constraints.txt").read_text("utf-8"),
         "LICENSE.txt": _licence(),
@@ -66,7 +76,8 @@ def dossier_files(examination: Examination, schemas: Mapping[str, str], made: da
     facts = {
         "result of the self-test": examination.status,
         "made": made.strftime("%Y-%m-%d %H:%M:%S UTC"),
-        "SHA-256 of the installed files": package_digest(),
+        "SHA-256 over the lines of sha256sum of all installed files, by path": package_digest(),
+        "packages unlike those tested": ", ".join(untested(packages)) or "none",
         **examination.about,
     }
     whole = {
@@ -80,7 +91,10 @@ def dossier_files(examination: Examination, schemas: Mapping[str, str], made: da
         "environment": dict(examination.about),
         "self_test": json.loads(parts["known-answers.json"])["checks"],
         "requirements": requirements(),
+        "tests": named_tests(),
         "known_errors": known_errors(),
+        "numbers": numbers,
+        "limits": bounds,
         "public_sources": sources["sources"],
         "studies": kept["studies"],
         "packages": packages,
@@ -128,20 +142,44 @@ def _without_places(examination: Examination) -> Examination:
     )
 
 
-def _answers_page(examination: Examination) -> str:
-    """Return the page of what was expected and found."""
-    _, table, remarks = finding_document(examination).sections
-    assert isinstance(table, Table)
-    assert isinstance(remarks, Lines)
-    return sheet("Self-test", [Section("Known answers", table, before=remarks.sentences)])
+def _tests_page() -> str:
+    """Return the page of every test that is named, with its file."""
+    said = (
+        "These tests lie in the repository, below tests/; ./test runs them. None of them was run to make "
+        "this dossier: what ran on this machine is the self-test."
+    )
+    headings = {"test": "test", "file": "file", "requirements": "requirements"}
+    named = named_tests()
+    title = f"{counted(len(named), 'test')} that requirements name"
+    table = entries(named, headings)
+    return sheet("Tests", [Section(title, table, anchored=True)], said=[said])
 
 
-def _package_table(packages: Sequence[Mapping[str, str]]) -> Table:
-    columns = [
-        Column(heading=name, text=itemgetter(name), wraps=name == "licence")
-        for name in ("name", "version", "licence")
+def _packages_page(packages: Sequence[Mapping[str, str]]) -> str:
+    """Return the page of all packages, and which of them are not those that were tested."""
+    rows = [
+        {**each, "tested": _tested_word(each), "spdx": "yes" if each["spdx"] else "no"} for each in packages
     ]
-    return Table(columns, packages)
+    headings = {
+        "name": "name",
+        "version": "installed",
+        "tested": "tested",
+        "needed_by": "needed by",
+        "licence": "licence",
+        "spdx": "SPDX",
+    }
+    said = "Licences are those that the packages state; SPDX says whether that is an SPDX expression."
+    return sheet(
+        "Installed packages", [Section("Packages", entries(rows, headings, ("licence",)))], said=[said]
+    )
+
+
+def _tested_word(package: Mapping[str, str]) -> str:
+    if package["name"] == "uictest":
+        return "-"
+    if package["version"] == package["tested"]:
+        return "same"
+    return f"differs: {package['tested'] or 'no version'}"
 
 
 def _licence() -> str:

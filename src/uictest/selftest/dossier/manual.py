@@ -18,6 +18,10 @@ QUESTIONS: Final = _HERE / "questions.md"
 _REQUIREMENT: Final = re.compile(r"^\| (TOOL-\d+): ([^|]+) \| ([^|]+) \|$", re.MULTILINE)
 _TEST: Final = re.compile(r"\[(test_\w+)\]\(\.\./([^)]+\.py)\)")
 _ERROR: Final = re.compile(r"^\| ([^|]+) \| ([^|]+) \| ([^|]+) \|$", re.MULTILINE)
+_FUNCTION: Final = re.compile(r"^\| ([^|]+) \| [^|]+ \| ([^|]+) \| [^|]+ \|$", re.MULTILINE)
+_NUMBER: Final = re.compile(r"\bTOOL-\d+\b")
+TESTS: Final = "tests.html"
+"""The page that has every named test with its file."""
 
 
 def pages() -> list[Path]:
@@ -31,6 +35,10 @@ def change_log() -> Path:
     return (PAGES if PAGES == _OF_WHEEL else PAGES.parent) / "CHANGELOG.md"
 
 
+def _text(page: str) -> str:
+    return (PAGES / page).read_text("utf-8")
+
+
 def requirements() -> list[dict[str, Any]]:
     """Return the requirements of the tool, each with its tests and their files."""
     return [
@@ -39,13 +47,36 @@ def requirements() -> list[dict[str, Any]]:
             "requirement": match[2],
             "tests": [{"name": name, "file": file} for name, file in _TEST.findall(match[3])],
         }
-        for match in _REQUIREMENT.finditer((PAGES / "requirements.md").read_text("utf-8"))
+        for match in _REQUIREMENT.finditer(_text("requirements.md"))
+    ]
+
+
+def named_tests() -> list[dict[str, str]]:
+    """Return every test that a requirement names: its file, requirements, and functions that these hold."""
+    analysis = _FUNCTION.findall(_text("tool-errors.md"))
+    of: dict[str, list[str]] = {}
+    for function, detected in analysis[1:]:
+        for number in _NUMBER.findall(detected):
+            of.setdefault(number, []).append(function)
+    found: dict[tuple[str, str], list[str]] = {}
+    for each in requirements():
+        for test in each["tests"]:
+            found.setdefault((test["file"], test["name"]), []).append(each["id"])
+    return [
+        {
+            "test": name,
+            "file": file,
+            "requirements": ", ".join(numbers),
+            "functions": "; ".join(dict.fromkeys(each for number in numbers for each in of.get(number, ()))),
+        }
+        for (file, name), numbers in sorted(found.items())
     ]
 
 
 def known_errors() -> list[dict[str, str]]:
-    """Return the known errors of this version, as the page words them."""
-    _, _, section = (PAGES / "known-errors.md").read_text("utf-8").partition("\nOpen:\n")
+    """Return the known errors of this version, as the page words them, with links into the archive."""
+    page = re.sub(r"\]\((\S+?)\.md(#\S+?)?\)", r"](manual/\1.html\2)", _text("known-errors.md"))
+    _, _, section = page.partition("\nOpen:\n")
     _, *rows = _ERROR.findall(section)
     return [dict(zip(("error", "effect", "what_to_do"), row, strict=True)) for row in rows]
 
@@ -57,10 +88,17 @@ def rendered(page: Path, folder: str) -> str:
     parser = MarkdownIt("commonmark").enable("table")
     tokens = parser.parse(page.read_text("utf-8"))
     _name_headings(tokens)
-    for token in _all(tokens):
+    is_list = page.stem == "requirements"
+    for token, following in pairwise([*_all(tokens), None]):
         if token.type == "link_open":
-            _lead(token, folder)
-    return str(parser.renderer.render(tokens, parser.options, {}))
+            _lead(token, following.content, folder)
+        if is_list and token.type == "td_open" and (number := _NUMBER.match(following.content)):
+            token.attrSet("id", number[0])
+    shown = str(parser.renderer.render(tokens, parser.options, {}))
+    if is_list:
+        return shown
+    place = "" if folder else "manual/"
+    return _NUMBER.sub(rf'<a href="{place}requirements.html#\g<0>">\g<0></a>', shown)
 
 
 def _all(tokens: list[Any]) -> Iterator[Any]:
@@ -80,7 +118,7 @@ def _name_headings(tokens: list[Any]) -> None:
             heading.attrSet("id", words.replace(" ", "-"))
 
 
-def _lead(token: Any, folder: str) -> None:
+def _lead(token: Any, words: str, folder: str) -> None:
     """Lead a link to the page in the archive; what is not part of it stays a text, with its path as title."""
     target = str(token.attrs["href"])
     if "://" in target or target.startswith("#"):
@@ -89,6 +127,9 @@ def _lead(token: Any, folder: str) -> None:
     file = Path(name).name
     known = {path.name for path in pages()}
     if name.endswith(".html"):
+        return
+    if words.startswith("test_") and name.endswith(".py"):
+        token.attrs["href"] = f"{'../' if folder else ''}{TESTS}#{words}"
         return
     if file in known and (not folder or name in (file, f"../{file}")):
         token.attrs["href"] = f"{Path(file).stem}.html{f'#{anchor}' if anchor else ''}"

@@ -21,6 +21,7 @@ class Section(NamedTuple):
         table: what it shows; None where only sentences do.
         anchor: by which links find it.
         before, after: sentences above and below the table.
+        anchored: whether links find each row by its name.
     """
 
     title: str
@@ -28,6 +29,7 @@ class Section(NamedTuple):
     anchor: str = ""
     before: Sequence[str] = ()
     after: Sequence[str] = ()
+    anchored: bool = False
 
 
 COVER: Final = "index.html"
