@@ -67,7 +67,7 @@ def _points(
     return [
         Point(
             f"{constant_friction(case):.4g}",
-            case.scenario.brake.command.text,
+            case.scenario.brake.first_command.text,
             case,
             {name: of_rig[k].stops for name, of_rig in repeats.items()},
         )

@@ -234,7 +234,7 @@ def _table(judged: Sequence[_Judged]) -> Table:
     columns: dict[str, list[Any]] = {
         "friction": [constant_friction(each.case) for each in rows],
         "initial_speed": [each.case.scenario.initial_speed.text for each in rows],
-        "command": [each.case.scenario.brake.command.text for each in rows],
+        "command": [each.case.scenario.brake.first_command.text for each in rows],
         "controller": [each.case.scenario.controller.name for each in rows],
         "vents": [each.vents for each in rows],
     }
@@ -255,7 +255,7 @@ def _worst_note(judged: Sequence[_Judged], way: str) -> str:
     place = f"friction {constant_friction(worst.case):g} from {scenario.initial_speed.text}"
     return (
         f"{_TITLES[way]}: pressure misses {BOUND:g} % in {missed} of {len(judged)} stops, worst at {place},"
-        f" {scenario.brake.command.text} command, {scenario.controller.name}."
+        f" {scenario.brake.first_command.text} command, {scenario.controller.name}."
     )
 
 

@@ -51,7 +51,7 @@ class DryStop:
         # Speed and command come from texts with units: their last bit is no reason to leave a stop out.
         return bool(
             scenario.initial_speed > LEAST_SPEED * (1.0 - _ROUNDING)
-            and scenario.brake.command > LEAST_COMMAND * (1.0 - _ROUNDING)
+            and scenario.brake.first_command > LEAST_COMMAND * (1.0 - _ROUNDING)
         )
 
 
@@ -93,7 +93,7 @@ def run(stop_runner: StopRunner) -> StudyFindings:
 
 def _where(setting: str, stop: DryStop) -> str:
     speed = stop.case.scenario.initial_speed / KILOMETRE_PER_HOUR
-    command = stop.case.scenario.brake.command / PERCENT
+    command = stop.case.scenario.brake.first_command / PERCENT
     return (
         f"The stop of {setting} that differs most of all: from {speed:.0f} km/h at {command:.0f} % command."
     )
@@ -126,7 +126,7 @@ def _table(stops: Sequence[DryStop]) -> Table:
     scenarios = [stop.case.scenario for stop in stops]
     return {
         "speed_kmh": [round(each.initial_speed / KILOMETRE_PER_HOUR, 1) for each in scenarios],
-        "command_percent": [round(each.brake.command / PERCENT, 1) for each in scenarios],
+        "command_percent": [round(each.brake.first_command / PERCENT, 1) for each in scenarios],
         "seed": [each.seed for each in scenarios],
         "rig": [stop.rig for stop in stops],
         "distance_m": [round(stop.distance, 3) for stop in stops],

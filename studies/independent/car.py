@@ -27,7 +27,7 @@ class Car:
     """
 
     def __init__(self, car: Any) -> None:
-        body, bogie, wheelset = car.body, car.bogie, car.wheelset
+        body, bogie, wheelset = car.loaded_body, car.bogie, car.wheelset
         masses = [body.mass, body.mass, body.pitch_inertia]
         masses += 2 * [bogie.mass, bogie.mass, bogie.pitch_inertia] + 4 * [wheelset.mass]
         self.masses = np.array(masses, dtype=float)

@@ -87,7 +87,7 @@ class Equations:
     def _read_brake(self) -> None:
         tank, balls, disc = self.brake.tank, self.brake.caliper_tank, self.brake.disc
         position = self.brake.positions[self.s.brake.position]
-        self.demand = float(self.s.brake.command * position.maximum_pressure)
+        self.demand = float(self.s.brake.first_command * position.maximum_pressure)
         self.dead, self.fill_time = float(position.dead_time), float(position.fill_time)
         filled = tank.volume + balls.hose_and_dead_volume - balls.ball_volume
         self.volume = np.where(self.has_caliper > 0.0, filled, tank.volume)

@@ -81,6 +81,22 @@ def test_c_rig_refuses_pads_and_discs_that_it_lacks(feature):
         run_to_end(c_stop(), stop)
 
 
+@pytest.mark.parametrize(
+    ("feature", "key"),
+    [
+        ("command_times", r"brake\.command"),
+        ("end_speed", "until"),
+        ("drag_duration", "drag"),
+        ("has_dynamic_brake", r"brake\.dynamic"),
+    ],
+)
+def test_c_rig_refuses_what_else_happens_in_a_stop(feature, key):
+    stop = short_stop("dry-120")
+    stop.parameters[feature] = 1.0
+    with pytest.raises(ValueError, match=key):
+        run_to_end(c_stop(), stop)
+
+
 def test_header_follows_the_records():
     from c_library import records_header
 

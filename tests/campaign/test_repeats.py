@@ -189,7 +189,7 @@ def test_an_interrupt_keeps_cases_all_of_whose_stops_are_finished(cases, monkeyp
     released, simulate = threading.Event(), rig.simulate
 
     def slow(case, *arguments):
-        if case.scenario.brake.command < 0.95 and case.scenario.seed == 1:
+        if case.scenario.brake.first_command < 0.95 and case.scenario.seed == 1:
             released.wait(60.0)
         return simulate(case, *arguments)
 

@@ -16,15 +16,15 @@ def test_demand_never_falls_and_never_exceeds_the_command(a, b):
     early, late = sorted((a, b))
     assert (
         0.0
-        <= demanded_pressure(early, FULL, 0.4, FILLING_RATE)
-        <= demanded_pressure(late, FULL, 0.4, FILLING_RATE)
+        <= demanded_pressure(early, 0.0, FULL, 0.4, FILLING_RATE)
+        <= demanded_pressure(late, 0.0, FULL, 0.4, FILLING_RATE)
         <= FULL
     )
 
 
 @pytest.mark.parametrize(("time", "share"), [(0.0, 0.0), (0.4, 0.0), (1.15, 0.5), (1.9, 1.0), (60.0, 1.0)])
 def test_demand_waits_for_the_dead_time_and_rises_evenly(time, share):
-    assert demanded_pressure(time, FULL, 0.4, FILLING_RATE) == pytest.approx(share * FULL, abs=1e-6)
+    assert demanded_pressure(time, 0.0, FULL, 0.4, FILLING_RATE) == pytest.approx(share * FULL, abs=1e-6)
 
 
 def test_relay_valve_laps_at_the_demand():

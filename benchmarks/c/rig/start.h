@@ -54,6 +54,11 @@ static inline void start(Car *car, Bogie *bogies, Wheelset *wheelsets, const Par
 {
     car->speed = p->initial_speed;
     start_supply(car, p);
+    car->demand_change = p->commanded_pressure;
+    car->demand_begins = p->dead_time;
+    car->demand_rate = p->filling_rate;
+    car->brake_command = p->commanded_pressure * p->demand_per_pressure;
+    car->axle_load = 2.0 * p->static_wheel_load;
     for (int j = 0; j < 2; j++) {
         bogies[j].speed = p->initial_speed;
         bogies[j].ahead = p->half_pivot_distance * (1.0 - 2.0 * j);

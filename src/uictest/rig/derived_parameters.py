@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from uictest.core.physics import REFERENCE_DENSITY, coldness, orifice_law, stiffnesses
+from uictest.core.physics import MOST_COMMANDS, REFERENCE_DENSITY, coldness, orifice_law, stiffnesses
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.scenario import (
     COMPENSATION_SETTINGS,
@@ -25,6 +25,11 @@ from uictest.rig.highest_creep import resampled_transfer_function
 from uictest.rig.model.parameters import Parameters
 
 _WHEELS = 8.0
+
+_OF_COMMAND = (
+    *("brake.command", "brake.position", "brake.system.positions", "brake.system.load_valve"),
+    *("vehicle.load", "vehicle.payload"),
+)
 
 Set = Callable[[Parameters, Scenario], None]
 
@@ -74,13 +79,40 @@ def _compensation_fit(p: Parameters, scenario: Scenario) -> None:
     p.compensation_misfit = math.nan if differences is None else misfit(differences, np.maximum)
 
 
-@_reads("brake.command", "brake.position", "brake.system.positions")
+@_reads(*_OF_COMMAND)
 def _command(p: Parameters, scenario: Scenario) -> None:
-    position = scenario.brake.system.positions[scenario.brake.position]
-    p.commanded_pressure = scenario.brake.command * position.maximum_pressure
-    p.demand_per_pressure = 1.0 / position.maximum_pressure
+    _, share, name = scenario.brake.commands[0]
+    position = scenario.brake.system.positions[name]
+    full = position.maximum_pressure * scenario.brake.load_share(scenario.vehicle)
+    p.commanded_pressure = share * full
+    p.demand_per_pressure = 1.0 / full
     p.dead_time = position.dead_time
     p.filling_rate = 1.0 / position.fill_time
+
+
+@_reads(*_OF_COMMAND)
+def _course(p: Parameters, scenario: Scenario) -> None:
+    p.command_count = len(scenario.brake.commands)
+    times, pressures, rates, releases = [], [], [], []
+    for at, share, name in scenario.brake.commands if p.command_count > 1 else ():
+        position = scenario.brake.system.positions[name]
+        full = position.maximum_pressure * scenario.brake.load_share(scenario.vehicle)
+        release_time = position.fill_time if position.release_time is None else position.release_time
+        times.append(at + position.dead_time)
+        pressures.append(share * full)
+        rates.append(full / position.fill_time)
+        releases.append(full / release_time)
+    blank = [0.0] * (MOST_COMMANDS - len(times))
+    p.command_times, p.command_pressures = times + blank, pressures + blank
+    p.command_rates, p.release_rates = rates + blank, releases + blank
+
+
+@_reads("until", "drag")
+def _end(p: Parameters, scenario: Scenario) -> None:
+    p.end_speed = 0.0 if scenario.until is None else scenario.until
+    p.drag_duration = p.drag_speed = 0.0
+    if scenario.drag is not None:
+        p.drag_duration, p.drag_speed = scenario.drag.duration, scenario.drag.speed
 
 
 @_reads()
@@ -187,11 +219,13 @@ def _hysteresis(p: Parameters, scenario: Scenario) -> None:
     p.wsp_acting_cycles = round(hysteresis.wsp_acting_time / scenario.controller.cycle_time)
 
 
-@_reads("vehicle.body", "vehicle.bogie", "simulation.time_step")
+@_reads("vehicle.body", "vehicle.bogie", "vehicle.load", "vehicle.payload", "simulation.time_step")
 def _frames(p: Parameters, scenario: Scenario) -> None:
     """What a force or moment on the car body or a bogie changes within one step."""
-    body, bogie = scenario.vehicle.body, scenario.vehicle.bogie
+    body, bogie = scenario.vehicle.loaded_body, scenario.vehicle.bogie
     step = float(scenario.simulation.time_step)
+    p.body_mass, p.body_inertia = body.mass, body.pitch_inertia
+    p.body_mass_rate = body.mass / step
     p.body_mass_response = step / body.mass
     p.body_pitch_response = step / body.pitch_inertia
     p.bogie_mass_response = step / bogie.mass

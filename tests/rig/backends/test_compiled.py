@@ -88,6 +88,14 @@ SETTINGS = {
         ),
         {**QUICK_BRAKE, "cycles": 90},
     ),
+    "a brake that is released and applied again, until 12 km/h": (
+        (
+            "brake.command=[{at: 0 s, value: 60 %}, {at: 0.3 s, value: 0 %}, {at: 0.6 s, value: 100 %}]",
+            *("initial_speed=14 km/h", "until=12 km/h", "simulation.time_step=1 ms"),
+            "drag={speed: 13.5 km/h, duration: 0.2 s}",
+        ),
+        {**QUICK_BRAKE, "cycles": 130},
+    ),
     "composite blocks on discs that stay cold": (
         ("brake.pad=composite-block", "initial_speed=20 km/h", "rail.condition=wet", "rail.friction=0.05"),
         {**QUICK_BRAKE, "cycles": 40},
@@ -188,8 +196,8 @@ def test_plain_and_compiled_code_give_the_same_bits(rig, setting):
 def test_the_settings_reach_what_they_say(rig):
     """Standstill, venting and locks happen within the short stops that are compared."""
     ends = {name: rig.stop(*overrides, **fields) for name, (overrides, fields) in SETTINGS.items()}
-    standstill, slides, band, air, counted, fading, motors, reduced, blocks, *others = ends.values()
-    downhill, cleaned, varied, faulty = others
+    standstill, slides, band, air, counted, fading, motors, reduced, again, *others = ends.values()
+    blocks, downhill, cleaned, varied, faulty = others
     assert standstill.measures.stopped == 1.0
     assert slides.wheelset_measures.valve_actuations.all()
     assert slides.wheelset_measures.locked_time.any()
@@ -205,6 +213,8 @@ def test_the_settings_reach_what_they_say(rig):
     assert (motors.wheelsets["dynamic_energy"] > 0.0).tolist() == [False, True, True, False]
     assert (motors.car.dynamic_dropped, reduced.car.dynamic_dropped) == (1.0, 0.0)
     assert reduced.wheelsets["dynamic_reduction"][1:3].max() > 0.0
+    assert again.car.command_place == 2
+    assert again.measures.end_speed == again.car.stopped * 12.0 * (1.0 / 3.6)
     assert downhill.measures.end_speed > 0.0
     assert cleaned.wheelsets["cleaned_share"].min() > 0.01
     assert cleaned.car.position > 4.0 * rig.parameters()[0].half_wheelbase

@@ -44,6 +44,9 @@ LEAKS = (
 TEETH = "faults=[{at: 1 s, wheelset: 2, part: speed-sensor, kind: missing-teeth, value: 3}]"
 CLEANED = "rail.condition=wet-cleaning"
 VARIED = "rail.variation={spread: 30 %, correlation_length: 5 m, left_right_correlation: 0}"
+COURSE = (
+    "brake.command=[{at: 0 s, value: 60 %}, {at: 0.4 s, value: 0 %}, {at: 1 s, value: 100 %, position: P}]"
+)
 MOTORS = "brake.dynamic={force: 60 kN, power: 1.6 MW, wheelsets: [1, 4]}"
 FAILING = "faults=[{at: 2 s, part: dynamic-brake, kind: failed}]"
 VARIANTS = (
@@ -82,6 +85,9 @@ VARIANTS = (
     (TEETH, "rig.sensors=pole-wheel", *WET),
     (MOTORS, *WET),
     (MOTORS, "controller=slip-band", *WET),
+    (COURSE, *WET),
+    ("drag={speed: 8 km/h, duration: 0.7 s}", *WET),
+    (COURSE, MOTORS, "until=4 km/h"),
     (MOTORS, FAILING, "rig.wsp=bypassed"),
 )
 

@@ -80,6 +80,7 @@ from .valves import (
     FILL as FILL,
     HOLD as HOLD,
     LONGEST_DELAY_CYCLES as LONGEST_DELAY_CYCLES,
+    MOST_COMMANDS as MOST_COMMANDS,
     VENT as VENT,
     command_before as command_before,
     demanded_pressure as demanded_pressure,

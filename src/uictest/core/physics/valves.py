@@ -6,17 +6,20 @@ only with the controller's cycle, so the past is kept as a shift register of two
 
 from uictest.core.physics.arithmetic import clamp
 
+MOST_COMMANDS = 16
+"""Brake commands of one stop; chosen: far more than drivers give."""
 
-def demanded_pressure(time: float, commanded_pressure: float, dead_time: float, filling_rate: float) -> float:
-    """Return the gauge pressure demanded at a time after the command, Pa.
 
-    It is a ramp to ``commanded_pressure`` that begins after ``dead_time`` s; ``filling_rate`` is the share of
-    that pressure added per second.
+def demanded_pressure(time: float, start: float, change: float, begins: float, rate: float) -> float:
+    """Return the gauge pressure demanded at a time, Pa.
+
+    It is a ramp by ``change`` Pa from ``start`` Pa that begins at ``begins`` s, a dead time after the
+    command; ``rate`` is the share of the change that comes per second.
 
     A UIC distributor and an electropneumatic unit differ here only in their times (UIC 540: 3-5 s in
     positions R and P, 18-30 s in G).
     """
-    return commanded_pressure * clamp((time - dead_time) * filling_rate, 0.0, 1.0)
+    return start + change * clamp((time - begins) * rate, 0.0, 1.0)
 
 
 def relay_opening(demanded_pressure: float, pressure: float, gain: float) -> float:

@@ -132,13 +132,15 @@ class Coverage:
 class ObservedStop(NamedTuple):
     """The measures of a stop as far as it was observed.
 
-    `cut_off` says why that was not to standstill; empty where it was. `coverage` is None for a simulation.
+    `cut_off` says why that was not to its end; empty where it was. `coverage` is None for a simulation.
+    `no_stopping` says why it is no stop to standstill under the brake alone; empty where it is.
     """
 
     measures: StopMeasures
     wheelsets: Wheelsets
     cut_off: str = ""
     coverage: Coverage | None = None
+    no_stopping: str = ""
 
     def missing(self, measure: str, count: int, *, settled: bool) -> tuple[MissingData | None, ...]:
         """Return what each of the `count` values of a measure lacks; empty where none lacks anything.
@@ -152,9 +154,17 @@ class ObservedStop(NamedTuple):
         return tuple(gap.and_also(self.cut_off) if gap else end for gap in gaps or (None,) * count)
 
 
+def why_no_stopping(resolved: scenario.Scenario) -> str:
+    """Return why a stop does not stop a train by its brake alone; empty where it does."""
+    drag = resolved.drag
+    if drag is not None:
+        return f"drag braking: traction holds {drag.speed.text} for {drag.duration.text}"
+    return "" if resolved.until is None else f"the stop ends at {resolved.until.text}, above standstill"
+
+
 def why_cut_off(resolved: scenario.Scenario, measures: StopMeasures, coverage: Coverage | None) -> str:
-    """Return why a stop was not observed to standstill; empty where it was."""
-    if measures.stopped:
+    """Return why a stop was not observed to its end; empty where it was."""
+    if measures.stopped or (resolved.until is not None and measures.end_speed <= resolved.until):
         return ""
     speed = (
         "an unknown speed"

@@ -39,6 +39,8 @@ JUDGED_KEYS = (
     "brake.system.wsp_valve",
     "vehicle.wheelsets",
     "simulation.maximum_duration",
+    "until",
+    "drag",
     "faults",
     "criteria",
     "measures",

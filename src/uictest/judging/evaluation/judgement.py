@@ -8,7 +8,14 @@ from dataclasses import replace
 from typing import Final, Literal
 
 from uictest.core.measures import StopMeasures, Wheelsets
-from uictest.judging.evaluation.bounds import Bounds, Coverage, ObservedStop, bounds_of, why_cut_off
+from uictest.judging.evaluation.bounds import (
+    Bounds,
+    Coverage,
+    ObservedStop,
+    bounds_of,
+    why_cut_off,
+    why_no_stopping,
+)
 from uictest.judging.evaluation.decision import Decision, decide, sensitivity
 from uictest.judging.evaluation.rig_reasons import why_rig_fails
 from uictest.judging.evaluation.verdict import (
@@ -63,7 +70,7 @@ def judge(
     """
     conditions = test_conditions_of(resolved)
     cut_off = why_cut_off(resolved, measures, coverage)
-    stop = ObservedStop(measures, wheelset_measures, cut_off, coverage)
+    stop = ObservedStop(measures, wheelset_measures, cut_off, coverage, why_no_stopping(resolved))
     verdicts = []
     for profile in resolved.judged_by if coverage is None else resolved.criteria:
         for criterion in profile.criteria:
@@ -198,6 +205,8 @@ def _not_applicable(
     initial_speed = None if unknown else stop.measures.initial_speed
     if unmet := unmet_conditions(criterion.applies, conditions, initial_speed):
         return Decision("not_applicable", None, "; ".join(map(str, unmet)))
+    if stop.no_stopping and criterion.of_standstill:
+        return Decision("not_applicable", None, stop.no_stopping)
     if criterion.of_simulation and stop.coverage is not None:
         return Decision("not_applicable", None, "a balance of the simulation: a recorded stop has none")
     if stop.coverage is not None and (absent := stop.coverage.not_computed.get(criterion.measure)):

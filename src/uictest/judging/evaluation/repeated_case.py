@@ -10,7 +10,7 @@ from typing import Final
 
 from uictest.core.measures import StopMeasures, Wheelsets
 from uictest.core.units import value_text, with_unit
-from uictest.judging.evaluation.bounds import Bounds, ObservedStop, bounds_of, why_cut_off
+from uictest.judging.evaluation.bounds import Bounds, ObservedStop, bounds_of, why_cut_off, why_no_stopping
 from uictest.judging.evaluation.decision import Decision, decide
 from uictest.judging.evaluation.json_values import Expectation, Outcome
 from uictest.judging.evaluation.judgement import Detail, undecided, verdict_by, with_definitions
@@ -236,7 +236,12 @@ def judge_repeats(
     """
     conditions = test_conditions_of(resolved)
     stops = [
-        ObservedStop(each.measures, each.wheelset_measures, why_cut_off(resolved, each.measures, None))
+        ObservedStop(
+            each.measures,
+            each.wheelset_measures,
+            why_cut_off(resolved, each.measures, None),
+            no_stopping=why_no_stopping(resolved),
+        )
         for each in repeats
         if each.measures is not None
     ]

@@ -13,8 +13,9 @@ from uictest.plans import scenario
 class TestConditions:
     """Conditions of a stop that a criterion can require.
 
-    `command` is a share of full service, `gradient` a share, positive uphill. `has_faults` tells whether the
-    scenario injects any, `rail_cleaned` whether sliding cleans its rail; None where that is not known.
+    `command` is a share of full service, the first of so many `commands`; `gradient` a share, positive
+    uphill. `has_faults` tells whether the scenario injects any, `rail_cleaned` whether sliding cleans its
+    rail; None where that is not known.
     """
 
     rail_condition: str
@@ -25,6 +26,7 @@ class TestConditions:
     topology: str
     has_faults: bool = False
     rail_cleaned: bool | None = None
+    commands: int = 1
 
 
 def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
@@ -33,7 +35,8 @@ def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
         rail_condition=resolved.rail.condition.name,
         wsp=resolved.rig.wsp,
         position=resolved.brake.position,
-        command=resolved.brake.command,
+        command=resolved.brake.first_command,
+        commands=len(resolved.brake.commands),
         gradient=resolved.rail.gradient,
         topology=resolved.rig.topology,
         has_faults=bool(resolved.faults),
@@ -79,7 +82,7 @@ def unmet_conditions(
     )
     numbers = (
         ("initial speed", initial_speed, applies.initial_speed, "km/h"),
-        ("brake command", conditions.command, applies.command, "%"),
+        ("brake command", conditions.command if conditions.commands == 1 else None, applies.command, "%"),
         ("gradient", conditions.gradient, applies.gradient, "permille"),
     )
     unmet = [
@@ -96,6 +99,8 @@ def unmet_conditions(
     ]
     if conditions.rail_condition in (applies.rail_condition_other_than or ()):
         unmet.append(UnmetCondition("rail", conditions.rail_condition, ("any other",)))
+    if conditions.commands > 1 and applies.command is not None:
+        unmet.append(UnmetCondition("brake command", "a course of several", ("one application",)))
     cleaned = conditions.rail_cleaned
     if cleaned is not None and applies.rail_cleaned not in (None, cleaned):
         was, wanted = ("cleaned by sliding", "not cleaned by sliding")[:: 1 if cleaned else -1]

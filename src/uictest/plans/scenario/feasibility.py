@@ -262,7 +262,7 @@ _Coupling = tuple[float, float]
 
 
 def _motions(vehicle: Vehicle) -> list[tuple[str, float, _Coupling]]:
-    body, bogie, wheelset = vehicle.body, vehicle.bogie, vehicle.wheelset
+    body, bogie, wheelset = vehicle.loaded_body, vehicle.bogie, vehicle.wheelset
     primary, secondary, link = vehicle.primary, vehicle.secondary, vehicle.traction_link
     pull = (_PRIMARIES * primary.longitudinal_stiffness, _PRIMARIES * primary.longitudinal_damping)
     lift = (_PRIMARIES * primary.vertical_stiffness, _PRIMARIES * primary.vertical_damping)

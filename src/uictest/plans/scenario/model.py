@@ -11,6 +11,7 @@ from uictest.core.physics import LONGEST_DELAY_CYCLES
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.faults import MOST_FAULTS
 from uictest.plans.scenario.compensation_fit import unresolved_air, unresolved_cylinder
+from uictest.plans.scenario.courses import impossible_courses
 from uictest.plans.scenario.feasibility import (
     RIG_CHECKS,
     BrakedWheelset,
@@ -34,7 +35,7 @@ from uictest.plans.scenario.parts.measures import MeasureDefinitions
 from uictest.plans.scenario.parts.named_file import OutcomeOfRepeats, Repeat, TestFile, seeds_too_large
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, distinct_values, wheelset_value
-from uictest.plans.scenario.sections import Brake, Rail, Rig, Simulation
+from uictest.plans.scenario.sections import Brake, Drag, Rail, Rig, Simulation
 from uictest.plans.scenario.yaml import (
     DEFAULT_SOURCE,
     Inconsistency,
@@ -44,7 +45,7 @@ from uictest.plans.scenario.yaml import (
     quoted,
     unknown_sources,
 )
-from uictest.plans.scenario.yaml.quantity_field import field, optional, quantity
+from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional, quantity
 
 
 class Scenario(TestFile):
@@ -66,6 +67,10 @@ class Scenario(TestFile):
         "Train speed at which the brake command is given.", "speed", "> 1 km/h .. 600 km/h"
     )
     brake: Brake = field("Brake system, command and position.")
+    until: Annotated[Quantity, of_kind("speed", "> 0 km/h .. 600 km/h")] | None = optional(
+        "Train speed at which the stop ends; standstill if left out."
+    )
+    drag: Drag | None = optional("Drag braking: a speed that traction holds for a time; none if left out.")
     rail: Rail = field("Rail condition, friction and gradient.")
     rig: Rig = field("Topology of the rig, compensation, WSP.")
     controller: Annotated[Controller, PartReference(Controller, DEFAULT_CONTROLLER)] = field(
@@ -144,9 +149,11 @@ class Scenario(TestFile):
         yield from seeds_too_large(self.seed, self.repeat)
         yield from impossible_faults(self)
         yield from self._brake_too_strong()
+        yield from impossible_courses(self)
         shortest = stopping_time_at_least(
             self.initial_speed, self.rail.highest_friction_after_cleaning, self.rail.gradient, self.vehicle
         )
+        shortest += 0.0 if self.drag is None else self.drag.duration
         if shortest > self.simulation.maximum_duration:
             yield self._stop_without_end(shortest)
 
@@ -189,10 +196,9 @@ class Scenario(TestFile):
 
     def _brake_too_strong(self) -> Iterator[Inconsistency]:
         """Yield a brake that would need more adhesion than the largest friction coefficient gives."""
-        position = self.brake.system.positions.get(self.brake.position)
-        if position is None:
+        if any(name not in self.brake.system.positions for _, _, name in self.brake.commands):
             return  # reported by the brake itself
-        pressure = self.brake.command * position.maximum_pressure
+        pressure = self.brake.highest_commanded_pressure * self.brake.load_share(self.vehicle)
         wheelsets = [
             BrakedWheelset(*(wheelset_value(self, number, name) for name in BrakedWheelset._fields))
             for number in WHEELSET_NUMBERS
@@ -250,6 +256,13 @@ class Scenario(TestFile):
             f"a stop from {self.initial_speed.text} cannot end within maximum_duration ({limit.text})",
             f"{least} with friction {self.rail.highest_friction_after_cleaning:g} and this gradient",
         )
+
+    @property
+    def developed_pressure(self) -> float:
+        """Pressure of the brake line that shows a developed brake, Pa; NaN beside a dynamic brake."""
+        if self.brake.dynamic is not None:
+            return math.nan
+        return float(self.brake.commanded_pressure * self.brake.load_share(self.vehicle))
 
     @property
     def judged_by(self) -> tuple[Criteria, ...]:

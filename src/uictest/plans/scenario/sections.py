@@ -1,6 +1,5 @@
 """The sections of a scenario: brake, rail, rig and simulation."""
 
-import math
 from collections.abc import Iterator
 from typing import Annotated, Final, Literal
 
@@ -8,6 +7,7 @@ from pydantic import BeforeValidator, Discriminator, Tag
 from pydantic_core import PydanticCustomError
 
 from uictest.plans.scenario.parts.brake import BrakeSystem, Caliper
+from uictest.plans.scenario.parts.brake_command import Command, CommandStep
 from uictest.plans.scenario.parts.compensation import Compensation
 from uictest.plans.scenario.parts.dynamic_brake import DynamicBrake
 from uictest.plans.scenario.parts.pad import DiscTemperature, Pad
@@ -18,9 +18,11 @@ from uictest.plans.scenario.parts.rail import (
     FrictionProfile,
     RailCondition,
     Variation,
+    out_of_order,
 )
+from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import Sensors
-from uictest.plans.scenario.yaml import Inconsistency, Model, PartReference, Quantity, quoted, suggestion
+from uictest.plans.scenario.yaml import Inconsistency, Key, Model, PartReference, Quantity, quoted, suggestion
 from uictest.plans.scenario.yaml.quantity_field import default, field, of_kind, optional, quantity
 
 
@@ -43,8 +45,9 @@ class Brake(Model):
     system: Annotated[BrakeSystem, PartReference(BrakeSystem, "ep-disc")] = field(
         "The brake system: a library name, a relative path or an inline mapping."
     )
-    command: Quantity = quantity(
-        "Share of the full service command.", "share", "1 % .. 100 %", default="100 %"
+    command: Command = field(
+        "Share of the full service command; or a list of commands, each from a time on.",
+        default=default("100 %", "share"),
     )
     position: str = field("Brake position; one of the positions of the brake system.", default="R")
     pad: Annotated[Pad, PartReference(Pad, "constant")] = field(
@@ -61,14 +64,46 @@ class Brake(Model):
     )
 
     @property
-    def commanded_pressure(self) -> float:
-        """Pressure of the brake line once the brake is fully applied, gauge, Pa."""
-        return self.command * self.system.positions[self.position].maximum_pressure
+    def first_command(self) -> Quantity:
+        """Share of the full service command at the beginning."""
+        return self.command[0].value if isinstance(self.command, tuple) else self.command
 
     @property
-    def developed_pressure(self) -> float:
-        """Pressure of the brake line that shows a developed brake, Pa; NaN beside a dynamic brake."""
-        return float(self.commanded_pressure) if self.dynamic is None else math.nan
+    def commands(self) -> tuple[tuple[float, float, str], ...]:
+        """All commands: time since the first, s, share of full service, position."""
+        if not isinstance(self.command, tuple):
+            return ((0.0, self.command, self.position),)
+        return tuple((each.at, each.value, each.position or self.position) for each in self.command)
+
+    @property
+    def command_text(self) -> str:
+        """All commands as written, `60 %, 100 % from 4 s (emergency)`."""
+        if not isinstance(self.command, tuple):
+            return self.command.text
+        rest = (
+            f"{each.value.text} from {each.at.text}{f' ({each.position})' if each.position else ''}"
+            for each in self.command[1:]
+        )
+        return ", ".join([self.command[0].value.text, *rest])
+
+    @property
+    def commanded_pressure(self) -> float:
+        """Pressure of the brake line of a full car once the first application is developed, gauge, Pa."""
+        _, share, position = self.commands[0]
+        return share * self.system.positions[position].maximum_pressure
+
+    @property
+    def highest_commanded_pressure(self) -> float:
+        """The highest pressure that any command asks for of a full car, gauge, Pa."""
+        positions = self.system.positions
+        return max(share * positions[position].maximum_pressure for _, share, position in self.commands)
+
+    def load_share(self, vehicle: Vehicle) -> float:
+        """Return the pressure that the load of a vehicle leaves, over that of the full one."""
+        valve = self.system.load_valve
+        if valve is None or vehicle.payload is None:
+            return 1.0
+        return valve.empty_share + (1.0 - valve.empty_share) * (vehicle.carried_mass / vehicle.payload)
 
     @property
     def models_disc_temperature(self) -> bool:
@@ -78,19 +113,36 @@ class Brake(Model):
         return self.disc_temperature == "modelled"
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
-        """Yield a position that the system does not have."""
+        """Yield positions that the system does not have, and commands out of order."""
         if self.position not in self.system.positions:
-            yield Inconsistency(
-                ("position",),
-                f"unknown brake position {quoted(self.position)}",
-                suggestion(self.position, self.system.positions),
-            )
+            yield self._unknown_position(("position",), self.position)
+        if isinstance(self.command, tuple):
+            yield from self._course_problems(self.command)
         if self.models_disc_temperature and self.system.disc.thermal is None:
             yield Inconsistency(
                 ("pad",) if self.disc_temperature is None else ("disc_temperature",),
                 "brake.system.disc.thermal is missing: what the discs warm up by is not known",
                 "add system.disc.thermal, or write disc_temperature: constant",
             )
+
+    def _course_problems(self, steps: tuple[CommandStep, ...]) -> Iterator[Inconsistency]:
+        first = steps[0]
+        if first.at > 0.0 or first.value == 0.0:
+            what = "at" if first.at > 0.0 else "value"
+            yield Inconsistency(
+                ("command", 0, what),
+                "times count from the first command, which applies the brake",
+                "begin with {at: 0 s, value: 60 %} or another share",
+            )
+        for problem in out_of_order([each.at for each in steps], "at"):
+            yield problem._replace(key=("command", *problem.key[1:]))
+        for place, step in enumerate(steps):
+            if step.position is not None and step.position not in self.system.positions:
+                yield self._unknown_position(("command", place, "position"), step.position)
+
+    def _unknown_position(self, key: Key, name: str) -> Inconsistency:
+        hint = suggestion(name, self.system.positions)
+        return Inconsistency(key, f"unknown brake position {quoted(name)}", hint)
 
 
 class Rail(Model):
@@ -170,6 +222,15 @@ class Rig(Model):
     sensors: Annotated[Sensors, PartReference(Sensors, "standard")] = field(
         "The sensors: a library name, a relative path or an inline mapping."
     )
+
+
+class Drag(Model):
+    """Drag braking: traction holds a speed while the brake acts."""
+
+    speed: Quantity = quantity(
+        "Speed that is held from when the train comes down to it.", "speed", "1 km/h .. 600 km/h"
+    )
+    duration: Quantity = quantity("Time for which it is held.", "time", "0.1 s .. 3600 s")
 
 
 SURVEY: Final = "survey"

@@ -94,7 +94,7 @@ def observe(stop: RecordedStop, judged_under: scenario.Scenario) -> Observed:
     replay = Replay(
         samples_of(recording.channels, highest_forces),
         definition,
-        judged_under.brake.developed_pressure,
+        judged_under.developed_pressure,
     )
     for _ in replay.pass_samples(inf if stop.standstill is None else stop.standstill[0]):
         pass
@@ -171,7 +171,7 @@ def _conditions(scenario: Scenario, stop: RecordedStop | None) -> Iterator[tuple
         yield "initial speed", f"{stop.recording['speed'][0] / KILOMETRE_PER_HOUR:.4g} km/h, recorded"
     brake, rail, rig = scenario.brake, scenario.rail, scenario.rig
     yield "brake position", brake.position + _unless_stated("position" in brake.model_fields_set)
-    yield "brake command", brake.command.text + _unless_stated("command" in brake.model_fields_set)
+    yield "brake command", brake.command_text + _unless_stated("command" in brake.model_fields_set)
     yield "rail", rail.condition.name
     yield "gradient", rail.gradient.text + _unless_stated("gradient" in rail.model_fields_set)
     yield "WSP", rig.wsp + _unless_stated("wsp" in rig.model_fields_set)

@@ -24,7 +24,7 @@ def wheel_loads(vehicle: scenario.Vehicle, deceleration: Array) -> Array:
     at rest. Body and bogie pull at each other at the heights of link and secondary springs, shared by
     stiffness.
     """
-    body, bogie, wheelset = vehicle.body, vehicle.bogie, vehicle.wheelset
+    body, bogie, wheelset = vehicle.loaded_body, vehicle.bogie, vehicle.wheelset
     height = _coupling_height(vehicle)
     lean = body.mass * (body.height - height) / (2.0 * vehicle.half_pivot_distance)
     turning = (

@@ -8,6 +8,7 @@ by lane once per controller cycle; everything else runs in all lanes at once. A 
 from typing import Any, NamedTuple
 
 from uictest.core.lanes import align_stack, copy_from_lane, copy_to_lane, lane, vectors
+from uictest.rig.model.brake_command import follow_commands
 from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import command_valves, read_pole_wheels, read_sensors, start_cycle
 from uictest.rig.model.disc_brake import warm_discs
@@ -31,6 +32,7 @@ from uictest.rig.model.stop_measures import (
     observe_cycle,
     observe_faults,
 )
+from uictest.rig.model.traction import hold_speed
 
 _IDLE = -1
 """Number of a lane's case when it has none."""
@@ -153,6 +155,10 @@ def _run_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> None:
             decide(lane(rig.car, k), lane(rig.wheelsets, k), p)
             if p.fault_count > 0:
                 silence_controller(lane(rig.car, k), lane(rig.wheelsets, k), p)
+            if p.command_count > 1:
+                follow_commands(lane(rig.car, k), lane(lanes.measures, k), p)
+            if p.drag_duration > 0.0:
+                hold_speed(lane(rig.car, k), p)
             steps = p.steps_per_cycle
             follows_air = follows_air or p.uses_module_air > 0.0
             warms_discs = warms_discs or p.models_disc_temperature > 0.0

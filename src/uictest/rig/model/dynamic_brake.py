@@ -33,7 +33,9 @@ def demand_dynamic_brake(car: Car, wheelsets: Sequence[Wheelset], p: Parameters)
     """Divide the force that the command asks for between both brakes, for the coming cycle; scalar code."""
     if p.controller_contract == 1:
         _drop_if_wheels_slide(car, wheelsets)
-    pressure = demanded_pressure(car.time, p.commanded_pressure, p.dead_time, p.filling_rate)
+    pressure = demanded_pressure(
+        car.time, car.demand_start, car.demand_change, car.demand_begins, car.demand_rate
+    )
     wanted = p.force_per_pressure * maximum(pressure - p.zero_force_pressure, 0.0)
     available = 0.0
     for i in range(4):

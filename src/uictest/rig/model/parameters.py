@@ -14,6 +14,7 @@ from uictest.core.measures import MeasureDefinition
 from uictest.core.physics import MOST_PAD_POINTS
 from uictest.core.rail_laws import MOST_NUMBERS
 from uictest.core.record import derived, from_scenario, layout_of
+from uictest.rig.model.command_tables import CommandTables
 from uictest.rig.model.fault_tables import FaultTables
 
 PadTable = Annotated[MutableSequence[float], MOST_PAD_POINTS]
@@ -31,7 +32,7 @@ def of_both_sides(value: float) -> float:
     return 2.0 * value
 
 
-class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
+class Parameters(ControllerCycle, MeasureDefinition, FaultTables, CommandTables):
     """What a case fixes for all wheelsets, but for the parameters of its controller."""
 
     # time
@@ -184,8 +185,9 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables):
     disc_relaxation_5: float = derived()
     disc_relaxation_6: float = derived()
     # car body and bogies
-    body_mass: float = from_scenario("vehicle.body.mass")  # kg
-    body_inertia: float = from_scenario("vehicle.body.pitch_inertia")  # kg m2
+    body_mass: float = derived()  # with its load, kg
+    body_inertia: float = derived()  # kg m2
+    body_mass_rate: float = derived()  # mass over step, kg/s
     body_mass_response: float = derived()  # step over mass, s/kg
     body_pitch_response: float = derived()  # step over inertia, s/(kg m2)
     body_height: float = from_scenario("vehicle.body.height")  # m

@@ -27,7 +27,9 @@ def step_air(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     Each valve and each tank is a chain of dependent operations. A processor works on several chains at once
     where they stand side by side, which is why no tank is filled before the flows of all are known.
     """
-    car.command_pressure = demanded_pressure(car.time, p.commanded_pressure, p.dead_time, p.filling_rate)
+    car.command_pressure = demanded_pressure(
+        car.time, car.demand_start, car.demand_change, car.demand_begins, car.demand_rate
+    )
     car.demanded_pressure = friction_pressure(car.command_pressure, car.blended_share, p.zero_force_pressure)
     drawn_0, vented_0 = _step_valve(wheelsets[0], car, p)
     drawn_1, vented_1 = _step_valve(wheelsets[1], car, p)

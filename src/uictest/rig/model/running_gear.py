@@ -21,6 +21,7 @@ from uictest.core.physics import (
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.slip_search import Slip
 from uictest.rig.model.state import Bogie, Car, Frame, Wheelset
+from uictest.rig.model.traction import traction_force
 
 LOWEST_LOAD = 0.2
 """Smallest load of a wheel, share of the reference load: far less than braking leaves; chosen."""
@@ -180,14 +181,19 @@ def account_for_brakes(
 
 
 def step_body(car: Car, p: Parameters) -> None:
-    """Advance the car body and note the instant and place of standstill."""
+    """Advance the car body and note the instant and place of standstill, or of the speed at which it ends."""
     speed = car.speed
     position = car.position
     drag = running_resistance(speed, p.resistance_constant, p.resistance_linear, p.resistance_quadratic)
+    traction = traction_force(car, drag + gradient_force(p.body_mass, p.gradient, p.gravity), p)
+    car.longitudinal_force += traction
     step_frame(car, p.body_mass, p.body_mass_response, p.body_pitch_response, drag, p)
+    car.traction_work += p.step * traction * 0.5 * (speed + car.speed)
     car.resistance_loss += p.step * drag * 0.5 * (speed + car.speed)
-    stops = (1.0 - car.stopped) * select(car.speed <= 0.0, 1.0, 0.0) > 0.0
-    share = speed / select(stops, speed - car.speed, 1.0)
+    stops = (1.0 - car.stopped) * select(car.speed <= p.end_speed, 1.0, 0.0) > 0.0
+    share = (speed - p.end_speed) / select(stops, speed - car.speed, 1.0)
     car.stop_time = select(stops, car.time + share * p.step, car.stop_time)
-    car.stop_position = select(stops, position + 0.5 * share * p.step * speed, car.stop_position)
+    car.stop_position = select(
+        stops, position + 0.5 * share * p.step * (speed + p.end_speed), car.stop_position
+    )
     car.stopped = select(stops, 1.0, car.stopped)

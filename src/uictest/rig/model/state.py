@@ -43,6 +43,11 @@ class Car(Frame, BrakedTrain):
     line_pressure_error: float  # momentary noise of its sensor, Pa
     demanded_pressure: float  # of the friction brake at present, gauge, Pa
     command_pressure: float  # that the command alone would demand, gauge, Pa
+    command_place: int  # of the command in effect, from 0
+    demand_start: float  # this and the next three: its ramp, physics.demanded_pressure
+    demand_change: float  # Pa
+    demand_begins: float  # s
+    demand_rate: float  # 1/s
     blended_share: float  # of the commanded force that the dynamic brake is to give
     dynamic_dropped: float  # 1 once a controller that cannot reduce it has acted
     dynamic_failed: float  # 1 while it has a fault
@@ -67,6 +72,11 @@ class Car(Frame, BrakedTrain):
     active_faults: int
     silent_cycles: int  # for which no command of the controller has reached the valves
     line_leak: float  # conductance of the leaks of the brake line, m3/(s Pa)
+    # drag braking: rig.model.traction
+    drag_phase: int
+    drag_ends: float  # s
+    holds_speed: float  # 1 while traction holds the speed
+    traction_work: float  # J
     # standstill, interpolated within the step
     stopped: float
     stop_time: float

@@ -7,6 +7,7 @@ from uictest.controllers import NO_FAILURE
 from uictest.core.measures import StopMeasures, WheelsetMeasures
 from uictest.core.physics import select
 from uictest.rig.model.balance import stored_air, stored_air_energy, stored_energy
+from uictest.rig.model.brake_command import follow_commands, start_command
 from uictest.rig.model.controller import FROM_OUTSIDE, begin, decide, read_outputs, write_inputs
 from uictest.rig.model.cycle import command_valves, read_pole_wheels, read_sensors, start_cycle
 from uictest.rig.model.disc_brake import start_disc, warm_discs
@@ -36,6 +37,7 @@ from uictest.rig.model.stop_measures import (
     observe_faults,
 )
 from uictest.rig.model.trace import Trace, sample
+from uictest.rig.model.traction import hold_speed
 from uictest.rig.model.wheelset_parameters import WheelsetParameters, copy_wheelset_parameters
 
 LONG_AGO = 1_000_000
@@ -52,6 +54,7 @@ def start(
     """Set the state of zeroed records for a stop from ``p.initial_speed``."""
     car.speed = p.initial_speed
     start_supply(car, p)
+    start_command(car, p)
     for j in range(2):
         bogies[j].speed = p.initial_speed
         bogies[j].ahead = p.half_pivot_distance * (1.0 - 2.0 * j)
@@ -67,7 +70,6 @@ def start(
         wheelsets[i].ahead = side * p.half_wheelbase
         wheelsets[i].behind = p.half_pivot_distance - bogie.ahead + p.half_wheelbase * (1.0 - side)
     car.axle_load = 2.0 * p.static_wheel_load
-    car.brake_command = p.commanded_pressure * p.demand_per_pressure
     begin(car, wheelsets, p)
     car.initial_energy = stored_energy(car, bogies, wheelsets, p)
     car.initial_air = stored_air(car, wheelsets)
@@ -201,6 +203,10 @@ def finish_cycle(
     if p.fault_count > 0:
         silence_controller(car, wheelsets, p)
     command_valves(car, wheelsets, p)
+    if p.command_count > 1:
+        follow_commands(car, measures, p)
+    if p.drag_duration > 0.0:
+        hold_speed(car, p)
     if p.has_dynamic_brake > 0.0:
         demand_dynamic_brake(car, wheelsets, p)
     if p.fault_count > 0:

@@ -67,7 +67,7 @@ def observe_cycle(
     stands = car.stopped > 0.0
     time = select(stands, car.stop_time, car.time)
     position = select(stands, car.stop_position, car.position)
-    speed = select(stands, 0.0, car.speed)
+    speed = select(stands, p.end_speed, car.speed)
     line_pressure = car.line_pressure - p.atmospheric_pressure
     reservoir_pressure = car.reservoir_pressure - p.atmospheric_pressure
     for i in range(4):
@@ -101,7 +101,7 @@ def observe_cycle(
     observe_reservoir_margin(measures, reservoir_pressure, _highest_cylinder_pressure(wheelsets))
     observe_build_up(measures, p, time, position, speed, line_pressure)
     observe_train(measures, p, time, position, speed, reservoir_pressure)
-    note_standstill(measures, stands, time, position)
+    note_standstill(measures, stands & (p.end_speed <= 0.0), time, position)
 
 
 def _observe_saturation(

@@ -21,8 +21,14 @@ def _settings(scenario: Scenario) -> dict[str, str]:
     brake, rail, rig = scenario.brake, scenario.rail, scenario.rig
     return {
         "vehicle": _named(scenario.vehicle),
-        "initial speed": scenario.initial_speed.text,
-        "brake": f"{_named(brake.system)}, position {brake.position}, {brake.command.text}",
+        "initial speed": scenario.initial_speed.text
+        + (
+            ""
+            if scenario.drag is None
+            else f", {scenario.drag.speed.text} held for {scenario.drag.duration.text}"
+        )
+        + ("" if scenario.until is None else f", until {scenario.until.text}"),
+        "brake": f"{_named(brake.system)}, position {brake.position}, {brake.command_text}",
         "rail": f"{_named(rail.condition)}, friction {_friction(scenario)}, gradient {rail.gradient.text}",
         "WSP": f"{rig.wsp}, controller {_controller(scenario)}",
         "rig": f"{rig.topology}, compensation {_named(rig.compensation_model)}, setting {rig.compensation}",

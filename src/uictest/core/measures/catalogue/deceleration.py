@@ -112,6 +112,7 @@ def _of_bogie(number: int) -> Measure:
         course="settles",
         meaning=f"part of the mean deceleration given by the rail through the {_POSITIONS[number]} bogie: its"
         " work on both wheelsets over the mass of the train and the braking distance",
+        of_standstill=True,
         read=lambda stop, wheelsets, definition: deceleration_of_bogie(stop, of_stop(stop)),
         decided=ShownWhen(how="span", plot="deceleration", level=True, word=f"{_POSITIONS[number]} bogie"),
         recorded=RecordedData(("speed", "distance", "adhesion_{n}", "wheel_load_{n}"), bounded=False),
@@ -163,6 +164,7 @@ MEASURES = (
         course="settles",
         meaning="work of the rail on the wheelsets over that at the maximum of their creep curves, of each"
         " while it slides or, once it has slid, its WSP holds its pressure down",
+        of_standstill=True,
         read=lambda stop, wheelsets, definition: utilisation_of_train(stop),
         decided=_LIMITED_BY_RAIL,
         observed_by=_OF_UTILISATION,
@@ -180,6 +182,7 @@ MEASURES = (
         unit="%",
         course="settles",
         meaning="adhesion utilisation of the wheelset; 100 % if it never slid where another one did",
+        of_standstill=True,
         read=lambda stop, wheelsets, definition: utilisation_of_wheelsets(stop, wheelsets),
         decided=_LIMITED_BY_RAIL,
         of_wheelsets=True,

@@ -25,6 +25,9 @@ class Position(Section):
     dead_time: Quantity = quantity(
         "Time between the command and the first rise of pressure.", "time", "0 s .. 10 s"
     )
+    release_time: Annotated[Quantity, of_kind("time", "1 ms .. 120 s")] | None = optional(
+        "Time in which the set pressure falls from the maximum to zero; fill_time if left out."
+    )
 
 
 class Reservoir(Section):
@@ -147,6 +150,16 @@ class Air(Section):
     )
 
 
+class LoadValve(Section):
+    """The valve that lets the brake pressure follow the load of the car."""
+
+    empty_share: Quantity = quantity(
+        "Pressure of the empty car over that of the full one; between them it is linear in the load.",
+        "share",
+        "10 % .. 100 %",
+    )
+
+
 class BrakeSystem(Part):
     """A pneumatic disc brake with wheel slide protection valves."""
 
@@ -164,6 +177,9 @@ class BrakeSystem(Part):
     tank: Tank = field("One tank; all four are alike.")
     caliper_tank: CaliperTank = field("What differs in the tank of a module with a caliper.")
     disc: Disc = field("The disc brake of one wheelset.")
+    load_valve: LoadValve | None = optional(
+        "How the pressure follows vehicle.load; if left out, it does not. Pressures are then of the full car."
+    )
     air: Air = field("The air and its surroundings.")
 
     def inconsistencies(self) -> Iterator[Inconsistency]:

@@ -120,6 +120,11 @@ class Criterion(Model):
         return self._declared.of_faults
 
     @property
+    def of_standstill(self) -> bool:
+        """Whether the measure describes a stop to standstill."""
+        return self._declared.of_standstill
+
+    @property
     def of_simulation(self) -> bool:
         """Whether the measure describes the simulation itself, not a train."""
         return self._declared.of_simulation

@@ -8,9 +8,11 @@ import math
 from collections.abc import Iterator
 from typing import Annotated, ClassVar, Literal
 
+from pydantic import Discriminator, Tag
+
 from uictest.plans.scenario.parts.wheelsets import ALIKE, Radius, Wheelsets
 from uictest.plans.scenario.yaml import Inconsistency, Key, Part, Quantity, Section
-from uictest.plans.scenario.yaml.quantity_field import field, of_kind, quantity, schema_field
+from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional, quantity, schema_field
 
 Height = Annotated[Quantity, of_kind("length", "1 cm .. 5 m")]
 Stiffness = Annotated[Quantity, of_kind("stiffness", "1 kN/m .. 1000 MN/m")]
@@ -23,7 +25,9 @@ LOWEST_FREQUENCY = 0.3
 class Body(Section):
     """The car body."""
 
-    mass: Quantity = quantity("Mass of the car body, loaded as tested.", "mass", "1 t .. 200 t")
+    mass: Quantity = quantity(
+        "Mass of the car body; with `load: empty`, loaded as tested.", "mass", "1 t .. 200 t"
+    )
     pitch_inertia: Quantity = quantity(
         "Moment of inertia in pitch about the centre of gravity.", "inertia", "1e3 kg m2 .. 1e8 kg m2"
     )
@@ -92,6 +96,18 @@ class RunningResistance(Section):
     )
 
 
+def _load_form(value: object) -> str:
+    return "word" if isinstance(value, str) and value in ("empty", "full") else "mass"
+
+
+Load = Annotated[
+    Annotated[Literal["empty", "full"], Tag("word")]
+    | Annotated[Quantity, of_kind("mass", "0 t .. 200 t"), Tag("mass")],
+    Discriminator(_load_form),
+]
+"""A word, or a mass."""
+
+
 class Vehicle(Part):
     """A car of two bogies and four wheelsets."""
 
@@ -112,6 +128,27 @@ class Vehicle(Part):
     secondary: SecondarySuspension = field("Secondary suspension, per side of a bogie.")
     traction_link: TractionLink = field("Traction rod between bogie and body, one per bogie.")
     running_resistance: RunningResistance = field("Running resistance of the whole car.")
+    payload: Annotated[Quantity, of_kind("mass", "> 0 t .. 200 t")] | None = optional(
+        "What the full car carries besides `body.mass`; its centre of gravity lies at that of the body."
+    )
+    load: Load = field("What the car carries: empty, full (the payload), or a mass.", default="empty")
+
+    @property
+    def carried_mass(self) -> float:
+        """Mass of the load, kg."""
+        if self.load == "empty":
+            return 0.0
+        carried = self.payload if self.load == "full" else self.load
+        return 0.0 if carried is None else carried  # without a payload no car is full
+
+    @property
+    def loaded_body(self) -> Body:
+        """The car body with its load, which leaves its radius of gyration as it is."""
+        if self.load == "empty":
+            return self.body
+        mass = self.body.mass + self.carried_mass
+        inertia = self.body.pitch_inertia * (mass / self.body.mass)
+        return self.body.model_copy(update={"mass": mass, "pitch_inertia": inertia})
 
     @property
     def wheel_radii(self) -> tuple[float, ...]:
@@ -122,7 +159,7 @@ class Vehicle(Part):
     @property
     def total_mass(self) -> float:
         """Mass of the car, kg."""
-        return self.body.mass + 2.0 * self.bogie.mass + 4.0 * self.wheelset.mass
+        return self.loaded_body.mass + 2.0 * self.bogie.mass + 4.0 * self.wheelset.mass
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield impossible vehicles: wheels or bogies that overlap, more inertia than the mass allows."""
@@ -132,6 +169,12 @@ class Vehicle(Part):
             if own.wheel_radius is not None:
                 yield from self._impossible_wheels(own.wheel_radius, ("wheelsets", number, "wheel_radius"))
         yield from self._springs_too_soft()
+        if self.load != "empty" and self.payload is None:
+            yield Inconsistency(
+                ("load",), "this car has no payload", "say what it carries when full: payload: 8 t"
+            )
+        elif self.payload is not None and self.carried_mass > self.payload:
+            yield Inconsistency(("load",), f"more than the payload of {self.payload.text}")
 
     def _impossible_wheels(self, radius: float, place: Key) -> Iterator[Inconsistency]:
         """Yield wheels of a radius, given at a key, that overlap or have too much inertia."""
@@ -155,7 +198,8 @@ class Vehicle(Part):
 
     def _springs_too_soft(self) -> Iterator[Inconsistency]:
         """Yield springs on which the car would oscillate more slowly than any real car."""
-        body, sprung = self.body.mass, self.body.mass + 2.0 * self.bogie.mass
+        body = self.loaded_body.mass
+        sprung = body + 2.0 * self.bogie.mass
         primary, secondary, link = self.primary, self.secondary, self.traction_link
         pull = 2.0 * link.stiffness + 4.0 * secondary.longitudinal_stiffness
         for key, stiffness, mass in (

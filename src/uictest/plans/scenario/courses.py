@@ -1,0 +1,35 @@
+"""Courses of a stop that cannot be: an end that is never reached, a speed that is never held."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from uictest.plans.scenario.yaml import Inconsistency
+
+
+def impossible_courses(scenario: Any) -> Iterator[Inconsistency]:
+    """Yield speeds at which the stop of a scenario cannot end or be held, and a load that is not known."""
+    until, drag, begins = scenario.until, scenario.drag, scenario.initial_speed
+    if scenario.brake.system.load_valve is not None and scenario.vehicle.payload is None:
+        yield Inconsistency(
+            ("brake", "system", "load_valve"),
+            "the vehicle has no payload that the pressure could follow",
+            "say what it carries when full: vehicle.payload: 8 t",
+        )
+    if until is not None and until >= begins:
+        yield Inconsistency(
+            ("until",),
+            f"the stop begins at {begins.text}, not above {until.text}",
+            "write a speed below initial_speed",
+        )
+    if drag is not None and drag.speed > begins:
+        yield Inconsistency(
+            ("drag", "speed"),
+            f"the train begins at {begins.text} and comes to no higher speed",
+            "write initial_speed or less",
+        )
+    if drag is not None and until is not None and until >= drag.speed:
+        yield Inconsistency(
+            ("until",),
+            f"the stop would end before {drag.speed.text} is held",
+            "write a speed below drag.speed",
+        )

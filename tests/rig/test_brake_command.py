@@ -1,0 +1,148 @@
+"""The course of the brake command over time, release, and stops that end above standstill."""
+
+import numpy as np
+import pytest
+
+from uictest.judging.evaluation import evaluate_simulated
+from uictest.rig.simulation import simulate
+
+BYPASSED = ("rig.wsp=bypassed", "rig.topology=four-caliper")
+SERVICE = "brake.command=[{at: 0 s, value: 60 %}, {at: 4 s, value: 100 %, position: emergency}]"
+RELEASED = "brake.command=[{at: 0 s, value: 100 %}, {at: 6 s, value: 0 %}]"
+AGAIN = "brake.command=[{at: 0 s, value: 100 %}, {at: 5 s, value: 0 %}, {at: 9 s, value: 80 %}]"
+STEPS_PER_SECOND = 2000
+
+
+def bits(stop):
+    return bytes(stop.measures.tobytes() + stop.wheelset_measures.tobytes())
+
+
+def position(rig, name="R"):
+    return rig.case().scenario.brake.system.positions[name]
+
+
+def test_a_course_of_one_command_is_that_command(rig):
+    alone = rig.stop("brake.command=60 %")
+    assert bits(rig.stop("brake.command=[{at: 0 s, value: 60 %}]")) == bits(alone)
+    repeated = "brake.command=[{at: 0 s, value: 60 %}, {at: 7 s, value: 60 %}]"
+    assert rig.stop(repeated).measures.braking_distance == alone.measures.braking_distance
+
+
+def test_every_command_begins_a_ramp_after_its_dead_time_at_the_rate_of_its_position(rig):
+    stop = rig.columns(SERVICE, every=1)
+    service, emergency = position(rig), position(rig, "emergency")
+    times, demanded = stop["time"], stop["demanded_pressure"]
+    begins = 4.0 + emergency.dead_time
+    ends = begins + (emergency.maximum_pressure - 0.6 * service.maximum_pressure) / (
+        emergency.maximum_pressure / emergency.fill_time
+    )
+    low, high = 0.6 * service.maximum_pressure, emergency.maximum_pressure
+    first = np.clip((times - service.dead_time) / service.fill_time, 0.0, 1.0) * low
+    expected = np.where(times < begins, first, np.interp(times, [begins, ends], [low, high]))
+    # A sample shows the demand of the step before it; its ramp takes effect with a controller cycle.
+    largest = high / emergency.fill_time / STEPS_PER_SECOND
+    assert np.abs(demanded - expected)[1:].max() < 1.01 * largest + 0.01 * high / emergency.fill_time
+
+
+def test_a_released_brake_falls_in_its_release_time(rig):
+    stop = rig.columns(RELEASED, "brake.system.positions.R.release_time=2 s", every=1)
+    begins = 6.0 + position(rig).dead_time
+    fallen = np.interp(begins + 1.0, stop["time"], stop["demanded_pressure"])
+    assert fallen == pytest.approx(0.5 * position(rig).maximum_pressure, rel=0.01)
+    gone = stop["time"] > begins + 2.01
+    assert np.all(stop["demanded_pressure"][gone] == 0.0)
+
+
+def test_a_released_train_rolls_under_its_running_resistance_alone(rig):
+    stop = rig.columns(RELEASED, *BYPASSED, "simulation.maximum_duration=30 s")
+    rolls = stop["time"] > 20.0
+    # The rig brakes with what its loadcells show: noise and resolution, some ten newtons.
+    shown = stop["brake_torque"][rolls].sum(axis=1).mean() / 0.43
+    assert shown < 100.0
+    resistance = rig.case().scenario.vehicle.running_resistance
+    speed = stop["speed"][rolls].mean()
+    drag = resistance.constant + resistance.linear * speed + resistance.quadratic * speed**2
+    mass = rig.case().scenario.vehicle.total_mass + 4.0 * 123.0 / 0.43**2
+    falls = (stop["speed"][rolls][0] - stop["speed"][-1]) / (stop["time"][-1] - stop["time"][rolls][0])
+    assert falls == pytest.approx((drag + shown) / mass, rel=0.01)
+
+
+def test_release_lets_a_locked_wheelset_roll_again(rig):
+    stop = rig.columns(
+        *(RELEASED, *BYPASSED, "rail.condition=wet", "rail.friction=0.08", "initial_speed=120 km/h"),
+        "simulation.maximum_duration=45 s",
+    )
+    locked = (stop["time"] > 5.0) & (stop["time"] < 6.0)
+    assert np.all(stop["wheel_speed"][locked] == 0.0)
+    assert stop["slide"][-1].max() < 0.01
+
+
+def test_a_further_application_brakes_to_standstill_and_everything_balances(rig):
+    for rail in ((), ("rail.condition=wet", "rail.friction=0.10")):
+        measures = rig.stop(AGAIN, *rail).measures
+        assert measures.stopped == 1.0
+        assert abs(measures.energy_residual) < 1e-9
+        assert abs(measures.air_residual) < 1e-9
+
+
+def test_the_build_up_is_that_of_the_first_application(rig):
+    alone = rig.stop("brake.command=100 %", *BYPASSED).measures.build_up_time
+    assert rig.stop(RELEASED, *BYPASSED, "simulation.maximum_duration=30 s").measures.build_up_time == alone
+    early = "brake.command=[{at: 0 s, value: 100 %}, {at: 0.2 s, value: 50 %}]"
+    assert np.isnan(rig.stop(early).measures.build_up_time)
+
+
+@pytest.mark.parametrize("until", ["30 km/h", "5 km/h"])
+def test_a_stop_until_a_speed_is_the_beginning_of_the_whole_stop(rig, until):
+    rail = ("rail.condition=wet", "rail.friction=0.10")
+    whole, part = rig.columns(*rail), rig.columns(*rail, f"until={until}")
+    rows = len(part["time"]) - 1
+    assert np.array_equal(part["speed"][:rows], whole["speed"][:rows])
+    speed = float(until.split()[0]) / 3.6
+    measures = rig.stop(*rail, f"until={until}").measures
+    assert (measures.stopped, measures.end_speed) == (0.0, speed)
+    order = slice(None, None, -1)
+    for name, found in (("time", measures.end_time), ("distance", measures.end_distance)):
+        expected = np.interp(speed, whole["speed"][order], whole[name][order])
+        assert found == pytest.approx(expected, rel=1e-3)
+
+
+def test_what_is_of_a_standstill_does_not_apply_to_a_stop_that_ends_above(rig):
+    case = rig.case("until=10 km/h", "criteria=[uictest-stop, uic-541-05-appendix-b]")
+    stop = simulate(case)
+    result = evaluate_simulated(case, stop.measures, stop.wheelset_measures)
+    verdicts = {each.id: each for each in result.criteria}
+    assert verdicts["standstill"].status == "not_applicable"
+    assert verdicts["standstill"].reason == "the stop ends at 10 km/h, above standstill"
+    assert result.outcome == "pass"
+    assert np.isnan(result.measures["braking_distance_m"])
+
+
+def test_a_criterion_of_one_full_application_does_not_apply_to_a_course(rig):
+    case = rig.case(AGAIN, "initial_speed=120 km/h", "criteria=uic-541-05-appendix-b")
+    stop = simulate(case)
+    [distance] = [
+        each
+        for each in evaluate_simulated(case, stop.measures, stop.wheelset_measures).criteria
+        if each.id == "braking-distance"
+    ]
+    assert distance.status == "not_applicable"
+    assert "brake command is a course of several" in distance.reason
+
+
+@pytest.mark.parametrize(
+    ("setting", "message"),
+    [
+        ("brake.command=[{at: 1 s, value: 60 %}]", "times count from the first command"),
+        ("brake.command=[{at: 0 s, value: 0 %}]", "times count from the first command"),
+        ("brake.command=[{at: 0 s, value: 60 %}, {at: 0 s, value: 80 %}]", "0 s does not come after 0 s"),
+        ("brake.command=[{at: 0 s, value: 60 %, position: Q}]", "unknown brake position 'Q'"),
+        ("brake.command=[{at: 0 s, value: 60}]", "has no unit"),
+        ("brake.command=[]", "at least 1"),
+        ("until=90 km/h", "the stop begins at 80 km/h"),
+        ("until=0 km/h", "0 km/h"),
+    ],
+)
+def test_what_cannot_be_is_refused(rig, setting, message):
+    with pytest.raises(Exception, match=message):
+        rig.case(setting)
