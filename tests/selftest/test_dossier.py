@@ -74,6 +74,17 @@ def test_every_link_leads_to_a_place_in_it(files):
     assert checked > 300
 
 
+def test_what_is_not_in_the_archive_is_named_with_its_path_and_is_no_link(files):
+    page = text(files, "manual/trust.html")
+    assert "<span>Polach's published values (tests/physics/test_polach.py)</span>" in page.replace(
+        "&#39;", "'"
+    )
+    assert '<a href="constraints.txt">' in text(files, "questions.html")
+    for name in files:
+        if name.endswith(".html"):
+            assert not re.search(r"<a(?! href| class)", text(files, name)), name
+
+
 def test_the_same_installation_makes_the_same_bytes():
     assert dossier.packed(files_of(PASSED)) == dossier.packed(files_of(PASSED))
 

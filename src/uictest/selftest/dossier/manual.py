@@ -8,8 +8,6 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, Final
 
-from markupsafe import escape
-
 _HERE: Final = Path(__file__).parent
 _OF_WHEEL, _OF_CLONE = _HERE / "docs", _HERE.parents[3] / "docs"
 PAGES: Final = _OF_WHEEL if _OF_WHEEL.is_dir() else _OF_CLONE
@@ -91,7 +89,10 @@ def rendered(page: Path, folder: str) -> str:
     is_list = page.stem == "requirements"
     for token, following in pairwise([*_all(tokens), None]):
         if token.type == "link_open":
-            _lead(token, following.content, folder)
+            _lead(token, following, folder)
+            kind = token.tag
+        if token.type == "link_close":
+            token.tag = kind
         if is_list and token.type == "td_open" and (number := _NUMBER.match(following.content)):
             token.attrSet("id", number[0])
     shown = str(parser.renderer.render(tokens, parser.options, {}))
@@ -118,21 +119,20 @@ def _name_headings(tokens: list[Any]) -> None:
             heading.attrSet("id", words.replace(" ", "-"))
 
 
-def _lead(token: Any, words: str, folder: str) -> None:
-    """Lead a link to the page in the archive; what is not part of it stays a text, with its path as title."""
+def _lead(token: Any, words: Any, folder: str) -> None:
+    """Lead a link to its place in the archive; what is not part of it becomes a text with its path."""
     target = str(token.attrs["href"])
-    if "://" in target or target.startswith("#"):
-        return
     name, _, anchor = target.partition("#")
     file = Path(name).name
     known = {path.name for path in pages()}
-    if name.endswith(".html"):
+    if "://" in target or target.startswith("#") or name.endswith(".html") or not folder:
         return
-    if words.startswith("test_") and name.endswith(".py"):
-        token.attrs["href"] = f"{'../' if folder else ''}{TESTS}#{words}"
+    if words.content.startswith("test_") and name.endswith(".py"):
+        token.attrs["href"] = f"../{TESTS}#{words.content}"
         return
-    if file in known and (not folder or name in (file, f"../{file}")):
+    if file in known and name in (file, f"../{file}"):
         token.attrs["href"] = f"{Path(file).stem}.html{f'#{anchor}' if anchor else ''}"
         return
     del token.attrs["href"]
-    token.attrs["title"] = str(escape(f"{name.removeprefix('../')} of the repository"))
+    token.tag = "span"
+    words.content += f" ({name.removeprefix('../')})"
