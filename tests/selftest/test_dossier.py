@@ -262,6 +262,7 @@ def test_every_number_of_the_library_is_there_with_mark_source_and_range(files, 
     marks = [each["mark"] for each in numbers]
     assert f"{len(marks)} numbers of the library: {marks.count('chosen')} chosen" in page
     assert page.count("<tr>") >= len(numbers)
+    assert '<a href="#rails-leaf-layer">rails/leaf-layer</a>' in page
 
 
 def test_every_limit_says_that_it_is_not_verified(whole):

@@ -46,12 +46,20 @@ def numbers_page(numbers: Sequence[dict[str, Any]], bounds: Sequence[dict[str, A
             f"{len(bounds) - second_hand} ours; none is verified, as no leaflet was read."
         ),
     ]
-    names = dict.fromkeys(each["part"] for each in numbers)
+    parts: dict[str, list[dict[str, Any]]] = {}
+    for each in numbers:
+        parts.setdefault(each["part"], []).append(each)
+    rows = [
+        {"part": part, "count": len(own), **Counter(each["mark"] for each in own)}
+        for part, own in parts.items()
+    ]
+    headings = {"part": "part", "count": "numbers", **{mark: mark for mark, _ in marks.most_common()}}
     return sheet(
         "Numbers and limits",
         [
             Section("Limits of all criteria", entries(bounds, _LIMITS, wide=("source", "title")), "limits"),
-            *(_section(name, [each for each in numbers if each["part"] == name]) for name in names),
+            Section("All parts", entries(rows, headings)),
+            *(_section(part, own) for part, own in parts.items()),
         ],
         said=said,
     )
