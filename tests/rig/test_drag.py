@@ -69,10 +69,40 @@ def test_criteria_of_a_standstill_do_not_apply(rig):
     assert verdicts["standstill"].status == "not_applicable"
 
 
+def test_what_traction_holds_proves_no_slippery_rail(rig):
+    """While it holds, the train does not slow: that is no low adhesion."""
+    case = rig.case(
+        *("initial_speed=120 km/h", "drag={speed: 120 km/h, duration: 10 s}", "rail.condition=wet"),
+        *("rail.friction=0.13", "criteria=uic-541-05-appendix-b"),
+    )
+    stop = simulate(case)
+    result = evaluate_simulated(case, stop.measures, stop.wheelset_measures)
+    statuses = {each.id: each.status for each in result.criteria}
+    assert statuses["initial-adhesion"] == statuses["minimum-slide"] == "not_applicable"
+    for name in ("braking_distance_m", "mean_deceleration_mps2", "minimum_deceleration_mps2"):
+        assert np.isnan(result.measures[name])
+
+
+def test_a_speed_that_is_not_held_is_said(rig):
+    """Down a gradient under a weak brake: nothing is shown of a drag."""
+    case = rig.case(
+        *("drag={speed: 80 km/h, duration: 5 s}", "rail.gradient=-30 permille", "criteria=uictest-stop"),
+        "brake.command=[{at: 0 s, value: 1 %}, {at: 12 s, value: 100 %}]",
+    )
+    stop = simulate(case)
+    result = evaluate_simulated(case, stop.measures, stop.wheelset_measures)
+    assert result.outcome == "inconclusive"
+    assert any("traction held 80 km/h for" in each.reason for each in result.criteria)
+
+
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
         (["drag={speed: 90 km/h, duration: 5 s}"], "comes to no higher speed"),
+        (
+            ["until=30 km/h", "faults=[{at: 20 km/h, wheelset: 1, part: speed-sensor, kind: lost}]"],
+            "before 20 km/h",
+        ),
         ([DRAG, "until=60 km/h"], "would end before 60 km/h is held"),
         (["drag={speed: 60 km/h}"], "duration"),
         (["drag={speed: 60 km/h, duration: 200 s}"], "cannot end within maximum_duration"),

@@ -83,9 +83,10 @@ def _compensation_fit(p: Parameters, scenario: Scenario) -> None:
 def _command(p: Parameters, scenario: Scenario) -> None:
     _, share, name = scenario.brake.commands[0]
     position = scenario.brake.system.positions[name]
-    full = position.maximum_pressure * scenario.brake.load_share(scenario.vehicle)
-    p.commanded_pressure = share * full
-    p.demand_per_pressure = 1.0 / full
+    load = scenario.brake.load_share(scenario.vehicle)
+    p.first_command = share
+    p.commanded_pressure = share * (position.maximum_pressure * load)
+    p.demand_per_pressure = 1.0 / (scenario.brake.highest_full_pressure * load)
     p.dead_time = position.dead_time
     p.filling_rate = 1.0 / position.fill_time
 
@@ -93,16 +94,19 @@ def _command(p: Parameters, scenario: Scenario) -> None:
 @_reads(*_OF_COMMAND)
 def _course(p: Parameters, scenario: Scenario) -> None:
     p.command_count = len(scenario.brake.commands)
-    times, pressures, rates, releases = [], [], [], []
+    given, shares, times, pressures, rates, releases = [], [], [], [], [], []
     for at, share, name in scenario.brake.commands if p.command_count > 1 else ():
         position = scenario.brake.system.positions[name]
         full = position.maximum_pressure * scenario.brake.load_share(scenario.vehicle)
         release_time = position.fill_time if position.release_time is None else position.release_time
+        given.append(at)
+        shares.append(share)
         times.append(at + position.dead_time)
         pressures.append(share * full)
         rates.append(full / position.fill_time)
         releases.append(full / release_time)
     blank = [0.0] * (MOST_COMMANDS - len(times))
+    p.command_given, p.command_shares = given + blank, shares + blank
     p.command_times, p.command_pressures = times + blank, pressures + blank
     p.command_rates, p.release_rates = rates + blank, releases + blank
 

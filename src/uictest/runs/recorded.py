@@ -250,6 +250,12 @@ def case_of_stop(
     the missing keys are stated.
     """
     if case is not None:
+        for key in ("until", "drag"):
+            if getattr(case.scenario, key) is not None:
+                raise InvalidInputError(
+                    f"{case.path}: {key}: says how a stop is simulated, a recorded one is judged to its end:"
+                    f" state --set {key}=null"
+                )
         return lambda name, speed: case
     keys = {statement.partition("=")[0].strip() for statement in statements}
     missing = [key for key in field_data.REQUIRED_STATEMENTS if key not in keys]

@@ -196,6 +196,7 @@ class Measure:
         decided: when a stop decides it; None for what no moment of a stop decides.
         of_wheelsets: whether every wheelset has a value.
         of_faults: whether it says something about the reaction to faults: nothing, where none began.
+        of_braking: whether it is of how the train slows: nothing, where traction holds its speed.
         of_standstill: whether it is of a stop to standstill: nothing, where one ends above it.
         of_simulation: whether it says something about the simulation itself, nothing about a train.
         definitions: parameters that a criterion must define before the words mean a number.
@@ -218,6 +219,7 @@ class Measure:
     decided: ShownWhen | None = None
     of_wheelsets: bool = False
     of_faults: bool = False
+    of_braking: bool = False
     of_standstill: bool = False
     of_simulation: bool = False
     definitions: tuple[str, ...] = ()

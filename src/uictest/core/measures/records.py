@@ -61,6 +61,7 @@ class StopMeasures(Record):
     saturation_time: float  # first sample by which any sensor has been, s
     compensation_misfit: float  # differences from the rig it was identified for, over tolerances
     samples: float
+    held_time: float  # for which traction has held the speed of a drag, s
     fault_time: float  # first cycle with a fault while the train moves, s
     reference_excess: float  # largest, of the controller's estimate over the train's speed since then, m/s
 

@@ -39,6 +39,7 @@ def begin_train(
     measures.line_saturation = 0.0
     measures.saturation_time = NAN
     measures.compensation_misfit = NAN
+    measures.held_time = NAN
     measures.samples = 1.0
     measures.fault_time = NAN
     measures.reference_excess = NAN

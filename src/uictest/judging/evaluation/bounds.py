@@ -164,6 +164,9 @@ def why_no_stopping(resolved: scenario.Scenario) -> str:
 
 def why_cut_off(resolved: scenario.Scenario, measures: StopMeasures, coverage: Coverage | None) -> str:
     """Return why a stop was not observed to its end; empty where it was."""
+    if coverage is None and resolved.drag is not None and measures.held_time < 0.99 * resolved.drag.duration:
+        held = value_text(measures.held_time, "s")
+        return f"traction held {resolved.drag.speed.text} for {held} of {resolved.drag.duration.text}"
     if measures.stopped or (resolved.until is not None and measures.end_speed <= resolved.until):
         return ""
     speed = (

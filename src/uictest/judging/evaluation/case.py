@@ -93,6 +93,8 @@ def evaluate(
     outcome, reason = outcome_of(verdicts)
     of_stop = stop_column_values(measures, _column_definition(case.scenario.criteria))
     of_wheelsets = [wheelset_column_values(wheelset) for wheelset in wheelset_measures]
+    if case.scenario.drag is not None:
+        of_stop = _without(_COLUMNS_OF_BRAKING, of_stop)
     if coverage is not None:
         of_stop = _without(_unknown_columns(coverage, of_wheelsets=False), of_stop)
         unknown = _unknown_columns(coverage, of_wheelsets=True)
@@ -193,6 +195,14 @@ def _unknown_columns(coverage: Coverage, *, of_wheelsets: bool) -> set[str]:
     """Return the columns of stops or of wheelsets whose measure lacks data in a record, for any wheelset."""
     lacking = (measure for name, measure in MEASURES.items() if name in coverage.missing)
     return {each.column.name for each in lacking if each.column and each.of_wheelsets == of_wheelsets}
+
+
+_COLUMNS_OF_BRAKING: Final = frozenset(
+    each.column.name
+    for each in MEASURES.values()
+    if each.column and (each.of_braking or each.of_standstill) and not each.of_wheelsets
+)
+"""Columns that say nothing of a stop in which traction held a speed."""
 
 
 def _without(unknown: Container[str], columns: Mapping[str, float]) -> dict[str, float]:

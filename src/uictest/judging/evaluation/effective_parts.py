@@ -45,7 +45,7 @@ class EffectiveParts:
         condition = scenario.rail.condition
         stated = [Parameter("rail.condition", condition.name, "", condition.name, "user")]
         for name in ("brake", "rail", "rig"):
-            stated += [row for row in _section(scenario, name) if row.key in _CONDITIONS]
+            stated += [row for row in _section(scenario, name) if row.key.startswith(_CONDITIONS)]
         return {
             "conditions": EffectivePart("conditions", "", "", None, tuple(stated)),
             "measures": self.part(scenario.measures, "measures", "measures"),

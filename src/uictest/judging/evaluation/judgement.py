@@ -205,7 +205,7 @@ def _not_applicable(
     initial_speed = None if unknown else stop.measures.initial_speed
     if unmet := unmet_conditions(criterion.applies, conditions, initial_speed):
         return Decision("not_applicable", None, "; ".join(map(str, unmet)))
-    if stop.no_stopping and criterion.of_standstill:
+    if stop.no_stopping and (criterion.of_standstill or (conditions.drag and criterion.of_braking)):
         return Decision("not_applicable", None, stop.no_stopping)
     if criterion.of_simulation and stop.coverage is not None:
         return Decision("not_applicable", None, "a balance of the simulation: a recorded stop has none")

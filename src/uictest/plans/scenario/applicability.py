@@ -14,8 +14,8 @@ class TestConditions:
     """Conditions of a stop that a criterion can require.
 
     `command` is a share of full service, the first of so many `commands`; `gradient` a share, positive
-    uphill. `has_faults` tells whether the scenario injects any, `rail_cleaned` whether sliding cleans its
-    rail; None where that is not known.
+    uphill. `drag` tells whether traction holds a speed, `has_faults` whether the scenario injects any,
+    `rail_cleaned` whether sliding cleans its rail; None where that is not known.
     """
 
     rail_condition: str
@@ -27,6 +27,7 @@ class TestConditions:
     has_faults: bool = False
     rail_cleaned: bool | None = None
     commands: int = 1
+    drag: bool = False
 
 
 def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
@@ -37,6 +38,7 @@ def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
         position=resolved.brake.position,
         command=resolved.brake.first_command,
         commands=len(resolved.brake.commands),
+        drag=resolved.drag is not None,
         gradient=resolved.rail.gradient,
         topology=resolved.rig.topology,
         has_faults=bool(resolved.faults),

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
+from uictest.plans.scenario.parts.fault import SPEED
 from uictest.plans.scenario.yaml import Inconsistency
 
 
@@ -27,9 +28,29 @@ def impossible_courses(scenario: Any) -> Iterator[Inconsistency]:
             f"the train begins at {begins.text} and comes to no higher speed",
             "write initial_speed or less",
         )
+    yield from _never_reached(scenario)
     if drag is not None and until is not None and until >= drag.speed:
         yield Inconsistency(
             ("until",),
             f"the stop would end before {drag.speed.text} is held",
             "write a speed below drag.speed",
         )
+
+
+def _never_reached(scenario: Any) -> Iterator[Inconsistency]:
+    """Yield commands and faults behind the end of the stop."""
+    longest, until = scenario.simulation.maximum_duration, scenario.until
+    for place, (at, _, _) in enumerate(scenario.brake.commands):
+        if at >= longest:
+            yield Inconsistency(
+                ("brake", "command", place, "at"),
+                f"the stop ends after {longest.text} at the latest",
+                "write an earlier time, or a longer simulation.maximum_duration",
+            )
+    for place, fault in enumerate(scenario.faults):
+        if until is not None and fault.at.unit == SPEED and fault.at <= until:
+            yield Inconsistency(
+                ("faults", place, "at"),
+                f"the stop ends at {until.text}, before {fault.at.text} is reached",
+                "write a higher speed",
+            )

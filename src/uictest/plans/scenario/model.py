@@ -153,6 +153,8 @@ class Scenario(TestFile):
         shortest = stopping_time_at_least(
             self.initial_speed, self.rail.highest_friction_after_cleaning, self.rail.gradient, self.vehicle
         )
+        if self.until is not None:  # not slowed more than at the beginning, all the way
+            shortest *= 1.0 - self.until / self.initial_speed
         shortest += 0.0 if self.drag is None else self.drag.duration
         if shortest > self.simulation.maximum_duration:
             yield self._stop_without_end(shortest)

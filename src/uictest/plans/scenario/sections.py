@@ -98,6 +98,11 @@ class Brake(Model):
         positions = self.system.positions
         return max(share * positions[position].maximum_pressure for _, share, position in self.commands)
 
+    @property
+    def highest_full_pressure(self) -> float:
+        """The highest pressure of a full service command in any position that is used, gauge, Pa."""
+        return max(self.system.positions[position].maximum_pressure for _, _, position in self.commands)
+
     def load_share(self, vehicle: Vehicle) -> float:
         """Return the pressure that the load of a vehicle leaves, over that of the full one."""
         valve = self.system.load_valve

@@ -155,6 +155,7 @@ class StopReader(NamedTuple):
                     diagnostics.extend(errors.diagnostics)
         if not diagnostics:
             diagnostics.extend(_repeated(read))
+            diagnostics.extend(_not_to_standstill(read))
             diagnostics.extend(_drawn_twice(read))
             diagnostics.extend(recorded_twice((stop.recorded, entry.node) for stop, entry in read))
             diagnostics.extend(_not_dry(read))
@@ -219,6 +220,15 @@ def _repeated(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]
             message = f"a second stop {quoted(stop.case.id)}"
             yield diagnose(entry.node.place, message, stop.role, "tell them apart by values under `set`")
         seen.add(stop.case.id)
+
+
+def _not_to_standstill(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
+    """Yield every stop that its brake alone does not bring to a standstill."""
+    for stop, entry in read:
+        for key in ("until", "drag"):
+            if getattr(stop.case.scenario, key) is not None:
+                message = f"{quoted(stop.case.id)} has `{key}`: a series is judged by stops to standstill"
+                yield diagnose(entry.node.place, message, stop.role, f"leave `{key}` out")
 
 
 def _drawn_twice(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:

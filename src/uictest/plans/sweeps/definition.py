@@ -80,6 +80,9 @@ def _problems(plan: Plan, *, of_dry_rail: bool) -> Iterator[tuple[str, str]]:
     elif random_sample(plan) is None:
         yield f"points of method {last.method} are not independent of each other", _RANDOM
     if of_dry_rail:
+        for key in ("until", "drag"):
+            if key in plan.keys or getattr(plan.base.scenario, key) is not None:
+                yield f"K_dry is of stops to standstill, and the scenario has `{key}`", f"leave `{key}` out"
         conditions = (scenario.rail.condition.name for scenario in scenarios_with_each(plan, CONDITION))
         for name in dict.fromkeys(conditions):
             if name != DRY:

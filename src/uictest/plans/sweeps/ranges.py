@@ -137,7 +137,7 @@ def ranged_numbers(scenario: Scenario) -> list[RangedNumber]:
     own, and the definitions of measures.
     """
     numbers = []
-    for section in ("vehicle", "initial_speed", "brake", "rail", "rig"):
+    for section in ("vehicle", "initial_speed", "brake", "until", "drag", "rail", "rig"):
         for key, quantity in quantities_in(getattr(scenario, section), (section,)):
             if quantity.range is not None and _is_used(scenario, key):
                 sources = _sources_at(scenario, key)
@@ -163,7 +163,7 @@ def _is_used(scenario: Scenario, key: Key) -> bool:
         case ("rail", "condition", ("friction" | "cleaning" | "variation") as name, *_):
             return getattr(scenario.rail, name) is None
         case ("brake", "system", "positions", position, *_):
-            return bool(position == scenario.brake.position)
+            return any(position == used for _, _, used in scenario.brake.commands)
         case ("brake", "system", "disc", "thermal", *_):
             return scenario.brake.models_disc_temperature
     return True

@@ -84,12 +84,16 @@ class SteppedStop:
     @property
     def stands(self) -> bool:
         """Whether the train stands."""
+        return self._is_over and not self.memory["parameters"]["end_speed"]
+
+    @property
+    def _is_over(self) -> bool:
         return bool(self.memory["car"]["stopped"])
 
     @property
     def has_ended(self) -> bool:
-        """Whether the train stands, or the longest duration of a stop has passed."""
-        return self.stands or bool(self.memory["car"]["cycle"] >= self.memory["parameters"]["cycles"])
+        """Whether the train stands, has come down to where the stop ends, or its longest duration is over."""
+        return self._is_over or bool(self.memory["car"]["cycle"] >= self.memory["parameters"]["cycles"])
 
     def step(self) -> None:
         """Carry out the commands in the exchange until the next cycle."""

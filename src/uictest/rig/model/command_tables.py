@@ -13,8 +13,11 @@ class CommandTables(Record):
     """Fields of the parameter record that say what happens when."""
 
     # all commands, the first included, by when they take effect: rig.model.brake_command
+    first_command: float = derived()  # share of full service
     command_count: int = derived()
-    command_times: CommandTable = derived()  # s
+    command_given: CommandTable = derived()  # when each is given, s
+    command_shares: CommandTable = derived()  # of full service
+    command_times: CommandTable = derived()  # when each takes effect, s
     command_pressures: CommandTable = derived()  # gauge, Pa
     command_rates: CommandTable = derived()  # with which pressure then rises, Pa/s
     release_rates: CommandTable = derived()  # with which it falls, Pa/s

@@ -76,6 +76,7 @@ class Car(Frame, BrakedTrain):
     drag_phase: int
     drag_ends: float  # s
     holds_speed: float  # 1 while traction holds the speed
+    held_time: float  # for which it has been held, s
     traction_work: float  # J
     # standstill, interpolated within the step
     stopped: float

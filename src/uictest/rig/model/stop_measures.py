@@ -64,10 +64,10 @@ def observe_cycle(
     p: Parameters,
 ) -> None:
     """Feed the measures at the end of a controller cycle; at standstill only with the standstill itself."""
-    stands = car.stopped > 0.0
+    stands = (car.stopped > 0.0) & (p.end_speed <= 0.0)  # a stop that ends above ends with its cycle
     time = select(stands, car.stop_time, car.time)
     position = select(stands, car.stop_position, car.position)
-    speed = select(stands, p.end_speed, car.speed)
+    speed = select(stands, 0.0, car.speed)
     line_pressure = car.line_pressure - p.atmospheric_pressure
     reservoir_pressure = car.reservoir_pressure - p.atmospheric_pressure
     for i in range(4):
@@ -101,7 +101,7 @@ def observe_cycle(
     observe_reservoir_margin(measures, reservoir_pressure, _highest_cylinder_pressure(wheelsets))
     observe_build_up(measures, p, time, position, speed, line_pressure)
     observe_train(measures, p, time, position, speed, reservoir_pressure)
-    note_standstill(measures, stands & (p.end_speed <= 0.0), time, position)
+    note_standstill(measures, stands, time, position)
 
 
 def _observe_saturation(
@@ -221,6 +221,7 @@ def close_stop_measures(
     """Add the ledgers and balances of the whole stop."""
     close_contacts(measures, wheelset_measures, p.total_mass)
     measures.air_consumed = car.consumed_air
+    measures.held_time = car.held_time
     measures.energy_residual = energy_residual(car, bogies, wheelsets, p)
     measures.air_residual = air_residual(car, wheelsets)
     measures.air_energy_residual = air_energy_residual(car, wheelsets, p)

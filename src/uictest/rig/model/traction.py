@@ -8,6 +8,8 @@ from uictest.core.physics import maximum
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car
 
+_HELD_WITHIN = 1.001
+"""A speed above that share of the one to be held is not held; chosen."""
 _NOT_YET, _HOLDS, _HELD = 0, 1, 2
 
 
@@ -19,6 +21,8 @@ def hold_speed(car: Car, p: Parameters) -> None:
     if car.drag_phase == _HOLDS and car.time > car.drag_ends - 0.5 * p.step:
         car.drag_phase = _HELD
     car.holds_speed = 1.0 if car.drag_phase == _HOLDS else 0.0
+    if car.holds_speed > 0.0 and car.speed <= p.drag_speed * _HELD_WITHIN:
+        car.held_time += p.cycle_time
 
 
 def traction_force(car: Car, drag: float, p: Parameters) -> float:

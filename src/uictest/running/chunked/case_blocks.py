@@ -161,7 +161,11 @@ class BlockAssembler:
 
     def case(self, block: CaseBlock, place: int) -> Case:
         """Return a case of a block, as far as judging it needs."""
-        return Case(block.ids[place], block.judged_as.build(place), self._plan.base.path, {}, {})
+        try:
+            judged_as = block.judged_as.build(place)
+        except KeyError:  # a case that was rejected: one of its values has no place
+            judged_as = block.judged_as.base
+        return Case(block.ids[place], judged_as, self._plan.base.path, {}, {})
 
 
 def _program_of(scenario: Scenario) -> ControllerProgram | None:

@@ -153,6 +153,8 @@ class ScenarioFunction:
             return self.cache[texts]
         try:
             result = self.function(variants.at(place))
+        except KeyError as error:  # a value of one key leaves no place for that of another
+            result = Rejected(f"{error.args[0]!r}: no such key beside the other values of this case")
         except (ValueError, ArithmeticError) as error:
             result = Rejected(f"{type(error).__name__}: {error}")
         # Several threads come here; nothing is ever removed, so an entry that one thread saw stays.

@@ -133,6 +133,7 @@ MEASURES = (
         course="settles",
         meaning="mean deceleration of the train over the first phase, counted from the first sliding of any"
         " wheelset",
+        of_braking=True,
         read=lambda stop, wheelsets, definition: initial_adhesion(stop, definition["first_phase_duration"]),
         decided=ShownWhen(
             how="span",
@@ -201,6 +202,7 @@ MEASURES = (
         unit="m/s2",
         course="falls",
         meaning="smallest filtered deceleration under developed braking",
+        of_braking=True,
         read=lambda stop, wheelsets, definition: _deceleration(stop.minimum_deceleration),
         decided=ShownWhen(how="extreme", plot="deceleration", field="minimum_deceleration", level=True),
         observed_by=(*_FILTERING, "developed_time"),
@@ -215,6 +217,7 @@ MEASURES = (
         unit="m/s2",
         course="grows",
         meaning="largest filtered deceleration while the train runs",
+        of_braking=True,
         read=lambda stop, wheelsets, definition: _deceleration(stop.maximum_deceleration),
         decided=ShownWhen(how="extreme", plot="deceleration", field="maximum_deceleration", level=True),
         observed_by=_FILTERING,

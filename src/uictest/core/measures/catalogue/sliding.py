@@ -164,6 +164,7 @@ MEASURES = (
         course="settles",
         meaning="share of the time from the brake command to `end_speed` in which at least half of the"
         " wheelsets turn, at once, below the share `sliding_below` of the train's speed",
+        of_braking=True,
         read=lambda stop, _, definition: sliding_share(stop, definition),
         decided=ShownWhen(how="span", plot="slide", down_to="end_speed"),
         definitions=("sliding_below", "end_speed"),
@@ -199,6 +200,7 @@ MEASURES = (
         unit="m",
         course="grows",
         meaning="distance that the train runs while the wheelset slides or is locked",
+        of_braking=True,
         read=lambda stop, wheelsets, definition: value_per_wheelset(w.slid_distance for w in wheelsets),
         decided=ShownWhen(how="intervals", plot="sliding", field="slid_distance"),
         of_wheelsets=True,

@@ -120,6 +120,11 @@ class Criterion(Model):
         return self._declared.of_faults
 
     @property
+    def of_braking(self) -> bool:
+        """Whether the measure describes how the train slows down."""
+        return self._declared.of_braking
+
+    @property
     def of_standstill(self) -> bool:
         """Whether the measure describes a stop to standstill."""
         return self._declared.of_standstill

@@ -97,7 +97,8 @@ class RunningResistance(Section):
 
 
 def _load_form(value: object) -> str:
-    return "word" if isinstance(value, str) and value in ("empty", "full") else "mass"
+    # Any word is to be one of the two; what begins with a digit is to be a mass.
+    return "word" if isinstance(value, str) and value[:1].isalpha() else "mass"
 
 
 Load = Annotated[
@@ -131,12 +132,14 @@ class Vehicle(Part):
     payload: Annotated[Quantity, of_kind("mass", "> 0 t .. 200 t")] | None = optional(
         "What the full car carries besides `body.mass`; its centre of gravity lies at that of the body."
     )
-    load: Load = field("What the car carries: empty, full (the payload), or a mass.", default="empty")
+    load: Load | None = optional(
+        "What the car carries: empty, full (the payload), or a mass; empty if left out."
+    )
 
     @property
     def carried_mass(self) -> float:
         """Mass of the load, kg."""
-        if self.load == "empty":
+        if self.load is None or self.load == "empty":
             return 0.0
         carried = self.payload if self.load == "full" else self.load
         return 0.0 if carried is None else carried  # without a payload no car is full
@@ -144,7 +147,7 @@ class Vehicle(Part):
     @property
     def loaded_body(self) -> Body:
         """The car body with its load, which leaves its radius of gyration as it is."""
-        if self.load == "empty":
+        if self.load in (None, "empty"):
             return self.body
         mass = self.body.mass + self.carried_mass
         inertia = self.body.pitch_inertia * (mass / self.body.mass)
@@ -169,7 +172,7 @@ class Vehicle(Part):
             if own.wheel_radius is not None:
                 yield from self._impossible_wheels(own.wheel_radius, ("wheelsets", number, "wheel_radius"))
         yield from self._springs_too_soft()
-        if self.load != "empty" and self.payload is None:
+        if self.load not in (None, "empty") and self.payload is None:
             yield Inconsistency(
                 ("load",), "this car has no payload", "say what it carries when full: payload: 8 t"
             )
