@@ -17,6 +17,7 @@ from uictest.plans.scenario import (
     FIT_KEYS,
     WHEELSET_NUMBERS,
     Scenario,
+    load_share,
     misfit,
     rig_differences,
     wheelset_value,
@@ -83,7 +84,7 @@ def _compensation_fit(p: Parameters, scenario: Scenario) -> None:
 def _command(p: Parameters, scenario: Scenario) -> None:
     _, share, name = scenario.brake.commands[0]
     position = scenario.brake.system.positions[name]
-    load = scenario.brake.load_share(scenario.vehicle)
+    load = load_share(scenario.brake.system.load_valve, scenario.vehicle)
     p.first_command = share
     p.commanded_pressure = share * (position.maximum_pressure * load)
     p.demand_per_pressure = 1.0 / (scenario.brake.highest_full_pressure * load)
@@ -97,7 +98,7 @@ def _course(p: Parameters, scenario: Scenario) -> None:
     given, shares, times, pressures, rates, releases = [], [], [], [], [], []
     for at, share, name in scenario.brake.commands if p.command_count > 1 else ():
         position = scenario.brake.system.positions[name]
-        full = position.maximum_pressure * scenario.brake.load_share(scenario.vehicle)
+        full = position.maximum_pressure * load_share(scenario.brake.system.load_valve, scenario.vehicle)
         release_time = position.fill_time if position.release_time is None else position.release_time
         given.append(at)
         shares.append(share)

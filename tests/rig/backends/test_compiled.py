@@ -214,7 +214,8 @@ def test_the_settings_reach_what_they_say(rig):
     assert (motors.car.dynamic_dropped, reduced.car.dynamic_dropped) == (1.0, 0.0)
     assert reduced.wheelsets["dynamic_reduction"][1:3].max() > 0.0
     assert again.car.command_place == 2
-    assert again.measures.end_speed == again.car.stopped * 12.0 * (1.0 / 3.6)
+    assert again.car.stopped == 1.0
+    assert again.measures.end_speed < 12.0 / 3.6
     assert downhill.measures.end_speed > 0.0
     assert cleaned.wheelsets["cleaned_share"].min() > 0.01
     assert cleaned.car.position > 4.0 * rig.parameters()[0].half_wheelbase

@@ -133,6 +133,6 @@ from .resolution import (
     resolve as resolve,
     with_default_parts as with_default_parts,
 )
-from .sections import SURVEY as SURVEY
+from .sections import SURVEY as SURVEY, load_share as load_share
 from .yaml.diagnostics import Diagnostic as Diagnostic, ScenarioErrors as ScenarioErrors
 from .yaml.quantities import Quantity as Quantity

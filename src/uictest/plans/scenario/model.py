@@ -35,7 +35,7 @@ from uictest.plans.scenario.parts.measures import MeasureDefinitions
 from uictest.plans.scenario.parts.named_file import OutcomeOfRepeats, Repeat, TestFile, seeds_too_large
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, distinct_values, wheelset_value
-from uictest.plans.scenario.sections import Brake, Drag, Rail, Rig, Simulation
+from uictest.plans.scenario.sections import Brake, Drag, Rail, Rig, Simulation, load_share
 from uictest.plans.scenario.yaml import (
     DEFAULT_SOURCE,
     Inconsistency,
@@ -200,7 +200,9 @@ class Scenario(TestFile):
         """Yield a brake that would need more adhesion than the largest friction coefficient gives."""
         if any(name not in self.brake.system.positions for _, _, name in self.brake.commands):
             return  # reported by the brake itself
-        pressure = self.brake.highest_commanded_pressure * self.brake.load_share(self.vehicle)
+        pressure = self.brake.highest_commanded_pressure * load_share(
+            self.brake.system.load_valve, self.vehicle
+        )
         wheelsets = [
             BrakedWheelset(*(wheelset_value(self, number, name) for name in BrakedWheelset._fields))
             for number in WHEELSET_NUMBERS
@@ -264,7 +266,7 @@ class Scenario(TestFile):
         """Pressure of the brake line that shows a developed brake, Pa; NaN beside a dynamic brake."""
         if self.brake.dynamic is not None:
             return math.nan
-        return float(self.brake.commanded_pressure * self.brake.load_share(self.vehicle))
+        return float(self.brake.commanded_pressure * load_share(self.brake.system.load_valve, self.vehicle))
 
     @property
     def judged_by(self) -> tuple[Criteria, ...]:

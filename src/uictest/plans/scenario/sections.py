@@ -6,7 +6,7 @@ from typing import Annotated, Final, Literal
 from pydantic import BeforeValidator, Discriminator, Tag
 from pydantic_core import PydanticCustomError
 
-from uictest.plans.scenario.parts.brake import BrakeSystem, Caliper
+from uictest.plans.scenario.parts.brake import BrakeSystem, Caliper, LoadValve
 from uictest.plans.scenario.parts.brake_command import Command, CommandStep
 from uictest.plans.scenario.parts.compensation import Compensation
 from uictest.plans.scenario.parts.dynamic_brake import DynamicBrake
@@ -37,6 +37,13 @@ FrictionAlongTrack = Annotated[
     Annotated[Friction, Tag("number")] | Annotated[FrictionProfile, Tag("profile")],
     Discriminator(_friction_form),
 ]
+
+
+def load_share(valve: LoadValve | None, vehicle: Vehicle) -> float:
+    """Return the pressure that the load of a vehicle leaves, over that of the full one."""
+    if valve is None or vehicle.payload is None:
+        return 1.0
+    return valve.empty_share + (1.0 - valve.empty_share) * (vehicle.carried_mass / vehicle.payload)
 
 
 class Brake(Model):
@@ -102,13 +109,6 @@ class Brake(Model):
     def highest_full_pressure(self) -> float:
         """The highest pressure of a full service command in any position that is used, gauge, Pa."""
         return max(self.system.positions[position].maximum_pressure for _, _, position in self.commands)
-
-    def load_share(self, vehicle: Vehicle) -> float:
-        """Return the pressure that the load of a vehicle leaves, over that of the full one."""
-        valve = self.system.load_valve
-        if valve is None or vehicle.payload is None:
-            return 1.0
-        return valve.empty_share + (1.0 - valve.empty_share) * (vehicle.carried_mass / vehicle.payload)
 
     @property
     def models_disc_temperature(self) -> bool:
