@@ -11,6 +11,8 @@ from uictest.plans.scenario.yaml import parse_quantity
 from uictest.plans.sweeps import ParameterValue, listed_column, ranged_numbers
 from uictest.running.campaign import run_cases
 from uictest.running.chunked import VariedCase
+from uictest.runs import firmness
+from uictest.runs.errors import InvalidInputError
 from uictest.runs.firmness import FirmnessRun
 
 VENT = "brake.system.wsp_valve.vent_conductance"
@@ -86,6 +88,17 @@ def test_a_case_is_as_firm_however_many_threads_there_are():
     assert one.draws == 8
     assert len(one.numbers) > 60
     assert not one.on_four_calipers
+
+
+def test_a_calibrating_stop_without_any_of_the_varied_numbers_is_refused(monkeypatch):
+    own = firmness.sweeps.ranged_numbers
+    monkeypatch.setattr(
+        firmness.sweeps, "ranged_numbers", lambda scenario: own(scenario) if scenario.seed == 0 else []
+    )
+    calibrating = [short_stop("seed=1")]
+    with pytest.raises(InvalidInputError, match="has none of the numbers that vary"):
+        FirmnessRun(1, effort=SMALL, calibration=calibrating).of_case(short_stop())
+    assert FirmnessRun(1, effort=SMALL, calibration=[short_stop()]).of_case(short_stop()).calibrated
 
 
 def test_draws_of_a_random_rail_meet_one_rail_each():

@@ -157,6 +157,19 @@ def test_what_is_of_a_standstill_does_not_apply_to_a_stop_that_ends_above(rig):
     assert np.isnan(result.measures["braking_distance_m"])
 
 
+def test_a_stop_that_ends_before_it_has_shown_to_be_a_test_is_none(rig):
+    """Sliding counts down to 60 km/h; whether it would have sufficed lies behind the end of the stop."""
+    case = rig.case(
+        *("until=70 km/h", "initial_speed=120 km/h", "rail.condition=wet", "rail.friction=0.09"),
+        "criteria=uic-541-05-appendix-b",
+    )
+    stop = simulate(case)
+    result = evaluate_simulated(case, stop.measures, stop.wheelset_measures)
+    [slide] = [each for each in result.criteria if each.id == "minimum-slide"]
+    assert (slide.status, result.outcome) == ("inconclusive", "inconclusive")
+    assert "the stop ends at 70 km/h" in slide.reason
+
+
 def test_a_criterion_of_one_full_application_does_not_apply_to_a_course(rig):
     case = rig.case(AGAIN, "initial_speed=120 km/h", "criteria=uic-541-05-appendix-b")
     stop = simulate(case)

@@ -101,7 +101,7 @@ class FirmnessRun:
             for criterion in profile.criteria
             if criterion.layer == "validity"
         )
-        hold = self._hold(list(numbers)) if self.calibration else None
+        hold = self._hold(numbers) if self.calibration else None
         random_rail = any(each.varied.case.scenario.rail.variation_in_force for each in cases)
         study = FirmnessStudy(list(numbers.values()), judge, hold, validity, self.effort, random_rail)
         return study.run(
@@ -109,9 +109,18 @@ class FirmnessRun:
             calibrated_by=[each.id for each in self.calibration],
         )
 
-    def _hold(self, numbers: Sequence[_Identity]) -> HoldDraws:
-        """Return what says whether all calibrating stops come to what they expect under draws."""
+    def _hold(self, numbers: Mapping[_Identity, RangedNumber]) -> HoldDraws:
+        """Return what says whether all calibrating stops come to what they expect under draws.
+
+        Raises InvalidInputError for a stop that has none of the numbers.
+        """
         stops = [_VariedStops.of(each, self) for each in self.calibration]
+        for case, own in zip(self.calibration, stops, strict=True):
+            if numbers.keys().isdisjoint(own.numbers):
+                raise InvalidInputError(
+                    f"--calibrated-by: {case.id} has none of the numbers that vary, with the same value and"
+                    " range: it says nothing of them"
+                )
 
         def hold(columns: Sequence[Column]) -> list[bool]:
             taken = dict(zip(numbers, columns, strict=True))

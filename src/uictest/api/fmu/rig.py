@@ -62,15 +62,15 @@ VARIABLES: Final = (
     Variable("distance", "stop.train.distance", "Distance since the brake command", "m"),
     Variable("brake_line_pressure", "stop.train.brake_line_pressure", "Above atmospheric", "Pa"),
     Variable("reservoir_pressure", "stop.train.reservoir_pressure", "Above atmospheric", "Pa"),
-    Variable("stopped", "stop.car.stopped", "The train stands", kind="boolean"),
+    Variable("stopped", "stop.car.stopped", "The train stands, or is at `until`", kind="boolean"),
     Variable(
         "ended",
         "ended",
         "The train stands or the longest duration has passed; outputs stay",
         kind="boolean",
     ),
-    Variable("braking_distance", "stop.car.stop_position", "0 until the train stands", "m"),
-    Variable("braking_time", "stop.car.stop_time", "0 until the train stands", "s"),
+    Variable("braking_distance", "stop.car.stop_position", "0 until the train stands, or is at `until`", "m"),
+    Variable("braking_time", "stop.car.stop_time", "0 until the train stands, or is at `until`", "s"),
     *of_wheelsets(
         Variable("true_wheel_speed", "stop.modules.wheel_speed", "True circumferential speed", "m/s"),
         Variable("slide", "stop.modules.slide", "1 - true wheel speed / train speed; 0 below 1 m/s"),

@@ -48,6 +48,9 @@ def decide(
     if observed.unavailable_reason:
         starts_late = stop.coverage is not None and stop.coverage.no_initial_speed
         final = observed.whatever_follows and not starts_late
+        if stop.no_stopping and criterion.layer == "validity":
+            # Nothing shows that the stop is a test: what would have shown it may lie behind its end.
+            missing = missing or (MissingData(stop.no_stopping),)
         return _without_value(observed.unavailable_reason, () if final else missing)
     needed = criterion.wheelsets_needed(len(values))
     if not 1 <= needed <= len(values):
