@@ -32,6 +32,11 @@ return panels.reduce((sum, {lines, bars}) => sum + lines.length + bars.length, 0
 """
 """How many lines the plots of the open stop have, once they are drawn and answer, near the window."""
 
+_LOADED = """
+const [here, asked] = [document.URL, arguments[0]].map((url) => url === 'about:blank');
+return document.readyState === 'complete' && here === asked;
+"""
+
 COMPARED = """
 return document.querySelector('.compared-plot canvas') &&
   document.querySelectorAll('.cases li').length;
@@ -55,7 +60,14 @@ def started():
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     service = webdriver.ChromeService(str(programs["chromedriver"]))
-    return webdriver.Chrome(options=options, service=service)
+
+    class Chromium(webdriver.Chrome):
+        def get(self, url):
+            """Open a page, whole and with its scripts run: on a busy machine the driver returns before."""
+            super().get(url)
+            wait(self, _LOADED, url)
+
+    return Chromium(options=options, service=service)
 
 
 def _unavailable(reason):
