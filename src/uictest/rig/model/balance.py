@@ -88,10 +88,10 @@ def rail_work(wheelset: Wheelset, p: Parameters) -> float:
 def energy_residual(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> float:
     """Energy that is not accounted for, as a share of the energy at the start.
 
-    kinetic + springs + height = initial + traction - (disc heat + work of the dynamic brake + contact loss +
-    dampers + running resistance)
+    kinetic + springs + height = initial + traction + work of the couplers - (disc heat + work of the dynamic
+    brake + contact loss + dampers + running resistance)
     """
-    lost = car.damper_loss + car.resistance_loss - car.traction_work
+    lost = car.damper_loss + car.resistance_loss - car.traction_work - car.coupler_work
     for i in range(4):
         lost += wheelsets[i].brake_heat + wheelsets[i].contact_loss
         lost += wheelsets[i].dynamic_energy

@@ -3,13 +3,13 @@
 The friction coefficient as found is linear between places, its factor is linear between times; both lie in
 an array whose rows are used up to their number of points.
 
-What the rail remembers is the share of it that wheelsets have cleaned, a function of place. Each of the first
-three wheelsets writes the share that it leaves at the points of a grid that it passes; the next one reads it
-when it gets there, later by their distance over the speed. Points are reused once the next wheelset has
-passed them, so that a ring of them suffices. What a share means for friction and creep curve a law says,
-:mod:`uictest.core.rail_laws`: `cleaned_share` of a wheelset is how far they have gone. Scalar code, called
-once per controller cycle; for a record of a real train it runs along its samples, with the sliding that the
-creep law gives.
+What the rail remembers is the share of it that wheelsets have cleaned, a function of place. Each wheelset
+writes the share that it leaves at the points of a grid that it passes; the next one reads it when it gets
+there, later by their distance over the speed. Points are reused once the next wheelset has passed them: a
+ring of them before each wheelset suffices. Before the first wheelset of a train the rail is as earlier stops
+left it. What a share means for friction and creep curve a law says, :mod:`uictest.core.rail_laws`:
+`cleaned_share` of a wheelset is how far they have gone. Scalar code, called once per controller cycle; for a
+record of a real train it runs along its samples, with the sliding that the creep law gives.
 """
 
 from collections.abc import MutableSequence, Sequence
@@ -41,8 +41,8 @@ POINTS: Final = 256
 """Points of the grid behind one wheelset; chosen: 6 cm apart under the default car."""
 MARGIN: Final = 2
 """Points that a ring holds beyond the largest distance between two neighbours."""
-_RINGS: Final = 3 * POINTS
 _WHEELSETS: Final = 4
+_RINGS: Final = _WHEELSETS * POINTS
 _WHEELS = 2.0
 
 
@@ -53,7 +53,7 @@ class RailMemory(Record):
     loss: Annotated[MutableSequence[float], _WHEELSETS]  # of each wheelset's contacts until then, J
     cleaned: Annotated[MutableSequence[float], _WHEELSETS]  # share that each wheelset itself has cleaned
     left: Annotated[MutableSequence[float], _WHEELSETS]  # share behind each wheelset then
-    points: Annotated[MutableSequence[float], _RINGS]  # cleaned share behind wheelsets 1, 2 and 3, in rings
+    points: Annotated[MutableSequence[float], _RINGS]  # cleaned share before each wheelset, in rings
 
 
 RAIL_MEMORY = layout_of(RailMemory)
@@ -81,23 +81,45 @@ def clean_rail(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, memory: R
         memory: of the rail; it is written up to the present place of each wheelset.
     """
     distance = car.position - memory.position
-    arrived = p.spent_share  # by earlier stops: what is before the first wheelset
     for i in range(_WHEELSETS):
         wheelset = wheelsets[i]
         if distance > 0.0:
             _slide_on(wheelset, distance, p, memory, i)
         place = (car.position - wheelset.behind) * p.rail_points_per_metre
-        if i > 0:
-            arrived = share_at(place, memory, i - 1)
-        left = share_left_behind(memory.cleaned[i], arrived, p.carry_over)
+        left = share_left_behind(memory.cleaned[i], share_at(place, memory, i), p.carry_over)
         if i < _WHEELSETS - 1:
             start = (memory.position - wheelset.behind) * p.rail_points_per_metre
-            write_passed(memory, i, start, place, memory.left[i], left)
+            write_passed(memory, i + 1, start, place, memory.left[i], left)
         memory.left[i] = left
         wheelset.cleaned_share = clean_part(left, p)
         wheelset.friction = cleaned_friction(wheelset.friction, wheelset.cleaned_share, p.recovered_friction)
         set_creep_curve(wheelset, p)
     memory.position = car.position
+
+
+def hand_rail_on(
+    car: Car,
+    last: Wheelset,
+    p: Parameters,
+    memory: RailMemory,
+    behind: RailMemory,
+    passed: float,
+    left: float,
+) -> None:
+    """Write for the next car what the last wheelset of a car has left since the cycle before.
+
+    Args:
+        car: car record, after :func:`clean_rail`.
+        last: its last wheelset.
+        p: its parameter record.
+        memory: of the rail under it.
+        behind: of the rail under the next car.
+        passed: position of the car in the cycle before, m.
+        left: share that the wheelset left there.
+    """
+    start = (passed - last.behind) * p.rail_points_per_metre
+    place = (car.position - last.behind) * p.rail_points_per_metre
+    write_passed(behind, 0, start, place, left, memory.left[_WHEELSETS - 1])
 
 
 def set_creep_curve(wheelset: Wheelset, p: Parameters) -> None:

@@ -186,7 +186,8 @@ def step_body(car: Car, p: Parameters) -> None:
     position = car.position
     drag = running_resistance(speed, p.resistance_constant, p.resistance_linear, p.resistance_quadratic)
     traction = traction_force(car, drag + gradient_force(p.body_mass, p.gradient, p.gravity), p)
-    car.longitudinal_force += traction
+    car.longitudinal_force += traction + car.coupler_force
+    car.moment += car.coupler_moment
     step_frame(car, p.body_mass, p.body_mass_response, p.body_pitch_response, drag, p)
     car.traction_work += p.step * traction * 0.5 * (speed + car.speed)
     car.resistance_loss += p.step * drag * 0.5 * (speed + car.speed)

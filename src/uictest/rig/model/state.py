@@ -78,10 +78,15 @@ class Car(Frame, BrakedTrain):
     holds_speed: float  # 1 while traction holds the speed
     held_time: float  # for which it has been held, s
     traction_work: float  # J
+    # couplers: rig.model.couplers; zero in a car alone
+    coupler_force: float  # of both ends, N
+    coupler_moment: float  # N m
+    coupler_work: float  # on the car, J
     # standstill, interpolated within the step
     stopped: float
     stop_time: float
     stop_position: float
+    closed: float  # 1 once its measures are complete, in a train
 
 
 class Bogie(Frame):

@@ -200,6 +200,22 @@ def finish_cycle(
 ) -> int:
     """Carry out what the controller has decided; return the number of rows that the trace has then."""
     steps = car.cycle * p.steps_per_cycle
+    act(car, wheelsets, p, measures)
+    if steps_per_sample > 0 and rows == 0:
+        sample(trace, 0, car, wheelsets, p)
+        rows = 1
+    for _ in range(p.steps_per_cycle):
+        advance(car, bogies, wheelsets, p)
+        steps += 1
+        if steps_per_sample > 0 and steps % steps_per_sample == 0:
+            sample(trace, rows, car, wheelsets, p)
+            rows += 1
+    end_cycle(car, wheelsets, p, measures, wheelset_measures)
+    return rows
+
+
+def act(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, measures: StopMeasures) -> None:
+    """Set valves and demands for a cycle by what the controller has decided and the driver commands."""
     if p.fault_count > 0:
         silence_controller(car, wheelsets, p)
     command_valves(car, wheelsets, p)
@@ -211,28 +227,33 @@ def finish_cycle(
         demand_dynamic_brake(car, wheelsets, p)
     if p.fault_count > 0:
         limit_valves(car, wheelsets, p)
-    if steps_per_sample > 0 and rows == 0:
-        sample(trace, 0, car, wheelsets, p)
-        rows = 1
-    for _ in range(p.steps_per_cycle):
-        if p.uses_module_air > 0.0:
-            follow_module_air(car, wheelsets, p)
-        if p.has_leaks > 0.0:
-            let_air_leak(car, wheelsets, p)
-        if p.has_dynamic_brake > 0.0:
-            brake_dynamically(wheelsets, p)
-        step(car, bogies, wheelsets, p)
-        steps += 1
-        if steps_per_sample > 0 and steps % steps_per_sample == 0:
-            sample(trace, rows, car, wheelsets, p)
-            rows += 1
+
+
+def advance(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Step a car, with what only some scenarios have."""
+    if p.uses_module_air > 0.0:
+        follow_module_air(car, wheelsets, p)
+    if p.has_leaks > 0.0:
+        let_air_leak(car, wheelsets, p)
+    if p.has_dynamic_brake > 0.0:
+        brake_dynamically(wheelsets, p)
+    step(car, bogies, wheelsets, p)
+
+
+def end_cycle(
+    car: Car,
+    wheelsets: Sequence[Wheelset],
+    p: Parameters,
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+) -> None:
+    """Do what comes after the steps of a cycle: warm the discs, feed the measures."""
     if p.models_disc_temperature > 0.0:
         warm_discs(wheelsets, p)
     observe_cycle(car, wheelsets, measures, wheelset_measures, p)
     if p.fault_count > 0:
         observe_faults(car, wheelsets, measures, wheelset_measures, p)
     keep_tables(measures, wheelset_measures, measures, wheelset_measures, p)
-    return rows
 
 
 def step_stop(

@@ -1,0 +1,102 @@
+"""The code of the rig for a stop of several cars, compiled when a train is first run."""
+
+from functools import cache
+from typing import Any, Final
+
+from uictest.core.lanes import translate
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.backends.compiled import (
+    compile_inner,
+    compiled_operations,
+    compiler,
+    with_controllers,
+)
+from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
+from uictest.rig.model.controller import CHOICES
+from uictest.rig.model.couplers import COUPLER
+from uictest.rig.model.parameters import PARAMETERS
+from uictest.rig.model.rail import RAIL_MEMORY, ROWS
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
+from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
+
+_NAME: Final = "uictest_run_train"
+_LAYOUTS: Final = (
+    *(CAR, BOGIE, WHEELSET, PARAMETERS, WHEELSET_PARAMETERS, "f8", COUPLER, "f8", RAIL_MEMORY),
+    *(STOP_MEASURES, WHEELSET_MEASURES, TRAIN_SAMPLE, WHEELSET_SAMPLE),
+)
+_ARGUMENTS: Final = (*_LAYOUTS, int, int, int, int)
+"""Addresses of the arrays of :func:`uictest.rig.model.train.run_train` in their order; then the number of
+cars, points of the rail, rows that a trace has room for, steps per sample."""
+
+
+@cache
+def compiled_train() -> Any:
+    """Return :func:`uictest.rig.model.train.run_train` compiled, for arrays of numpy."""
+    native = native_function(_UNIT, _NAME, len(_ARGUMENTS))
+
+    def run_train(*arguments: Any) -> int:
+        *arrays, steps_per_sample = arguments
+        cars, rail, train_samples = arrays[0], arrays[7], arrays[11]
+        n, points, rows = len(cars), rail.shape[-1], train_samples.shape[-1]
+        shapes = (
+            *((n,), (2 * n,), (4 * n,), (n,), (4 * n,), (n,), (n - 1,), (ROWS, points), (n,)),
+            *((n,), (4 * n,), (n, rows), (n, rows, 4)),
+        )
+        addresses = (
+            address(array, layout, shape)
+            for array, layout, shape in zip(arrays, _LAYOUTS, shapes, strict=True)
+        )
+        return native(*addresses, n, points, rows, steps_per_sample)
+
+    return run_train
+
+
+def _entries() -> Entries:
+    """Return the function of addresses and lengths."""
+    from uictest.rig.model.train import run_train
+
+    carray = compiler().carray
+    model = with_controllers(CHOICES, compile_inner, compiled_operations())
+    entry = translate(run_train, compile_inner, model)
+
+    def on_addresses(
+        cars: Any,
+        bogies: Any,
+        wheelsets: Any,
+        parameters: Any,
+        wheelset_parameters: Any,
+        distances: Any,
+        couplers: Any,
+        rail: Any,
+        memories: Any,
+        measures: Any,
+        wheelset_measures: Any,
+        train_samples: Any,
+        wheelset_samples: Any,
+        n: int,
+        points: int,
+        rows: int,
+        steps_per_sample: int,
+    ) -> Any:
+        return entry(
+            carray(cars, n),
+            carray(bogies, 2 * n),
+            carray(wheelsets, 4 * n),
+            carray(parameters, n),
+            carray(wheelset_parameters, 4 * n),
+            carray(distances, n),
+            carray(couplers, n - 1),
+            carray(rail, (ROWS, points)),
+            carray(memories, n),
+            carray(measures, n),
+            carray(wheelset_measures, 4 * n),
+            carray(train_samples, (n, rows)),
+            carray(wheelset_samples, (n, rows, 4)),
+            steps_per_sample,
+        )
+
+    return {_NAME: (on_addresses, _ARGUMENTS)}
+
+
+_UNIT = Unit(_NAME, {_NAME: "the rig for trains"}, _entries)

@@ -1,0 +1,140 @@
+"""A stop of several coupled cars: each car a case of its own, all on the rail of the first."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.plans.scenario import Case
+from uictest.rig.assembly import assemble
+from uictest.rig.backends.trains import compiled_train
+from uictest.rig.model.couplers import COUPLER
+from uictest.rig.model.rail import MARGIN, POINTS, RAIL_MEMORY
+from uictest.rig.model.state import BOGIE, CAR, WHEELSET
+from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
+from uictest.rig.single_stop import FinishedStop, StopInputs, rows_of_trace
+
+_SHARED: Final = ("step", "steps_per_cycle", "initial_speed", "gradient", "cycles")
+"""What all cars of a train have in common."""
+_KEY_STEP: Final = 0x9E3779B1
+"""Between the noise keys of neighbours, so that equal cars differ in noise; the first keeps its own."""
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """How the cars of a train hang together.
+
+    Attributes:
+        distance: between the centres of neighbouring cars, m.
+        stiffness: of a coupler, N/m.
+        damping: of a coupler, N s/m.
+        height: of a coupler above the rail, m.
+        pipe_speed: at which the brake command travels from car to car, m/s; infinite along a wire.
+    """
+
+    distance: float
+    stiffness: float = 5.0e6
+    damping: float = 0.8e6
+    height: float = 1.025
+    pipe_speed: float = float("inf")
+
+
+class TrainStop(NamedTuple):
+    """A finished stop of a train.
+
+    Attributes:
+        cars: what each car leaves, in the order of the train.
+        couplers: records of :data:`~uictest.rig.model.couplers.COUPLER`, one behind each car but the last.
+        parameters: of every car.
+    """
+
+    cars: tuple[FinishedStop, ...]
+    couplers: NDArray[Any]
+    parameters: NDArray[Any]
+
+
+def run_coupled(
+    cases: Sequence[Case],
+    coupling: Coupling,
+    steps_per_sample: int = 0,
+    run: Callable[..., int] | None = None,
+) -> TrainStop:
+    """Run one stop of a train. The first call on a machine compiles it, within half a minute.
+
+    Args:
+        cases: one for each car, from the leading one; the rail is that of the first.
+        coupling: between them.
+        steps_per_sample: base steps from one sample of the traces to the next; 0: no traces.
+        run: what runs it [default: the compiled :func:`~uictest.rig.model.train.run_train`].
+
+    Raises:
+        ValueError: where cars differ in what a train has only once, or a controller comes from outside.
+    """
+    inputs = [assemble(case) for case in cases]
+    _check(inputs)
+    n = len(inputs)
+    parameters = np.array([each.parameters for each in inputs])
+    of_wheelsets = np.concatenate([each.wheelset_parameters for each in inputs])
+    distances = _distances(parameters, coupling)
+    _set_train(parameters, distances, coupling)
+    couplers = np.zeros(n - 1, COUPLER)
+    for name in ("stiffness", "damping", "height"):
+        couplers[name] = getattr(coupling, name)
+    records = [np.zeros(n * each, layout) for layout, each in ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))]
+    measures, of_each = np.zeros(n, STOP_MEASURES), np.zeros(4 * n, WHEELSET_MEASURES)
+    room = rows_of_trace(inputs[0].parameters, steps_per_sample)
+    samples, wheelset_samples = np.empty((n, room), TRAIN_SAMPLE), np.empty((n, room, 4), WHEELSET_SAMPLE)
+    rows = (run or compiled_train())(
+        *(*records, parameters, of_wheelsets, distances, couplers, np.ascontiguousarray(inputs[0].rail)),
+        *(np.zeros(n, RAIL_MEMORY), measures, of_each, samples, wheelset_samples, steps_per_sample),
+    )
+    finished = tuple(
+        FinishedStop(
+            measures[j],
+            of_each[4 * j : 4 * j + 4].view(np.recarray),
+            records[0][j],
+            records[2][4 * j : 4 * j + 4].view(np.recarray),
+            Trace(samples[j, :rows], wheelset_samples[j, :rows]),
+        )
+        for j in range(n)
+    )
+    return TrainStop(finished, couplers, parameters)
+
+
+def _check(inputs: Sequence[StopInputs]) -> None:
+    if not inputs:
+        raise ValueError("a train has at least one car")
+    for number, each in enumerate(inputs, start=1):
+        if each.program is not None:
+            raise ValueError(f"car {number}: its controller comes from outside; a train runs built-in ones")
+        for name in _SHARED:
+            found, expected = each.parameters[name], inputs[0].parameters[name]
+            if found != expected:
+                raise ValueError(f"car {number}: {name} is {found:g}, that of the first car is {expected:g}")
+
+
+def _distances(parameters: NDArray[Any], coupling: Coupling) -> NDArray[np.float64]:
+    """Return the distance of each car's first wheelset behind that of the train, m, shape (n,)."""
+    ahead = parameters["half_pivot_distance"] + parameters["half_wheelbase"]
+    distances: NDArray[np.float64] = coupling.distance * np.arange(len(parameters)) + ahead[0] - ahead
+    if np.any(np.diff(distances) <= 2.0 * ahead[:-1]):
+        raise ValueError("the wheelsets of neighbouring cars overlap: their distance is too small")
+    return distances
+
+
+def _set_train(parameters: NDArray[Any], distances: NDArray[np.float64], coupling: Coupling) -> None:
+    """Set what a car has because it runs in a train: grid of the rail, delay of the command, noise."""
+    between = (
+        np.diff(distances) - 2.0 * (parameters["half_pivot_distance"] + parameters["half_wheelbase"])[:-1]
+    )
+    finest = (POINTS - 2 * MARGIN) / between.max(initial=0.0) if between.size else np.inf
+    parameters["rail_points_per_metre"] = min(parameters["rail_points_per_metre"].min(), finest)
+    delays = coupling.distance * np.arange(len(parameters)) / coupling.pipe_speed
+    parameters["dead_time"] += delays
+    for name in ("command_times", "command_given"):
+        parameters[name] += delays[:, None]
+    keys = parameters["noise_key"] ^ (np.arange(len(parameters)) * _KEY_STEP & 0xFFFFFFFF)
+    parameters["noise_key"] = keys

@@ -1,0 +1,171 @@
+"""One stop of a train: several cars, each with its own rig, coupled, on one rail.
+
+A car is what it is alone: its functions get the parts of the train's records that are its own. Between them
+are the couplers and the rail, which keeps what the wheelsets of all cars before have cleaned.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+from uictest.core.measures import StopMeasures, WheelsetMeasures
+from uictest.rig.model.controller import decide
+from uictest.rig.model.couplers import Coupler, account_for_couplers, pull_cars
+from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.rail import RailMemory, hand_rail_on
+from uictest.rig.model.state import Bogie, Car, Wheelset
+from uictest.rig.model.stop import act, advance, begin_cycle, begin_stop, end_cycle, is_running
+from uictest.rig.model.stop_measures import close_stop_measures
+from uictest.rig.model.trace import Trace, sample
+from uictest.rig.model.wheelset_parameters import WheelsetParameters
+
+
+def run_train(
+    cars: Sequence[Car],
+    bogies: Sequence[Bogie],
+    wheelsets: Sequence[Wheelset],
+    parameters: Sequence[Parameters],
+    wheelset_parameters: Sequence[WheelsetParameters],
+    distances: Sequence[float],
+    couplers: Sequence[Coupler],
+    rail: Any,
+    memories: Sequence[RailMemory],
+    measures: Sequence[StopMeasures],
+    wheelset_measures: Sequence[WheelsetMeasures],
+    train_samples: Any,
+    wheelset_samples: Any,
+    steps_per_sample: int,
+) -> int:
+    """Run one stop of n cars on zeroed records; fill the measures and return the rows written to the traces.
+
+    The measures of a car are those up to its own standstill. It stays coupled until all cars stand. A train
+    of one car gives the bits of :func:`uictest.rig.model.stop.run_stop`.
+
+    Args:
+        cars: n records.
+        bogies: 2 n records.
+        wheelsets: 4 n records, in the order of the train.
+        parameters: n records with one step and one length of the controller cycle.
+        wheelset_parameters: 4 n records.
+        distances: of each car's first wheelset behind that of the train, m.
+        couplers: n - 1 records, with their numbers set.
+        rail: friction laws, places counted from the first wheelset of the train.
+        memories: n records.
+        measures: n records.
+        wheelset_measures: 4 n records.
+        train_samples: of every car, shape (n, rows).
+        wheelset_samples: likewise, shape (n, rows, 4).
+        steps_per_sample: base steps from one sample to the next; 0: none.
+    """
+    for j in range(len(cars)):
+        begin_stop(
+            cars[j],
+            bogies[2 * j : 2 * j + 2],
+            wheelsets[4 * j : 4 * j + 4],
+            parameters[j],
+            wheelset_parameters[4 * j : 4 * j + 4],
+            memories[j],
+            measures[j],
+            wheelset_measures[4 * j : 4 * j + 4],
+        )
+        for i in range(4):
+            wheelsets[4 * j + i].behind += distances[j]
+    rows = 0
+    running = len(cars)
+    while running > 0:
+        for j in range(len(cars)):
+            _begin_cycle(j, cars, wheelsets, parameters, wheelset_parameters, rail, memories)
+            own = wheelsets[4 * j : 4 * j + 4]
+            decide(cars[j], own, parameters[j])
+            act(cars[j], own, parameters[j], measures[j])
+        rows = _step_cycle(
+            *(cars, bogies, wheelsets, parameters, couplers),
+            *(train_samples, wheelset_samples, steps_per_sample, rows),
+        )
+        running = _observe(cars, bogies, wheelsets, parameters, measures, wheelset_measures)
+    return rows
+
+
+def _begin_cycle(
+    j: int,
+    cars: Sequence[Car],
+    wheelsets: Sequence[Wheelset],
+    parameters: Sequence[Parameters],
+    wheelset_parameters: Sequence[WheelsetParameters],
+    rail: Any,
+    memories: Sequence[RailMemory],
+) -> None:
+    """Begin a cycle of car ``j`` and leave to the next car the rail that its last wheelset has passed."""
+    passed = memories[j].position
+    left = memories[j].left[3]
+    own = wheelsets[4 * j : 4 * j + 4]
+    begin_cycle(cars[j], own, parameters[j], wheelset_parameters[4 * j : 4 * j + 4], rail, memories[j])
+    if parameters[j].cleans_rail > 0.0 and j + 1 < len(cars):
+        hand_rail_on(cars[j], own[3], parameters[j], memories[j], memories[j + 1], passed, left)
+
+
+def _step_cycle(
+    cars: Sequence[Car],
+    bogies: Sequence[Bogie],
+    wheelsets: Sequence[Wheelset],
+    parameters: Sequence[Parameters],
+    couplers: Sequence[Coupler],
+    train_samples: Any,
+    wheelset_samples: Any,
+    steps_per_sample: int,
+    rows: int,
+) -> int:
+    """Step all cars through a controller cycle; return the rows that the traces have then."""
+    p = parameters[0]
+    steps = (cars[0].cycle - 1) * p.steps_per_cycle
+    if steps_per_sample > 0 and rows == 0:
+        rows = _sample(cars, wheelsets, parameters, train_samples, wheelset_samples, rows)
+    for _ in range(p.steps_per_cycle):
+        pull_cars(cars, parameters, couplers)
+        for j in range(len(cars)):
+            advance(cars[j], bogies[2 * j : 2 * j + 2], wheelsets[4 * j : 4 * j + 4], parameters[j])
+        account_for_couplers(cars, parameters, couplers)
+        steps += 1
+        if steps_per_sample > 0 and steps % steps_per_sample == 0:
+            rows = _sample(cars, wheelsets, parameters, train_samples, wheelset_samples, rows)
+    return rows
+
+
+def _sample(
+    cars: Sequence[Car],
+    wheelsets: Sequence[Wheelset],
+    parameters: Sequence[Parameters],
+    train_samples: Any,
+    wheelset_samples: Any,
+    row: int,
+) -> int:
+    for j in range(len(cars)):
+        trace = Trace(train_samples[j], wheelset_samples[j])
+        sample(trace, row, cars[j], wheelsets[4 * j : 4 * j + 4], parameters[j])
+    return row + 1
+
+
+def _observe(
+    cars: Sequence[Car],
+    bogies: Sequence[Bogie],
+    wheelsets: Sequence[Wheelset],
+    parameters: Sequence[Parameters],
+    measures: Sequence[StopMeasures],
+    wheelset_measures: Sequence[WheelsetMeasures],
+) -> int:
+    """End a cycle: feed the measures of the cars that ran in it; return how many run on.
+
+    All begin their cycles together, so that a car whose measures are closed is one that had stopped before.
+    """
+    running = 0
+    for j in range(len(cars)):
+        car, p, of_stop = cars[j], parameters[j], measures[j]
+        if car.closed > 0.0:
+            continue
+        own, of_wheelsets = wheelsets[4 * j : 4 * j + 4], wheelset_measures[4 * j : 4 * j + 4]
+        end_cycle(car, own, p, of_stop, of_wheelsets)
+        if is_running(car, p):
+            running += 1
+        else:
+            close_stop_measures(car, bogies[2 * j : 2 * j + 2], own, of_stop, of_wheelsets, p)
+            car.closed = 1.0
+    return running

@@ -1,0 +1,135 @@
+"""Several cars, coupled, on one rail."""
+
+import numpy as np
+import pytest
+
+from uictest.core.lanes import translate
+from uictest.rig import coupled_cars
+from uictest.rig.backends.compiled import with_controllers
+from uictest.rig.backends.native import compiled_stop
+from uictest.rig.coupled_cars import Coupling, run_coupled
+from uictest.rig.model.controller import CHOICES
+from uictest.rig.model.couplers import coupler_energy
+from uictest.rig.model.train import run_train
+from uictest.rig.single_stop import run_to_end
+
+COUPLED = Coupling(distance=26.4)
+LOOSE = Coupling(distance=26.4, stiffness=0.0, damping=0.0)
+DRY = ("rail.condition=dry", "initial_speed=60 km/h")
+WET = ("rail.friction=0.07", "initial_speed=60 km/h")
+CLEANED = (*WET, "rail.condition=wet-curves")
+SHORT = ("initial_speed=14 km/h", "until=13.5 km/h", "simulation.time_step=1 ms")
+
+
+def bits(stop):
+    return stop.measures.tobytes() + stop.wheelset_measures.tobytes()
+
+
+@pytest.mark.parametrize("overrides", [WET, CLEANED, ("brake.dynamic={force: 100 kN, power: 2 MW}", *DRY)])
+def test_a_train_of_one_car_has_the_bits_of_a_car_alone(rig, overrides):
+    train = run_coupled([rig.case(*overrides)], COUPLED, steps_per_sample=20)
+    alone = rig.stop(*overrides, every=20)
+    assert bits(train.cars[0]) == bits(alone)
+    assert train.cars[0].trace.wheelsets.tobytes() == alone.trace.wheelsets.tobytes()
+
+
+def test_cars_that_nothing_couples_stop_as_each_alone(rig):
+    cases = [rig.case(*WET), rig.case(*WET, "brake.command=60 %"), rig.case(*WET)]
+    train = run_coupled(cases, LOOSE)
+    for j, overrides in enumerate([WET, (*WET, "brake.command=60 %"), WET]):
+        inputs = rig.inputs(*overrides)
+        inputs.parameters["noise_key"] = train.parameters[j]["noise_key"]
+        assert bits(train.cars[j]) == bits(run_to_end(compiled_stop(), inputs))
+
+
+def test_two_equal_cars_with_equal_noise_stop_as_one_and_do_not_pull(rig, monkeypatch):
+    monkeypatch.setattr(coupled_cars, "_KEY_STEP", 0)
+    train = run_coupled([rig.case(*WET)] * 2, COUPLED)
+    assert bits(train.cars[0]) == bits(train.cars[1]) == bits(rig.stop(*WET))
+    assert train.couplers["largest_pull"][0] == train.couplers["largest_push"][0] == 0.0
+
+
+@pytest.mark.parametrize("overrides", [DRY, WET, CLEANED, (*DRY, "rail.gradient=-10 permille")])
+def test_energy_of_every_car_and_of_the_couplers_closes(rig, overrides):
+    """Work of the couplers on the cars is what their springs gave less what their dampers took."""
+    cases = [rig.case(*overrides, f"brake.command={share} %") for share in (100, 40, 80)]
+    train = run_coupled(cases, COUPLED)
+    # Sliding wheelsets shake the dampers, whose loss is counted with the rate at the beginning of a step.
+    closes = 1e-8 if "rail.friction=0.07" in overrides else 1e-9
+    for car in train.cars:
+        assert abs(car.measures.energy_residual) < closes
+        assert abs(car.measures.air_residual) < 1e-9
+    cars, p, couplers = [each.car for each in train.cars], train.parameters, train.couplers
+    stored = sum(coupler_energy(couplers[j], cars[j], p[j], cars[j + 1], p[j + 1]) for j in (0, 1))
+    work = sum(car.coupler_work for car in cars)
+    assert couplers["loss"].min() > 0.0
+    assert work + stored + couplers["loss"].sum() == pytest.approx(0.0, abs=1e-9 * cars[0].initial_energy)
+
+
+def test_a_train_decelerates_by_the_mean_of_its_cars_and_a_coupler_carries_the_difference(rig):
+    """m a = F - B1 = -F - B2: both slow down by the mean, and the coupler carries half of the difference."""
+    cases = [rig.case(*DRY), rig.case(*DRY, "brake.command=50 %")]
+    train = run_coupled(cases, COUPLED, steps_per_sample=20)
+    alone = [run_coupled([case], COUPLED, steps_per_sample=20).cars[0].trace.train for case in cases]
+    at = slice(450, 550)  # 4.5 to 5.5 s: brakes built up, none near its standstill
+    slowing = [-np.polyfit(run["time"][at], run["speed"][at], 1)[0] for run in alone]
+    coupled = train.cars[0].trace.train
+    assert -np.polyfit(coupled["time"][at], coupled["speed"][at], 1)[0] == pytest.approx(
+        np.mean(slowing), rel=0.02
+    )
+    mass = train.parameters["total_mass"][0]
+    half_of_difference = 0.5 * mass * (slowing[0] - slowing[1])
+    assert train.couplers["largest_push"][0] == pytest.approx(half_of_difference, rel=0.15)
+
+
+def test_a_command_along_a_pipe_reaches_every_car_later(rig):
+    piped = Coupling(distance=25.0, stiffness=0.0, damping=0.0, pipe_speed=250.0)
+    train = run_coupled([rig.case(*DRY)] * 4, piped, steps_per_sample=1)
+    begins = [each.trace.train["time"][each.trace.train["demanded_pressure"] > 0.0][0] for each in train.cars]
+    np.testing.assert_allclose(np.diff(begins), 0.1, atol=1e-9)
+    for j, car in enumerate(train.cars):
+        dead_time, key = (train.parameters[j][name] for name in ("dead_time", "noise_key"))
+        alone = run_to_end(compiled_stop(), rig.inputs(*DRY, dead_time=dead_time, noise_key=key))
+        assert bits(car) == bits(alone)
+
+
+def test_every_car_runs_on_the_rail_that_those_before_it_have_cleaned(rig):
+    train = run_coupled([rig.case(*CLEANED)] * 3, COUPLED, steps_per_sample=20)
+    distance = train.parameters["half_pivot_distance"][0] * 2.0 + 2.5
+    for leading, trailing in zip(train.cars, train.cars[1:], strict=False):
+        left = leading.trace.wheelsets["cleaned_share"][:, 3]
+        place = leading.trace.train["distance"] - distance
+        met = trailing.trace.wheelsets["cleaned_share"][:, 0]
+        here = trailing.trace.train["distance"] - COUPLED.distance
+        there = (here > 0.0) & (here < place[-1])
+        # It meets what the last wheelset before it left there, of which it may carry over less.
+        carried = train.parameters["carry_over"][0] * np.interp(here[there], place, left)
+        assert np.all(met[there] >= carried - 0.02)
+    friction = [each.trace.wheelsets["friction"][:, 0].mean() for each in train.cars]
+    assert friction[0] < friction[1] < friction[2]
+
+
+def test_plain_code_gives_the_bits_of_compiled_code(rig):
+    cases = [rig.case(*CLEANED, *SHORT), rig.case(*CLEANED, *SHORT, "brake.command=80 %")]
+    plain = translate(run_train, lambda function: function, with_controllers(CHOICES, lambda each: each, {}))
+    for one, other in zip(
+        run_coupled(cases, COUPLED).cars, run_coupled(cases, COUPLED, run=plain).cars, strict=True
+    ):
+        assert bits(one) == bits(other)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ("initial_speed=50 km/h", "car 2: initial_speed"),
+        ("simulation.time_step=1 ms", "car 2: step"),
+    ],
+)
+def test_what_a_train_has_only_once_is_the_same_in_all_cars(rig, change, told):
+    with pytest.raises(ValueError, match=told):
+        run_coupled([rig.case(*DRY), rig.case(*DRY, change)], COUPLED)
+
+
+def test_cars_that_overlap_are_refused(rig):
+    with pytest.raises(ValueError, match="overlap"):
+        run_coupled([rig.case(*DRY)] * 2, Coupling(distance=20.0))
