@@ -6,7 +6,7 @@ import pytest
 
 from studies import slip_brake_tests
 from studies.comparison import band_text, ours_text
-from studies.experiments import cylinder_dynamics, dry_distance, rail_laws
+from studies.experiments import cylinder_dynamics, dry_distance, rail_laws, train_on_one_rail
 from studies.slip_brake_tests import CLEANED
 from studies.study import STUDIES, run_study
 
@@ -29,6 +29,7 @@ FEWER = {
     "dry-distance": [(dry_distance, {"SPEEDS": ("100 km/h", "120 km/h"), "COMMANDS": ("70 %", "100 %")})],
     "rail-cleaning": [(slip_brake_tests, {"ENERGIES": ("none", CLEANED), "SEEDS": range(1)})],
     "cylinder-dynamics": [(cylinder_dynamics, {"SEEDS": range(2)})],
+    "train": [(train_on_one_rail, {"SEEDS": range(2)})],
     "rail-laws": [(rail_laws, {"SEEDS": range(1), "SPEEDS": (60,), "FRICTIONS": (0.10,)})],
 }
 """Studies that are judged here on fewer of their stops; `./reproduce` judges all of them."""

@@ -24,6 +24,7 @@ from .backends.stepped import (
     SteppedStop as SteppedStop,
     stepping_code as stepping_code,
 )
+from .coupled_cars import Coupling as Coupling, TrainStop as TrainStop, run_coupled as run_coupled
 from .derived_parameters import Assignment as Assignment
 from .derived_wheelset_parameters import WHEELSET_ASSIGNMENTS as WHEELSET_ASSIGNMENTS
 from .external.block import (
