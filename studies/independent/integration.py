@@ -56,7 +56,11 @@ class IndependentStop:
 
 
 def integrated(case: Case, stop: Recording) -> IndependentStop:
-    """Integrate the stop of a case under the valve commands of its recording, a sample per cycle."""
+    """Integrate the stop of a case under the valve commands of its recording, a sample per cycle.
+
+    Raises ValueError where the case has something that these equations do not know.
+    """
+    _refuse_unknown(case.scenario)
     equations = Equations(case, stop)
     time, y = 0.0, equations.start()
     first, samples, stands = _energy(equations, y), [(0.0, y)], False
@@ -79,6 +83,22 @@ def integrated(case: Case, stop: Recording) -> IndependentStop:
         forces=np.array([equations.clamping_force(state) for state in states]),
         pressures=np.array([equations.pressures(state) for state in states]) - equations.atmosphere,
     )
+
+
+def _refuse_unknown(scenario: Any) -> None:
+    brake = scenario.brake
+    present = {
+        "a course of brake.command": len(brake.commands) > 1,
+        "brake.dynamic": brake.dynamic is not None,
+        "brake.system.load_valve": brake.system.load_valve is not None,
+        "until": scenario.until is not None,
+        "drag": scenario.drag is not None,
+        "faults": bool(scenario.faults),
+        "rail.variation": scenario.rail.variation_in_force is not None,
+    }
+    unknown = [name for name, found in present.items() if found]
+    if unknown:
+        raise ValueError(f"the independent rig does not know {', '.join(unknown)}")
 
 
 def _stretch(

@@ -55,6 +55,7 @@ HEADER = [
     (NAME + "»" + "a" * 101, "name", "is not allowed", "100"),
     (NAME + "»12", "name", "expected a text, found a number", 'quotes: "12"'),
     ('title: »"a\\nb"', "title", "'a\\x0ab' is not", "control"),
+    ("brake: {command: »[60 %, 100 %]}", "brake.command", "from when on", "[{at: 0 s, value: 60 %}, ...]"),
     ("tags: »slip", "tags", "expected a list, found a text", "`tags: [slip]`"),
     ("tags: [a, »1]", "tags.1", "expected a text", "quotes"),
     ("title: »true", "title", "a text", 'quotes: "true"'),

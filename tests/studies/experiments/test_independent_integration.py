@@ -5,6 +5,7 @@ from functools import cache
 import pytest
 
 from studies.experiments.independent_integration import BYPASSED, compared, draw
+from studies.independent.integration import integrated
 from studies.stop_runner import measured
 
 SLOW = {"initial_speed": "12 km/h"}
@@ -43,6 +44,26 @@ def test_both_rigs_stop_alike(found, name):
     assert both.speed < 0.02
     assert both.force < 100.0
     assert both.residual < 5.0
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "named"),
+    [
+        ("brake.command", "[{at: 0 s, value: 80 %}, {at: 1 s, value: 100 %}]", "a course of brake.command"),
+        ("brake.dynamic", "{force: 100 kN, power: 2 MW}", "brake.dynamic"),
+        ("until", "5 km/h", "until"),
+        ("drag", "{speed: 10 km/h, duration: 5 s}", "drag"),
+        (
+            "rail.variation",
+            "{spread: 10 %, correlation_length: 50 m, left_right_correlation: 1}",
+            "rail.variation",
+        ),
+    ],
+)
+def test_what_the_other_rig_does_not_know_is_refused(pair, key, value, named):
+    case, _, recording = pair("dry", **{key: value})
+    with pytest.raises(ValueError, match=f"does not know {named}$"):
+        integrated(case, recording)
 
 
 def test_another_pad_friction_of_one_rig_is_seen(pair):

@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 from typing import Annotated
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import BeforeValidator, Discriminator, Field, Tag
+from pydantic_core import PydanticCustomError
 
 from uictest.core.physics import MOST_COMMANDS
 from uictest.plans.scenario.yaml import Model, Quantity
@@ -24,7 +25,22 @@ def _form(value: object) -> str:
     return "course" if isinstance(value, Sequence) and not isinstance(value, str) else "share"
 
 
-_Steps = Annotated[tuple[CommandStep, ...], Field(min_length=1, max_length=MOST_COMMANDS)]
+def _steps_are_dated(value: Sequence[object]) -> Sequence[object]:
+    """Refuse commands without an instant as a whole: either a course or several cases was meant."""
+    if any(isinstance(each, str | int | float) for each in value):
+        hint = (
+            "a course is [{at: 0 s, value: 60 %}, ...]; several values go under matrix: {brake.command: ...}"
+        )
+        context = {"message": "commands of a course say from when on they hold", "hint": hint}
+        raise PydanticCustomError("course", "{message}", context)
+    return value
+
+
+_Steps = Annotated[
+    tuple[CommandStep, ...],
+    Field(min_length=1, max_length=MOST_COMMANDS),
+    BeforeValidator(_steps_are_dated),
+]
 Command = Annotated[
     Annotated[_Share, Tag("share")] | Annotated[_Steps, Tag("course")],
     Discriminator(_form),
