@@ -123,6 +123,8 @@ def test_plain_code_gives_the_bits_of_compiled_code(rig):
     [
         ("initial_speed=50 km/h", "car 2: initial_speed"),
         ("simulation.time_step=1 ms", "car 2: step"),
+        ("seed=7", "car 2: seed"),
+        ("rail.gradient=5 permille", "car 2: its rail"),
     ],
 )
 def test_what_a_train_has_only_once_is_the_same_in_all_cars(rig, change, told):

@@ -1,4 +1,4 @@
-"""A stop of several coupled cars: each car a case of its own, all on the rail of the first."""
+"""A stop of several coupled cars: each car a case of its own, all on one rail."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.single_stop import FinishedStop, StopInputs, rows_of_trace
 
-_SHARED: Final = ("step", "steps_per_cycle", "initial_speed", "gradient", "cycles")
+_SHARED: Final = ("step", "steps_per_cycle", "initial_speed", "seed", "cycles")
 """What all cars of a train have in common."""
 _KEY_STEP: Final = 0x9E3779B1
 """Between the noise keys of neighbours, so that equal cars differ in noise; the first keeps its own."""
@@ -65,7 +65,7 @@ def run_coupled(
     """Run one stop of a train. The first call on a machine compiles it, within half a minute.
 
     Args:
-        cases: one for each car, from the leading one; the rail is that of the first.
+        cases: one for each car, from the leading one, all with the same rail.
         coupling: between them.
         steps_per_sample: base steps from one sample of the traces to the next; 0: no traces.
         run: what runs it [default: the compiled :func:`~uictest.rig.model.train.run_train`].
@@ -74,7 +74,7 @@ def run_coupled(
         ValueError: where cars differ in what a train has only once, or a controller comes from outside.
     """
     inputs = [assemble(case) for case in cases]
-    _check(inputs)
+    _check(cases, inputs)
     n = len(inputs)
     parameters = np.array([each.parameters for each in inputs])
     of_wheelsets = np.concatenate([each.wheelset_parameters for each in inputs])
@@ -104,9 +104,12 @@ def run_coupled(
     return TrainStop(finished, couplers, parameters)
 
 
-def _check(inputs: Sequence[StopInputs]) -> None:
+def _check(cases: Sequence[Case], inputs: Sequence[StopInputs]) -> None:
     if not inputs:
         raise ValueError("a train has at least one car")
+    for number, case in enumerate(cases, start=1):
+        if case.scenario.rail != cases[0].scenario.rail:
+            raise ValueError(f"car {number}: its rail is not that of the first car")
     for number, each in enumerate(inputs, start=1):
         if each.program is not None:
             raise ValueError(f"car {number}: its controller comes from outside; a train runs built-in ones")
