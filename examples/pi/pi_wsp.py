@@ -84,7 +84,7 @@ class PiWsp:
 
     def step(self, inputs: Inputs) -> Outputs:
         """Decide on the coming cycle."""
-        fallen = self.reference - self.fall * self.config.cycle_time
+        fallen = max(self.reference - self.fall * self.config.cycle_time, 0.0)
         seen = zip(inputs.wheel_speed, inputs.speed_valid, strict=True)
         speeds = [speed if valid else fallen for speed, valid in seen]  # no speed: taken to roll
         self.reference = max(fallen, *speeds)

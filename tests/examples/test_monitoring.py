@@ -1,6 +1,7 @@
 """The PI controller that reports deviating wheelsets, and the script that judges its reports."""
 
 import math
+import sys
 from pathlib import Path
 
 import pytest
@@ -13,12 +14,14 @@ CYCLE = 0.01
 
 @pytest.fixture
 def beside(monkeypatch):
-    """The two modules, imported as the script does."""
+    """The two modules, imported as the script does; no later test of a controller beside them finds them."""
     monkeypatch.syspath_prepend(str(PI))
     import monitored_pi
     import monitoring
 
-    return monitored_pi, monitoring
+    yield monitored_pi, monitoring
+    for name in ("monitored_pi", "monitoring", "pi_wsp"):
+        sys.modules.pop(name, None)
 
 
 def monitor(monitored_pi):
