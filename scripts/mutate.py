@@ -48,7 +48,7 @@ _TESTS = {
     "gym": ("stepping",),
     "judging": ("evaluation", "series"),
     "plans": ("scenario", "series", "sweeps/plan", "validation", "faults", "library", "templates", "rig"),
-    "recorded": ("field_data", "fitting"),
+    "recorded": ("field_data", "fitting", "service_log"),
     "rig": ("rig", "identification"),
     "running": ("campaign", "sweeps/running"),
     "runs": ("runs", "history", "api"),

@@ -44,7 +44,7 @@ _EPILOG = (
 _SECTIONS: Final = {
     "Run and judge": ("run", "sweep", "check", "list", "compare"),
     "Your WSP": ("init", "controller", "export-controller"),
-    "Recorded stops": ("evaluate", "validate", "fit", "export"),
+    "Recorded stops": ("evaluate", "log", "validate", "fit", "export"),
     "Caliper laboratory": ("bench", "identify"),
     "Files and tools": ("report", "open", "library", "schema", "export-rig", "selftest"),
 }

@@ -1,6 +1,8 @@
 from .channel_map import (
+    CHANNEL_UNITS as CHANNEL_UNITS,
     WHEELSETS as WHEELSETS,
     ChannelMap as ChannelMap,
+    ChannelSource as ChannelSource,
     Preparation as Preparation,
     channel_map_schema as channel_map_schema,
     load_map as load_map,

@@ -10,3 +10,4 @@ from .file_formats import (
 )
 from .isolation import read_contents as read_contents
 from .layout import Dialect as Dialect
+from .pieces import read_pieces as read_pieces

@@ -127,9 +127,9 @@ def read(path: Path, dialect: Dialect | None = None) -> Contents:
     dialect = dialect or Dialect()
     encoding = encoding_of(path, dialect.encoding)
     try:
-        heading = _heading(path, encoding, dialect)
+        heading = heading_of(path, encoding, dialect)
         layout = table_layout(heading, dialect)
-        names, units = _names_and_units(heading, layout, dialect)
+        names, units = names_and_units(heading, layout, dialect)
         lines = sample_lines(path, encoding, dialect, layout, len(names))
         group = _group(names, units, _table(path, encoding, dialect, lines), lines)
     except UnicodeError as error:
@@ -155,7 +155,7 @@ def _one_line(text: str) -> str:
     return " ".join(text.split())
 
 
-def _heading(path: Path, encoding: str, dialect: Dialect) -> list[str]:
+def heading_of(path: Path, encoding: str, dialect: Dialect) -> list[str]:
     """Return the first lines; enough of them to hold every declared one."""
     count = max(dialect.header_line, dialect.unit_line, dialect.first_line) + _HEADING
     with path.open(encoding=encoding) as file:
@@ -165,7 +165,7 @@ def _heading(path: Path, encoding: str, dialect: Dialect) -> list[str]:
     return [lines[0].removeprefix(MARK), *lines[1:]] if lines else []
 
 
-def _names_and_units(
+def names_and_units(
     heading: Sequence[str], layout: TableLayout, dialect: Dialect
 ) -> tuple[list[str], list[str]]:
     """Return names, made distinct, and their units: those in the names, else those of the line of units."""
@@ -241,6 +241,11 @@ def _samples(column: Any) -> Samples:
     if column.dtype.kind in "biuf":
         return np.asarray(column, dtype=np.float64)
     return np.array([str(cell)[:_LONGEST_TEXT] if cell == cell else "" for cell in column], dtype=np.str_)
+
+
+def is_date(text: str) -> bool:
+    """Return whether a text is a date with a time."""
+    return _DATE.fullmatch(text) is not None
 
 
 def _seconds(column: Any) -> Samples | None:

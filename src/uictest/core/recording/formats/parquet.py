@@ -34,10 +34,9 @@ def read(path: Path) -> Contents:
     except (pa.ArrowException, OSError) as error:
         raise UnreadableError("no Parquet file, or a damaged one") from error
     facts = {key.decode("utf-8", "replace"): value for key, value in (schema.metadata or {}).items()}
-    units = {**_object(facts.get("uictest.units")), **_field_units(schema)}
-    units |= {field.name: "s" for field in schema if _holds_times(field.type)}
+    units = units_of(schema)
     skipped = {field.name: f"holds {field.type}" for field in schema if field.name not in names}
-    channels = {name: _samples(table.column(name)) for name in names}
+    channels = {name: samples_of_column(table.column(name)) for name in names}
     return Contents((Group("", channels, units),), _object(facts.get("uictest.metadata")), skipped)
 
 
@@ -56,27 +55,30 @@ def _holds_samples(kind: pa.DataType) -> bool:
     import pyarrow as pa
 
     numbers = pa.types.is_integer(kind) or pa.types.is_floating(kind) or pa.types.is_boolean(kind)
-    return bool(numbers or pa.types.is_decimal(kind) or _holds_times(kind) or _holds_texts(kind))
+    return bool(numbers or pa.types.is_decimal(kind) or holds_times(kind) or holds_texts(kind))
 
 
-def _holds_times(kind: pa.DataType) -> bool:
+def holds_times(kind: pa.DataType) -> bool:
+    """Return whether a column holds dates or durations."""
     import pyarrow as pa
 
     return bool(pa.types.is_timestamp(kind) or pa.types.is_duration(kind))
 
 
-def _holds_texts(kind: pa.DataType) -> bool:
+def holds_texts(kind: pa.DataType) -> bool:
+    """Return whether a column holds texts."""
     import pyarrow as pa
 
     if pa.types.is_dictionary(kind):
-        return _holds_texts(kind.value_type)
+        return holds_texts(kind.value_type)
     return bool(pa.types.is_string(kind) or pa.types.is_large_string(kind))
 
 
-def _samples(column: Any) -> Samples:
+def samples_of_column(column: Any) -> Samples:
+    """Return the samples of a column of numbers, times or short texts."""
     import pyarrow as pa
 
-    if _holds_texts(column.type):
+    if holds_texts(column.type):
         return np.array([(text or "")[:_LONGEST_TEXT] for text in column.to_pylist()], dtype=np.str_)
     if pa.types.is_timestamp(column.type):
         return _seconds(column.to_numpy().astype("datetime64[us]"))
@@ -89,6 +91,13 @@ def _seconds(stamps: Any) -> Samples:
     """Return time stamps as seconds after the first; one that is missing becomes NaN."""
     since = (stamps - stamps[~np.isnat(stamps)][:1]) / np.timedelta64(1, "us") * 1e-6
     return np.asarray(since, dtype=np.float64)
+
+
+def units_of(schema: pa.Schema) -> dict[str, str]:
+    """Return the unit of every column that states one."""
+    of_schema = _object((schema.metadata or {}).get(b"uictest.units"))
+    times = {field.name: "s" for field in schema if holds_times(field.type)}
+    return {**of_schema, **_field_units(schema), **times}
 
 
 def _field_units(schema: pa.Schema) -> dict[str, str]:

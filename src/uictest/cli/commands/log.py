@@ -1,0 +1,136 @@
+"""`uictest log`: find and judge the stops in long recordings."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from uictest import report, runs
+from uictest.cli import options, recordings, run_display
+from uictest.cli.options import option, rejected
+from uictest.cli.output import ExitCode, message, of_run
+from uictest.core import files as file_system
+from uictest.core.recording import formats
+from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.plans.scenario import yaml
+from uictest.recorded import field_data, service_log
+from uictest.running import campaign
+
+FromSpeed = Annotated[str, option("--from SPEED", "Least speed at which the brake is applied.")]
+ToSpeed = Annotated[str, option("--to SPEED", "Speed down to which a stop comes.")]
+
+
+def log(
+    context: typer.Context,
+    files: recordings.Files,
+    map_name: recordings.MapName = "uictest",
+    from_speed: Annotated[
+        str, option("--from SPEED", "Least speed at which the brake is applied.")
+    ] = "20 km/h",
+    to_speed: ToSpeed = "0 km/h",
+    folder: Annotated[Path, option("--recordings DIR", "Where every stop is written.")] = Path("stops"),
+    scenario: Annotated[
+        Path | None, option("--scenario FILE", "Scenario with the test conditions and the criteria.")
+    ] = None,
+    expression: options.Expression = None,
+    overrides: options.Overrides = None,
+    trusted: options.Trusted = None,
+    output: options.Output = Path("reports"),
+    junit: options.JUnitFile = None,
+    strict: options.Strict = False,
+    shown: options.RunFormat = options.Format.TEXT,
+    quiet: options.Quiet = False,
+    verbose: options.Verbose = False,
+) -> ExitCode:
+    """Find the stops in long recordings (CSV, Parquet) and judge each. Several files are one log.
+
+    Conditions are stated as for 'evaluate'. Applications of the brake that are no stops are listed with the
+    reason. Reports and exit codes are those of 'run'; 5 where there is no stop.
+    """
+    junit = options.junit_file(junit, output)
+    mapped, inputs = recordings.channel_map(map_name, trusted, None)
+    with rejected("--from"):
+        least = float(yaml.parse_quantity(from_speed, "speed"))
+    with rejected("--to"):
+        settings = service_log.FinderSettings(least, float(yaml.parse_quantity(to_speed, "speed")))
+    case = None if scenario is None else recordings.one_case(scenario, expression, overrides or (), trusted)
+    case_of = runs.case_of_stop(
+        case, overrides or (), trusted, lambda keys: " ".join(f"--set {key}=..." for key in keys)
+    )
+    found, written = _stops(files, mapped, settings, folder)
+    if not quiet:
+        _write_events(found)
+    if not written:
+        message("uictest: no stop found")
+        return ExitCode.NOTHING_SELECTED
+    stops = runs.stops_in_recordings(written, _canonical(mapped), inputs, case_of)
+    request = campaign.RecordingRequest("all")
+    batch = runs.recorded_batch(stops, context.obj, request, strict=strict)
+    display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
+    published = run_display.publish_and_show(batch, output, ("html",), junit, display)
+    if published is None:
+        return ExitCode.INTERRUPTED
+    file_system.write(published.place, "stops.csv", _table(found))
+    return of_run(published)
+
+
+def _stops(
+    paths: Sequence[Path],
+    mapped: field_data.ChannelMap,
+    settings: service_log.FinderSettings,
+    place: Path,
+) -> tuple[service_log.Log, list[Path]]:
+    """Find and write the stops. Raises InvalidInputError where a file cannot be read."""
+    try:
+        found = service_log.find_stops(paths, mapped, settings)
+        return found, service_log.write_stops(found, mapped, place)
+    except (formats.UnreadableError, field_data.MapError) as error:
+        raise runs.InvalidInputError(str(error)) from error
+    except OSError as error:
+        raise runs.InvalidInputError(f"{error.filename}: {error.strerror or error}") from error
+
+
+def _canonical(mapped: field_data.ChannelMap) -> field_data.ChannelMap:
+    """Return the map of the stops that were cut out: canonical names, prepared as the log's map says."""
+    names = ("time", *field_data.CHANNEL_UNITS)
+    channels = {name: field_data.ChannelSource(source=(name,)) for name in names}
+    return mapped.model_copy(update={"channels": channels})
+
+
+def _write_events(found: service_log.Log) -> None:
+    """Write to stderr what was passed over, and what is unusual about stops."""
+    for event in found.passed_over:
+        message(f"uictest: passed over: {_place(event)}: {event.reason}")
+    for number, event in enumerate(found.stops, start=1):
+        if event.remarks:
+            message(f"uictest: stop-{number:04d}: {_place(event)}: {'; '.join(event.remarks)}")
+    message(f"uictest: {report.counted(len(found.stops), 'stop')}, {len(found.passed_over)} passed over")
+
+
+def _place(event: service_log.LoggedEvent) -> str:
+    return f"{event.file} at {event.time:.6g} s (sample {event.row + 1}, {event.distance:.0f} m)"
+
+
+def _table(found: service_log.Log) -> str:
+    """Return stops.csv: every application of the brake, stops first."""
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(
+        ["stop", "file", "sample", "time_s", "distance_m", "speed_kmh", "end_speed_kmh", "reason", "remarks"]
+    )
+    for number, event in enumerate((*found.stops, *found.passed_over), start=1):
+        speeds = [f"{speed / KILOMETRE_PER_HOUR:.2f}" for speed in (event.speed, event.end_speed)]
+        place = [
+            report.printable(str(event.file)),
+            event.row + 1,
+            f"{event.time:.6g}",
+            f"{event.distance:.1f}",
+        ]
+        name = "" if event.reason else f"stop-{number:04d}"
+        writer.writerow([name, *place, *speeds, event.reason, "; ".join(event.remarks)])
+    return text.getvalue()

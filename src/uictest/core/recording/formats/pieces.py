@@ -1,0 +1,123 @@
+"""Long files of one table, read in pieces: of the whole file only one piece is in memory."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Collection, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from uictest.core.recording.formats import csv_text, parquet
+from uictest.core.recording.formats.file_formats import UnreadableError, format_of
+from uictest.core.recording.formats.layout import Dialect, encoding_of, table_layout
+from uictest.core.recording.recording import Contents, Group, Samples
+
+_BLOCK = 16 * 2**20
+"""Bytes of text that are parsed at once; chosen."""
+_ROWS = 2**17
+"""Rows of a Parquet file that are decoded at once; chosen."""
+_SAMPLED = 200
+"""Lines by which a column of text is told from one of numbers; chosen."""
+
+
+def read_pieces(path: Path, dialect: Dialect, wanted: Collection[str] | None = None) -> Iterator[Contents]:
+    """Yield a CSV or Parquet file piece by piece, with the `wanted` columns that it has; None: with all.
+
+    Times that are written as dates become seconds after the first of the file.
+
+    Raises UnreadableError where the file is no table of this dialect, or of another format; OSError.
+    """
+    import pyarrow as pa
+
+    kind = format_of(path)
+    if kind not in ("csv", "parquet"):
+        raise UnreadableError(
+            f"{kind} is not read in pieces; write it as Parquet: uictest export {path.name} --to parquet"
+        )
+    begin: dict[str, Any] = {}
+    try:
+        names, units, batches = (_csv if kind == "csv" else _parquet)(path, dialect, wanted)
+        for batch in batches:
+            columns = {name: _samples(name, batch.column(k), begin) for k, name in enumerate(names)}
+            dated = dict.fromkeys(begin, "s")
+            yield Contents((Group("", columns, {**units, **dated}),))
+    except pa.ArrowException as error:
+        raise UnreadableError(f"not a table of numbers throughout: {str(error).splitlines()[0]}") from error
+    except UnicodeError as error:
+        raise UnreadableError(f"is not {dialect.encoding} throughout") from error
+
+
+Table = tuple[list[str], dict[str, str], Iterator[Any]]
+
+
+def _parquet(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Table:
+    import pyarrow.parquet as pq
+
+    file = pq.ParquetFile(path)
+    names = [name for name in file.schema_arrow.names if wanted is None or name in wanted]
+    units = parquet.units_of(file.schema_arrow)
+    batches: Iterator[Any] = file.iter_batches(_ROWS, columns=names, use_threads=True)
+    return names, units, batches
+
+
+def _csv(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Table:
+    import pyarrow as pa
+    from pyarrow import csv
+
+    encoding = encoding_of(path, dialect.encoding)
+    if dialect.thousands:
+        raise UnreadableError("thousands separators are not read in pieces: write the numbers without them")
+    heading = csv_text.heading_of(path, encoding, dialect)
+    layout = table_layout(heading, dialect)
+    names, stated = csv_text.names_and_units(heading, layout, dialect)
+    units = {name: unit for name, unit in zip(names, stated, strict=True) if unit}
+    chosen = [name for name in names if wanted is None or name in wanted]
+    first = heading[layout.first_line - 1 :][:_SAMPLED]
+    kinds = {name: _kind([_cell(line, k, dialect) for line in first]) for k, name in enumerate(names)}
+    reader = csv.open_csv(
+        path,
+        csv.ReadOptions(
+            skip_rows=layout.first_line - 1, column_names=names, block_size=_BLOCK, encoding=encoding
+        ),
+        csv.ParseOptions(delimiter=dialect.delimiter),
+        csv.ConvertOptions(
+            include_columns=chosen,
+            column_types={name: pa.float64() if kinds[name] else pa.string() for name in chosen},
+            null_values=["", "nan", "NaN", "NAN", "null", "NULL", "N/A", "-"],
+            decimal_point=dialect.decimal,
+        ),
+    )
+    return chosen, units, iter(reader)
+
+
+def _cell(line: str, column: int, dialect: Dialect) -> str:
+    cells = line.rstrip("\r\n").split(dialect.delimiter)
+    return cells[column].strip().replace(dialect.decimal, ".") if column < len(cells) else ""
+
+
+def _kind(cells: Sequence[str]) -> bool:
+    """Return whether cells are numbers, as far as they are filled."""
+    filled = [cell for cell in cells if cell]
+    try:
+        [float(cell) for cell in filled]
+    except ValueError:
+        return False
+    return True
+
+
+def _samples(name: str, column: Any, begin: dict[str, Any]) -> Samples:
+    """Return the samples of a column; `begin` remembers the first date of each column of dates."""
+    import pandas as pd
+    import pyarrow as pa
+
+    texts = parquet.holds_texts(column.type)
+    if not texts and not parquet.holds_times(column.type):
+        return np.asarray(column.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False))
+    first = next((value for value in itertools.islice(column, _SAMPLED) if value.is_valid), None)
+    if texts and name not in begin and (first is None or not csv_text.is_date(first.as_py())):
+        return parquet.samples_of_column(column)
+    stamps = pd.to_datetime(pd.Series(column.to_pandas()), format="ISO8601", errors="coerce", utc=True)
+    begin.setdefault(name, stamps.dropna().iloc[0] if len(stamps.dropna()) else pd.Timestamp(0, tz="UTC"))
+    return np.asarray((stamps - begin[name]).dt.total_seconds(), dtype=np.float64)

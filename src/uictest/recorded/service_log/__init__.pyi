@@ -1,0 +1,7 @@
+from .finder import (
+    FinderSettings as FinderSettings,
+    Log as Log,
+    LoggedEvent as LoggedEvent,
+    find_stops as find_stops,
+)
+from .stretches import write_stops as write_stops

@@ -1,0 +1,157 @@
+"""What the finder reads of a log: clock, speed and brake of every row."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.core.recording import Contents
+from uictest.core.recording.formats import UnreadableError, read_pieces
+from uictest.recorded.field_data import ChannelMap, MapError, RawChannel, of_wheelsets, select_channels
+
+Array = NDArray[np.float64]
+WHEELS = of_wheelsets("wheel_speed")
+BRAKE = ("brake_command", "demanded_pressure", "brake_line_pressure")
+_PRESSURES = of_wheelsets("cylinder_pressure")
+_ON = 0.5
+"""Above it the brake command, a state of 0 and 1, is given."""
+_LEAST_STUCK = 2.0
+"""s for which a speed may show one number to the last digit while the wheels change theirs; chosen."""
+_TELLING_CHANGE = 0.5
+"""m/s by which the wheels must change meanwhile; chosen."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Signals:
+    """Rows of one log, over all of its files.
+
+    Args:
+        time: as recorded, s.
+        speed: of the train with its sign, m/s; from the wheels where its own sensor is dead.
+        braked: whether the brake is applied.
+        unusable: whether a row could not be read in the units of the channel map.
+        files: of the log, in order.
+        first_rows: row with which each file begins, and the number of all rows.
+
+    """
+
+    time: Array
+    speed: Array
+    braked: NDArray[np.bool_]
+    unusable: NDArray[np.bool_]
+    files: Sequence[Path]
+    first_rows: Sequence[int]
+
+
+def read_signals(files: Sequence[Path], channel_map: ChannelMap) -> Signals:
+    """Read speed and brake of all files, piece by piece.
+
+    Raises UnreadableError, MapError where a file has no speed or nothing that shows the brake; OSError.
+    """
+    columns: list[tuple[Array, ...]] = []
+    first_rows = [0]
+    for path in files:
+        try:
+            rows = [
+                _rows(channels, channel_map) for channels in channels_of(path, channel_map, finder_only=True)
+            ]
+        except (UnreadableError, MapError) as error:
+            raise type(error)(f"{path}: {error}") from error
+        if not rows:
+            raise UnreadableError(f"{path}: no samples")
+        columns += rows
+        first_rows.append(first_rows[-1] + sum(len(row[0]) for row in rows))
+    time, train, wheels, braked, unusable = (np.concatenate(column) for column in zip(*columns, strict=True))
+    speed = _reference_speed(continuous_clock(time), train, wheels)
+    return Signals(time, speed, braked > _ON, unusable > _ON, files, first_rows)
+
+
+def channels_of(path: Path, channel_map: ChannelMap, *, finder_only: bool) -> Iterator[dict[str, RawChannel]]:
+    """Yield the channels of a file in SI, piece by piece: those of the finder or all.
+
+    A later piece with implausible numbers gets channels of NaN: the clock runs on, nothing is believed.
+    """
+    sources = channel_map.sources()
+    needed = ("time", "speed", *WHEELS, *BRAKE, *_PRESSURES) if finder_only else tuple(sources)
+    names = {alias for name in needed if name in sources for alias in sources[name].source}
+    known: dict[str, RawChannel] = {}
+    for contents in read_pieces(path, channel_map.dialect, names):
+        try:
+            yield (known := select_channels(contents, channel_map))
+        except MapError:
+            if not known:
+                raise
+            yield _without_implausible(contents, channel_map, known)
+
+
+def _without_implausible(
+    contents: Contents, channel_map: ChannelMap, known: dict[str, RawChannel]
+) -> dict[str, RawChannel]:
+    """Return the channels of a piece, those of NaN that cannot be read."""
+    kept: dict[str, RawChannel] = {}
+    group = contents.groups[0]
+    for name, channel in known.items():
+        others = {each.source for other, each in known.items() if other not in (name, "speed")}
+        reduced = replace(group, channels={k: v for k, v in group.channels.items() if k not in others})
+        try:
+            kept[name] = select_channels(Contents((reduced,)), channel_map)[name]
+        except (MapError, KeyError):
+            kept[name] = replace(channel, samples=np.full(len(group), np.nan))
+    times = [each.time for each in kept.values() if len(each.time) == len(group)]
+    if not times:
+        raise MapError("a piece of the log has neither a usable time nor a usable speed")
+    return {name: replace(channel, time=times[0]) for name, channel in kept.items()}
+
+
+def _rows(channels: dict[str, RawChannel], channel_map: ChannelMap) -> tuple[Array, ...]:
+    speed = channels["speed"]
+    wheels = [channels[name].samples for name in WHEELS if name in channels]
+    level = float(channel_map.preparation.trigger_pressure)
+    name = next((each for each in BRAKE if each in channels), None)
+    if name is not None:
+        braked = channels[name].samples > (_ON if name == "brake_command" else level)
+    elif pressures := [channels[each].samples for each in _PRESSURES if each in channels]:
+        braked = np.any([pressure > level for pressure in pressures], axis=0)
+    else:
+        raise MapError(
+            "nothing shows when the brake is applied: map brake_command, demanded_pressure,"
+            " brake_line_pressure or cylinder_pressure_{n}"
+        )
+    second = _second_largest(wheels) if len(wheels) > 1 else np.full(len(speed.time), np.nan)
+    unusable = ~np.isfinite(speed.samples)
+    return speed.time, speed.samples, second, braked.astype(np.float64), unusable.astype(np.float64)
+
+
+def _second_largest(wheels: Sequence[Array]) -> Array:
+    """Return the speed that at least two wheelsets reach, with its sign: no single sensor makes it."""
+    stacked = np.stack(wheels)
+    sign = np.where(np.nansum(np.nan_to_num(stacked), axis=0) < 0.0, -1.0, 1.0)
+    ordered = np.sort(np.where(np.isfinite(stacked), np.abs(stacked), -1.0), axis=0)
+    return np.where(ordered[-2] >= 0.0, sign * ordered[-2], np.nan)
+
+
+def _reference_speed(clock: Array, train: Array, wheels: Array) -> Array:
+    """Return the train speed, and that of the wheels where its sensor shows none, zero or one number."""
+    dead = ~np.isfinite(train) | (np.abs(train) < 0.5 * np.abs(wheels) - 1.0)
+    edges = np.concatenate(([0], np.flatnonzero(np.diff(train) != 0.0) + 1, [len(train)]))
+    firsts, ends = edges[:-1], edges[1:]
+    long = (clock[ends - 1] - clock[firsts] > _LEAST_STUCK) & (train[firsts] != 0.0)
+    for first, end in zip(firsts[long], ends[long], strict=True):
+        dead[first:end] |= bool(np.ptp(wheels[first:end]) > _TELLING_CHANGE)
+    return np.where(dead & np.isfinite(wheels), wheels, train)
+
+
+def continuous_clock(time: Array) -> Array:
+    """Return a clock that runs on where the recorded one steps: there it takes the usual interval."""
+    steps = np.diff(time)
+    sound = (steps > 0.0) & (steps <= LONGEST_STEP)
+    usual = float(np.median(steps[sound])) if sound.any() else 1.0
+    return np.concatenate(([0.0], np.cumsum(np.where(sound, steps, usual))))
+
+
+LONGEST_STEP = 60.0
+"""s: a longer interval between two rows is a step of the clock or an interruption; chosen."""

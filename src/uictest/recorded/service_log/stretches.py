@@ -1,0 +1,80 @@
+"""Stops cut out of a log: each a recording of its own with all channels of the map."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from uictest.core import files
+from uictest.recorded.field_data import CHANNEL_UNITS, ChannelMap, RawChannel
+from uictest.recorded.service_log.finder import Log, LoggedEvent
+from uictest.recorded.service_log.signals import WHEELS, Array, channels_of
+
+_SIGNED = ("speed", "distance", *WHEELS)
+
+
+def write_stops(log: Log, channel_map: ChannelMap, folder: Path) -> list[Path]:
+    """Write every stop as Parquet, in SI under the canonical names, and return the files in order.
+
+    Raises UnreadableError, MapError, OSError.
+    """
+    pending: dict[int, list[dict[str, Array]]] = {}
+    written: list[Path] = []
+    following = 0
+    files.make_folder(folder)
+    for first, piece in _pieces(log, channel_map):
+        end = first + len(piece["time"])
+        for k in range(following, len(log.stops)):
+            begin, last = log.stops[k].rows
+            if begin >= end:
+                break
+            part = slice(max(begin - first, 0), last - first)
+            pending.setdefault(k, []).append({name: samples[part].copy() for name, samples in piece.items()})
+            if last <= end:
+                path = folder / f"stop-{k + 1:04d}.parquet"
+                files.write_to(path, _parquet(_joined(pending.pop(k)), log.stops[k]))
+                written.append(path)
+                following = k + 1
+    return written
+
+
+def _pieces(log: Log, channel_map: ChannelMap) -> Iterator[tuple[int, dict[str, Array]]]:
+    row = 0
+    for path in log.files:
+        for channels in channels_of(path, channel_map, finder_only=False):
+            yield row, {"time": channels["speed"].time, **_samples(channels)}
+            row += len(channels["speed"].time)
+
+
+def _samples(channels: dict[str, RawChannel]) -> dict[str, Array]:
+    return {name: channel.samples for name, channel in channels.items() if name != "time"}
+
+
+def _joined(parts: list[dict[str, Array]]) -> dict[str, Array]:
+    names = [name for name in parts[0] if all(name in part for part in parts)]
+    return {name: np.concatenate([part[name] for part in parts]) for name in names}
+
+
+def _parquet(channels: dict[str, Array], event: LoggedEvent) -> bytes:
+    """Return a stop as a file; its clock is as recorded, steps included, which a recording could not hold."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    backwards = np.nanmedian(np.append(channels["speed"], 0.0)) < 0.0
+    facts = {
+        "source": event.file.name,
+        "place": f"sample {event.row + 1}, {event.time:.6g} s, {event.distance:.6g} m",
+        "remarks": "; ".join(event.remarks),
+    }
+    units = {"time": "s", **CHANNEL_UNITS}
+    fields = [pa.field(name, pa.float64(), metadata={"unit": units[name]}) for name in channels]
+    signed = {name: -v if backwards and name in _SIGNED else v for name, v in channels.items()}
+    metadata = {"uictest.metadata": json.dumps(facts), "uictest.schema": "uictest/recording/1"}
+    table = pa.table(list(signed.values()), schema=pa.schema(fields, metadata=metadata))
+    content = io.BytesIO()
+    pq.write_table(table, content, compression="zstd")
+    return content.getvalue()
