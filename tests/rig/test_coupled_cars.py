@@ -1,9 +1,12 @@
 """Several cars, coupled, on one rail."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from uictest.core.lanes import translate
+from uictest.plans.scenario import load
 from uictest.rig import coupled_cars
 from uictest.rig.backends.compiled import with_controllers
 from uictest.rig.backends.native import compiled_stop
@@ -135,3 +138,11 @@ def test_what_a_train_has_only_once_is_the_same_in_all_cars(rig, change, told):
 def test_cars_that_overlap_are_refused(rig):
     with pytest.raises(ValueError, match="overlap"):
         run_coupled([rig.case(*DRY)] * 2, Coupling(distance=20.0))
+
+
+def test_a_controller_from_outside_and_a_train_without_cars_are_refused():
+    outside, *_ = load([Path(__file__).parents[2] / "examples" / "pi" / "slippery-120.yaml"])
+    with pytest.raises(ValueError, match="car 1: its controller comes from outside"):
+        run_coupled([outside], COUPLED)
+    with pytest.raises(ValueError, match="at least one car"):
+        run_coupled([], COUPLED)

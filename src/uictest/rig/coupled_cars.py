@@ -29,9 +29,9 @@ class Coupling:
 
     Attributes:
         distance: between the centres of neighbouring cars, m.
-        stiffness: of a coupler, N/m.
-        damping: of a coupler, N s/m.
-        height: of a coupler above the rail, m.
+        stiffness: of a coupler, N/m; 5 MN/m as in open data of an eight-car unit, second-hand.
+        damping: of a coupler, N s/m; 0.8 MN s/m likewise.
+        height: of a coupler above the rail, m; chosen, that of usual buffers.
         pipe_speed: at which the brake command travels from car to car, m/s; infinite along a wire.
     """
 
