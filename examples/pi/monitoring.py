@@ -56,11 +56,12 @@ class Watched:
         wrong = [place for place in self.reports if place != FAULTY or self.fault == "none"]
         if wrong:
             return "wrongly reported: " + ", ".join(f"wheelset {place + 1}" for place in wrong)
-        if FAULTY in self.reports:
-            since = self.reports[FAULTY] - (self.ended if self.deviates is None else self.deviates)
-            return "reported" if since <= WITHIN else "reported too late"
-        lasted = self.deviates is not None and self.ended - self.deviates >= WITHIN
-        return "not reported" if lasted else "not reported, not required"
+        reported = self.reports.get(FAULTY)
+        if self.deviates is None or self.ended - self.deviates < WITHIN:
+            return "not required" if reported is None else "reported, not required"
+        if reported is None:
+            return "not reported"
+        return "reported" if reported - self.deviates <= WITHIN else "reported too late"
 
 
 def watched(scenario: Path, case: str, fault: str) -> Watched:

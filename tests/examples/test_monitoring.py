@@ -68,7 +68,8 @@ def test_the_timer_gives_the_brake_back_and_reports(beside):
         (0.0, 11.0, 1, "reported too late"),
         (0.0, math.inf, 1, "not reported"),
         (0.0, 9.0, 2, "wrongly reported: wheelset 3"),
-        (40.0, math.inf, 1, "not reported, not required"),
+        (40.0, math.inf, 1, "not required"),
+        (40.0, 9.0, 1, "reported, not required"),
     ],
 )
 def test_reports_are_judged_by_the_true_speed(beside, wheel_speed, reported_at, place, verdict):
@@ -76,6 +77,12 @@ def test_reports_are_judged_by_the_true_speed(beside, wheel_speed, reported_at, 
     for second in range(21):
         stop.observe(float(second), wheel_speed, 40.0, (second >= reported_at) << place)
     assert stop.verdict == verdict
+
+
+@pytest.mark.slow
+def test_the_page_shows_what_the_script_prints(beside, capsys):
+    beside[1].main(PI / "monitoring.yaml")
+    assert capsys.readouterr().out in (PI.parents[1] / "docs" / "faults.md").read_text("utf-8")
 
 
 def test_a_stop_reports_what_locks_and_nothing_without_a_fault(beside):
