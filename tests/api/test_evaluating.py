@@ -8,7 +8,7 @@ import pytest
 
 import uictest
 from uictest.core.files import latest_run
-from uictest.core.recording import write_parquet
+from uictest.core.recording import parquet_bytes
 from uictest.core.recording.formats import writer_of
 from uictest.judging import evaluation
 
@@ -101,7 +101,7 @@ def test_a_simulated_stop_comes_out_as_it_was_judged(write):
     path = write()
     results = uictest.run(path, record="all", rate=1000)
     Path("recordings").mkdir()
-    write_parquet(results.recording("stop"), Path("recordings/stop.parquet"))
+    Path("recordings/stop.parquet").write_bytes(parquet_bytes(results.recording("stop")))
     again = uictest.evaluate("recordings/stop.parquet", scenario=path)
     ours, theirs = (each.frame().loc["stop", "braking_distance_m"] for each in (results, again))
     assert ours == pytest.approx(theirs, rel=1e-3)
@@ -111,7 +111,7 @@ def test_a_simulated_stop_comes_out_as_it_was_judged(write):
 def test_recordings_are_read_as_they_were_written(write, suffix, digits):
     written = uictest.simulate(write())
     path = Path(f"stop.{suffix}")
-    write_parquet(written, path) if suffix == "parquet" else writer_of(suffix)(written, path)
+    path.write_bytes(parquet_bytes(written)) if suffix == "parquet" else writer_of(suffix)(written, path)
     read = uictest.read_recording(path)
     assert read.units == written.units
     assert read.metadata["case"] == "stop"

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.core.recording import write_parquet
+from uictest.core.recording import parquet_bytes
 
 from .conftest import rolling_train
 
@@ -45,7 +45,7 @@ PATHS = {
 
 @pytest.fixture(autouse=True)
 def stop(workplace):
-    write_parquet(rolling_train(0.1), Path("stop.parquet"))
+    Path("stop.parquet").write_bytes(parquet_bytes(rolling_train(0.1)))
 
 
 @pytest.mark.parametrize("path", PATHS.values(), ids=PATHS)

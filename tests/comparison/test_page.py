@@ -8,7 +8,7 @@ import pytest
 
 from uictest.analysis import comparison
 from uictest.analysis.comparison.page import in_page_units, quantity_title
-from uictest.core.recording import Recording, write_parquet
+from uictest.core.recording import Recording, parquet_bytes
 from uictest.report import Difference
 
 
@@ -109,7 +109,8 @@ def test_a_stop_of_two_runs_has_a_band_only_where_a_tolerance_names_the_channel(
     for folder, shift in zip(folders, (0.0, 1.0), strict=True):
         (folder / "recordings").mkdir(parents=True)
         first = make_recording()
-        write_parquet(make_recording(speed=first["speed"] + shift), folder / "recordings" / "dry-120.parquet")
+        written = parquet_bytes(make_recording(speed=first["speed"] + shift))
+        (folder / "recordings" / "dry-120.parquet").write_bytes(written)
     tolerances = comparison.Tolerances.read(["5%", "speed=2"])
     compared = comparison.compare_runs(make_run(), make_run(braking_distance_m=500.0), tolerances)
     drawn = comparison.with_overlays(compared, *folders, ["speed", "slide_1"], tolerances)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, strategies as st
 from hypothesis.extra import numpy as arrays
 
-from uictest.core.recording import Recording, read_parquet, write_parquet
+from uictest.core.recording import Recording, parquet_bytes, read_parquet
 
 TIME = np.array([0.0, 0.01, 0.02])
 
@@ -27,7 +27,7 @@ def stop():
 
 def test_a_recording_comes_back_as_it_was_written_with_the_same_bytes(tmp_path):
     path = tmp_path / "slip-120[friction=0.10,command=90].parquet"
-    write_parquet(stop(), path)
+    path.write_bytes(parquet_bytes(stop()))
     back = read_parquet(path)
     assert back.units == stop().units
     assert back.metadata == stop().metadata
@@ -35,13 +35,11 @@ def test_a_recording_comes_back_as_it_was_written_with_the_same_bytes(tmp_path):
     for name, samples in stop().channels.items():
         assert back[name].dtype == samples.dtype
         np.testing.assert_array_equal(back[name], samples)
-    write_parquet(stop(), tmp_path / "a.parquet")
-    write_parquet(stop(), tmp_path / "b.parquet")
-    assert (tmp_path / "a.parquet").read_bytes() == (tmp_path / "b.parquet").read_bytes()
+    assert path.read_bytes() == parquet_bytes(stop())
 
 
 def test_any_reader_of_parquet_finds_the_units_and_they_survive_without_field_metadata(tmp_path):
-    write_parquet(stop(), tmp_path / "a.parquet")
+    (tmp_path / "a.parquet").write_bytes(parquet_bytes(stop()))
     schema = pq.read_schema(tmp_path / "a.parquet")
     assert schema.field("tank_pressure_1").metadata[b"unit"] == b"bar"
     assert schema.metadata[b"uictest.schema"] == b"uictest/recording/1"
@@ -54,7 +52,7 @@ def test_any_reader_of_parquet_finds_the_units_and_they_survive_without_field_me
 def test_a_folder_named_like_a_partition_is_no_channel(tmp_path):
     folder = tmp_path / "friction=0.10"
     folder.mkdir()
-    write_parquet(stop(), folder / "a.parquet")
+    (folder / "a.parquet").write_bytes(parquet_bytes(stop()))
     assert "friction" not in read_parquet(folder / "a.parquet").channels
 
 
@@ -92,16 +90,15 @@ def test_a_file_that_is_not_there_is_an_os_error(tmp_path):
 def test_every_float_comes_back_bit_for_bit(tmp_path_factory, samples):
     path = tmp_path_factory.mktemp("floats") / "a.parquet"
     channels = {"time": np.arange(len(samples)) * 0.01, "force": samples}
-    write_parquet(Recording(channels, {"time": "s", "force": "N"}), path)
+    path.write_bytes(parquet_bytes(Recording(channels, {"time": "s", "force": "N"})))
     assert read_parquet(path)["force"].tobytes() == samples.tobytes()
 
 
 def test_a_channel_may_be_a_column_of_records(tmp_path):
     records = np.zeros(3, dtype=[("speed", "f8"), ("force", "f4")])
     records["speed"] = [3.0, 2.0, 1.0]
-    write_parquet(
-        Recording({"time": TIME, "speed": records["speed"]}, {"time": "s", "speed": "m/s"}), tmp_path / "a"
-    )
+    written = Recording({"time": TIME, "speed": records["speed"]}, {"time": "s", "speed": "m/s"})
+    (tmp_path / "a").write_bytes(parquet_bytes(written))
     np.testing.assert_array_equal(read_parquet(tmp_path / "a")["speed"], [3.0, 2.0, 1.0])
 
 

@@ -2,6 +2,7 @@
 
 import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
@@ -9,6 +10,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from pyarrow import csv, parquet
 
+import uictest
 from uictest.cli.entry import execute
 from uictest.core.recording.formats import UnreadableError
 from uictest.recorded.field_data import MapError, load_map, stop_in
@@ -54,7 +56,12 @@ def table(kinds, seed=0):
     return columns | {f"wheel_speed_{n}": speed + noise for n in (1, 2, 3, 4)}
 
 
-UNITS = {"time": "s", "brake_command": "1"}
+UNITS = {"time": "s", "brake_command": "1", "brake_line_pressure": "Pa"}
+STATED = [
+    word
+    for condition in ("rail.condition=dry", "brake.position=R", "rig.wsp=active", "criteria=uictest-stop")
+    for word in ("--set", condition)
+]
 
 
 def written(columns, path):
@@ -65,6 +72,13 @@ def written(columns, path):
     fields = [pa.field(name, pa.float64(), metadata={"unit": UNITS.get(name, "m/s")}) for name in columns]
     parquet.write_table(pa.table(list(columns.values()), schema=pa.schema(fields)), path)
     return path
+
+
+@pytest.fixture(name="rolled", scope="module")
+def _rolled():
+    """A simulated stop with sliding wheels, at 100 Hz."""
+    case, *_ = uictest.load(Path(__file__).parents[2] / "scenarios" / "slide-80.yaml")
+    return uictest.simulate(case)
 
 
 @settings(max_examples=25, deadline=None)
@@ -93,6 +107,39 @@ def test_a_step_of_the_clock_within_a_stop_hides_it_not(tmp_path, step):
     log = find_stops([written(columns, tmp_path / "log.parquet")], MAP)
     assert len(log.stops) == 2
     assert "the clock steps" in log.stops[0].remarks[0]
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.3e5, -0.3e5])
+def test_noise_and_offset_of_a_pressure_invent_no_application(tmp_path, offset):
+    columns = table(["stop", "released", "parked", "stop"])
+    noise = np.random.default_rng(3).normal(0.0, 0.015e5, len(columns["time"]))
+    columns["brake_line_pressure"] = 3e5 * columns.pop("brake_command") + offset + noise
+    log = find_stops([written(columns, tmp_path / "log.parquet")], MAP)
+    assert [event.row for event in log.stops] == [100, 500 + 380 + 500 + 100]
+    assert len(log.passed_over) == 2
+
+
+def test_a_brake_that_is_never_released_in_the_record_is_seen(tmp_path):
+    columns = {name: samples[100:400] for name, samples in table(["stop"]).items()}
+    columns["brake_line_pressure"] = 3e5 * columns.pop("brake_command")
+    (stop,) = find_stops([written(columns, tmp_path / "log.parquet")], MAP).stops
+    assert stop.begins_braked
+
+
+def test_a_log_may_span_weeks(tmp_path):
+    columns = table(["stop", "stop"])
+    columns["time"][520:] += 20 * 86_400.0
+    columns["time"] += 1.7e9
+    log = find_stops([written(columns, tmp_path / "log.parquet")], MAP)
+    assert [event.remarks for event in log.stops] == [(), ()]
+
+
+def test_a_stop_after_drag_braking_says_how_long_the_speed_was_kept(tmp_path):
+    columns = table(["drag", "stop"])
+    columns["brake_command"][100:1100] = 1.0
+    columns["speed"][600:1000] = columns["speed"][100]
+    log = find_stops([written(columns, tmp_path / "log.parquet")], MAP)
+    assert "the speed is kept for" in log.stops[0].remarks[-1]
 
 
 def test_an_interruption_while_braking_is_no_stop(tmp_path):
@@ -129,7 +176,9 @@ def test_a_stop_running_backwards_is_exported_with_positive_speed(tmp_path):
 def test_what_cannot_be_read_is_said_with_its_file(tmp_path):
     columns = table(["stop"])
     del columns["brake_command"]
-    with pytest.raises(MapError, match=r"log\.csv: nothing shows when the brake"):
+    with pytest.raises(
+        MapError, match=r"log\.csv: nothing shows when the brake is applied: map one of brake_"
+    ):
         find_stops([written(columns, tmp_path / "log.csv")], MAP)
     (tmp_path / "bad.csv").write_text("time [s],speed [m/s]\n1,2\n3,x\n", "utf-8")
     with pytest.raises((MapError, UnreadableError), match=r"bad\.csv: "):
@@ -139,9 +188,7 @@ def test_what_cannot_be_read_is_said_with_its_file(tmp_path):
 def test_the_command_judges_each_stop_and_lists_the_rest(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     written(table(["stop", "drag", "stop"]), tmp_path / "day.csv")
-    conditions = ("rail.condition=dry", "brake.position=R", "rig.wsp=active", "criteria=uictest-stop")
-    stated = [word for condition in conditions for word in ("--set", condition)]
-    code = execute(["log", "day.csv", "--recordings", "stops", *stated])
+    code = execute(["log", "day.csv", "--recordings", "stops", *STATED])
     shown = capsys.readouterr()
     assert code in (0, 1)
     assert re.search(r"passed over: day.csv at 60 s \(sample 601, \d+ m\): drag", shown.err)
@@ -149,4 +196,65 @@ def test_the_command_judges_each_stop_and_lists_the_rest(tmp_path, monkeypatch, 
     assert [row.partition(",")[0] for row in rows] == ["stop", "stop-0001", "stop-0002", ""]
     results = json.loads((tmp_path / "reports/latest/results.json").read_text("utf-8"))
     assert [case["id"] for case in results["cases"]] == ["stop-0001", "stop-0002"]
-    assert execute(["evaluate", "stops/stop-0001.parquet", *stated]) == code
+    assert execute(["evaluate", "stops/stop-0001.parquet", *STATED]) == code
+
+
+def test_every_report_shows_what_was_passed_over_also_when_it_is_written_later(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    written(table(["stop", "drag"]), tmp_path / "day.parquet")
+    execute(["log", "day.parquet", "-q", *STATED])
+    (told,) = json.loads((tmp_path / "reports/latest/results.json").read_text("utf-8"))["passed_over"]
+    assert "drag braking" in told
+    (tmp_path / "reports/latest/index.html").unlink()
+    assert execute(["report", "reports/latest", "--format", "html,md"]) == 0
+    for name in ("index.html", "summary.md"):
+        assert told in (tmp_path / "reports/latest" / name).read_text("utf-8")
+
+
+def test_a_stop_that_cannot_be_judged_leaves_the_others(tmp_path, monkeypatch, capsys):
+    """Its clock jumps by more than a day in the middle of the stop."""
+    monkeypatch.chdir(tmp_path)
+    columns = table(["stop", "stop"])
+    columns["time"][250:] += 100_000.0
+    written(columns, tmp_path / "day.parquet")
+    assert execute(["log", "day.parquet", *STATED]) == 3
+    results = json.loads((tmp_path / "reports/latest/results.json").read_text("utf-8"))
+    assert [case["outcome"] for case in results["cases"]] == ["error", "pass"]
+    assert "clock steps by +100000 s" in capsys.readouterr().err
+
+
+def test_a_simulated_stop_found_by_its_pressures_keeps_its_distance(tmp_path, rolled):
+    """It begins with the first rise of the pressure, 0.13 s after the command."""
+    recording = rolled
+    names = ["speed", *(f"wheel_speed_{n}" for n in (1, 2, 3, 4)), "brake_line_pressure"]
+    lead = 500
+    columns = {
+        name: np.concatenate((np.full(lead, recording[name][0]), recording[name], np.zeros(1000)))
+        for name in names
+    }
+    columns["time"] = 0.01 * np.arange(len(columns["speed"]))
+    log = find_stops([written(columns, tmp_path / "log.parquet")], MAP)
+    stop = stop_in(write_stops(log, MAP, tmp_path / "stops")[0], MAP)
+    late = 0.01 * (log.stops[0].row - lead)
+    assert 0.0 < late < 0.2
+    expected = recording["distance"][-1] - late * recording["speed"][0]
+    assert stop.standstill[1] == pytest.approx(expected, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--from", "0 km/h"], "--from"),
+        (["--to", "-3 km/h"], "not negative"),
+        (["--from", "10 km/h", "--to", "30 km/h"], "higher speed"),
+        (["--map", "one.yaml"], "many brake commands"),
+    ],
+)
+def test_settings_that_find_nothing_are_refused(tmp_path, monkeypatch, capsys, arguments, told):
+    monkeypatch.chdir(tmp_path)
+    written(table(["stop"]), tmp_path / "day.parquet")
+    head = "schema: uictest/channel-map/1\nname: one\nextends: uictest\n"
+    (tmp_path / "one.yaml").write_text(head + "preparation: {trigger: start}\n", "utf-8")
+    assert execute(["log", "day.parquet", *STATED, *arguments]) == 4
+    assert told in capsys.readouterr().err
+    assert not (tmp_path / "stops").exists()

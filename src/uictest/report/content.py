@@ -91,6 +91,7 @@ class RunContent:
         baseline: the comparison with the baseline; None without one.
         series: every series, with the results of its own cases, which are not among `results`.
         drawn_first: ids of the cases that are to be drawn before all others.
+        passed_over: what was found and not judged, a sentence with the reason each.
 
     """
 
@@ -103,6 +104,7 @@ class RunContent:
     baseline: BaselineComparison | None = None
     series: Sequence[SeriesResult] = ()
     drawn_first: Collection[str] = ()
+    passed_over: Sequence[str] = ()
 
     def subject(self, case_id: str) -> CaseDescription:
         """Return the description of a case; an empty one where there is none."""

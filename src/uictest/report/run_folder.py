@@ -173,6 +173,8 @@ def _document(content: RunContent) -> dict[str, Any]:
         header["baseline"] = baseline_form(content.baseline)
     if content.series:
         header["series"] = series.series_document(content.series)
+    if content.passed_over:
+        header["passed_over"] = list(content.passed_over)
     return evaluation.result_document(content.results, **header)
 
 
@@ -229,7 +231,15 @@ def run_content(document: object, name: str) -> RunContent:
     complete = document.get("complete", True)
     if not isinstance(complete, bool):
         raise ValueError(f"'complete' must be true or false, found {complete!r}")
-    content = RunContent(name, results, manifest, complete, subjects, baseline=baseline, series=judged)
+    passed_over = document.get("passed_over", [])
+    if not (isinstance(passed_over, list) and all(isinstance(each, str) for each in passed_over)):
+        raise ValueError("'passed_over' must be a list of sentences")
+    content = RunContent(
+        *(name, results, manifest, complete, subjects),
+        baseline=baseline,
+        series=judged,
+        passed_over=passed_over,
+    )
     require_names(result.id for result in content.all_results)
     return content
 

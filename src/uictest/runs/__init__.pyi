@@ -19,19 +19,21 @@ from .publishing import (
     why_no_run as why_no_run,
 )
 from .recorded import (
-    CaseOfStop as CaseOfStop,
-    RecordedFile as RecordedFile,
     RecordedStops as RecordedStops,
     case_of_stop as case_of_stop,
+    recorded_batch as recorded_batch,
+    require_nothing_stated as require_nothing_stated,
+    stops_in_recordings as stops_in_recordings,
+    stops_of_series as stops_of_series,
+)
+from .recorded_files import (
+    CaseOfStop as CaseOfStop,
+    RecordedFile as RecordedFile,
     each_file as each_file,
     named_map as named_map,
     read_recording as read_recording,
     read_stop as read_stop,
-    recorded_batch as recorded_batch,
-    require_nothing_stated as require_nothing_stated,
     stop_names as stop_names,
-    stops_in_recordings as stops_in_recordings,
-    stops_of_series as stops_of_series,
 )
 from .scenario_files import (
     is_series as is_series,

@@ -37,7 +37,7 @@ class Batch(NamedTuple):
         baseline: to compare with, if any.
         drawn_first: ids of the cases whose stops a page draws before all others.
         judge: returns what a recorded case came to; None where cases are simulated.
-
+        passed_over: what was found and is not judged, a sentence with the reason each.
     """
 
     cases: Sequence[scenario.Case]
@@ -48,6 +48,7 @@ class Batch(NamedTuple):
     baseline: comparison.Baseline | None = None
     drawn_first: Collection[str] = ()
     judge: Callable[[scenario.Case], campaign.CaseRun] | None = None
+    passed_over: Sequence[str] = ()
 
     @property
     def all_cases(self) -> list[scenario.Case]:
@@ -71,6 +72,7 @@ class Batch(NamedTuple):
             subjects=self.subjects,
             series=judged,
             drawn_first=self.drawn_first,
+            passed_over=self.passed_over,
         )
 
 

@@ -21,7 +21,7 @@ from uictest.running import campaign
 from uictest.runs.batch import simulate_cases
 from uictest.runs.errors import InvalidInputError
 from uictest.runs.observer import Observer
-from uictest.runs.recorded import RecordedFile, named_map, read_files
+from uictest.runs.recorded_files import RecordedFile, named_map, read_files
 from uictest.runs.scenario_files import is_series, load_series
 
 _DISTANCE: Final = "braking_distance_m"

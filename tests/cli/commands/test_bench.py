@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from uictest.core.recording import ORIGIN, Recording, read_parquet, write_parquet
+from uictest.core.recording import ORIGIN, Recording, parquet_bytes, read_parquet
 
 RECIPE = """\
 schema: uictest/bench/1
@@ -49,7 +49,9 @@ def test_a_recorded_pressure_is_demanded(call, workplace, suffix):
         (workplace / "demand.csv").write_text(f"time [s],demand [bar]\n{rows}\n", "utf-8")
     else:
         channels = {"time": time, "demand": demand}
-        write_parquet(Recording(channels, {"time": "s", "demand": "bar"}), workplace / "demand.parquet")
+        (workplace / "demand.parquet").write_bytes(
+            parquet_bytes(Recording(channels, {"time": "s", "demand": "bar"}))
+        )
     call("bench", "--trace", f"demand.{suffix}", "--pressure", "demand", "-o", "out.parquet", code=0)
     recording = read_parquet(workplace / "out.parquet")
     assert recording["demanded_pressure"][-1] == pytest.approx(2e5)

@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.core.recording import Recording, write_parquet
+from uictest.core.recording import Recording, parquet_bytes
 
 TAKES = "compare takes the folders of two runs, or two recordings"
 
@@ -26,7 +26,7 @@ def recordings(workplace):
     paths = Path("a.parquet"), Path("b.parquet")
     for path, speed in zip(paths, (30.0, 30.5), strict=True):
         channels = {"time": time, "speed": speed - time}
-        write_parquet(Recording(channels, {"time": "s", "speed": "m/s"}), path)
+        path.write_bytes(parquet_bytes(Recording(channels, {"time": "s", "speed": "m/s"})))
     return paths
 
 

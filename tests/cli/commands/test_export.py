@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.core.recording import write_parquet
+from uictest.core.recording import parquet_bytes
 from uictest.core.recording.formats import Dialect
 from uictest.core.recording.formats.reader import read_here
 
@@ -12,7 +12,7 @@ from ..conftest import rolling_train
 @pytest.fixture
 def recording(workplace):
     path = workplace / "a[friction=0.10].parquet"
-    write_parquet(rolling_train(0.1), path)
+    path.write_bytes(parquet_bytes(rolling_train(0.1)))
     return path
 
 

@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.core.recording import write_parquet
+from uictest.core.recording import parquet_bytes
 from uictest.plans.scenario import load
 from uictest.rig import simulate
 
@@ -13,7 +13,7 @@ WET = "rail: {condition: wet, friction: 0.07}\ncriteria: [uictest-stop]\n"
 def simulated(scenario, recording):
     """Simulate a scenario and write its recording."""
     [case] = load([scenario])
-    write_parquet(simulate(case, record_every=0.01).recording, Path(recording))
+    Path(recording).write_bytes(parquet_bytes(simulate(case, record_every=0.01).recording))
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.core.recording import ORIGIN, Recording, read_parquet, write_parquet
+from uictest.core.recording import ORIGIN, Recording, parquet_bytes, read_parquet
 from uictest.plans.scenario import load_part
 from uictest.rig.identification.lines import FittedLine, computed_force
 
@@ -43,7 +43,7 @@ def recorded(tmp_path_factory):
         "measured_pressure_2": "bar",
     }
     path = tmp_path_factory.mktemp("recorded") / "record.parquet"
-    write_parquet(Recording(channels, units), path)
+    path.write_bytes(parquet_bytes(Recording(channels, units)))
     return path
 
 
@@ -83,7 +83,7 @@ def test_hysteresis_writes_a_compensation_with_provenance_and_marks(call, record
     monkeypatch.delenv("SOURCE_DATE_EPOCH")
     # Facts of an earlier identification do not stay; the origin of a record is what its file states.
     known = read_parquet(record)
-    write_parquet(Recording(known.channels, known.units, {ORIGIN: "test rig of ours"}), record)
+    record.write_bytes(parquet_bytes(Recording(known.channels, known.units, {ORIGIN: "test rig of ours"})))
     assert call(*command.split(), "--base", "found.yaml").code == 0
     provenance = read(workplace / "found.yaml").provenance
     assert "hysteresis date" not in provenance
@@ -180,7 +180,7 @@ def test_a_record_that_supports_nothing_is_refused_with_the_reason(
 ):
     recording = read_parquet(record)
     channels = {**recording.channels, channel: change(recording[channel])}
-    write_parquet(Recording(channels, recording.units), record)
+    record.write_bytes(parquet_bytes(Recording(channels, recording.units)))
     kind = "cylinder" if channel == "measured_pressure_2" else "hysteresis"
     answer = call("identify", kind, "record.parquet", "-o", "found.yaml", code=4)
     assert answer.err.startswith("uictest: record.parquet: ")
@@ -193,7 +193,9 @@ def test_numbers_that_a_scenario_would_reject_are_not_written(call, record, work
     recording = read_parquet(record)
     leading = np.roll(recording["cylinder_pressure_1"], -round(0.05 / STEP))
     force = np.maximum(4.5 * leading - 1.7, 0.0)
-    write_parquet(Recording({**recording.channels, "clamping_force_1": force}, recording.units), record)
+    record.write_bytes(
+        parquet_bytes(Recording({**recording.channels, "clamping_force_1": force}, recording.units))
+    )
     answer = call("identify", "hysteresis", "record.parquet", "-o", "found.yaml", code=4)
     assert "record.parquet: nothing written" in answer.err
     assert "found.yaml" in answer.err
@@ -211,7 +213,7 @@ def test_times_that_do_not_rise_are_refused(call, workplace):
 def test_two_names_of_one_signal_hold_no_dynamics(call, record):
     recording = read_parquet(record)
     channels = {**recording.channels, "measured_pressure_2": recording["cylinder_pressure_1"]}
-    write_parquet(Recording(channels, recording.units), record)
+    record.write_bytes(parquet_bytes(Recording(channels, recording.units)))
     call("identify", "cylinder", "record.parquet", code=4, says="the same, sample by sample")
 
 

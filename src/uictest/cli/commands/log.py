@@ -22,21 +22,21 @@ from uictest.recorded import field_data, service_log
 from uictest.running import campaign
 
 FromSpeed = Annotated[str, option("--from SPEED", "Least speed at which the brake is applied.")]
-ToSpeed = Annotated[str, option("--to SPEED", "Speed down to which a stop comes.")]
+ToSpeed = Annotated[str, option("--to SPEED", "Speed down to which a stop comes; 0: standstill.")]
+StopsFolder = Annotated[Path, option("--recordings DIR", "Where every stop is written.")]
+ScenarioFile = Annotated[
+    Path | None, option("--scenario FILE", "Scenario with the test conditions and the criteria.")
+]
 
 
 def log(
     context: typer.Context,
     files: recordings.Files,
     map_name: recordings.MapName = "uictest",
-    from_speed: Annotated[
-        str, option("--from SPEED", "Least speed at which the brake is applied.")
-    ] = "20 km/h",
+    from_speed: FromSpeed = "20 km/h",
     to_speed: ToSpeed = "0 km/h",
-    folder: Annotated[Path, option("--recordings DIR", "Where every stop is written.")] = Path("stops"),
-    scenario: Annotated[
-        Path | None, option("--scenario FILE", "Scenario with the test conditions and the criteria.")
-    ] = None,
+    folder: StopsFolder = Path("stops"),
+    scenario: ScenarioFile = None,
     expression: options.Expression = None,
     overrides: options.Overrides = None,
     trusted: options.Trusted = None,
@@ -54,10 +54,8 @@ def log(
     """
     junit = options.junit_file(junit, output)
     mapped, inputs = recordings.channel_map(map_name, trusted, None)
-    with rejected("--from"):
-        least = float(yaml.parse_quantity(from_speed, "speed"))
-    with rejected("--to"):
-        settings = service_log.FinderSettings(least, float(yaml.parse_quantity(to_speed, "speed")))
+    _require_many_triggers(map_name, mapped.preparation)
+    settings = _settings(from_speed, to_speed, float(mapped.preparation.standstill_speed))
     case = None if scenario is None else recordings.one_case(scenario, expression, overrides or (), trusted)
     case_of = runs.case_of_stop(
         case, overrides or (), trusted, lambda keys: " ".join(f"--set {key}=..." for key in keys)
@@ -68,15 +66,37 @@ def log(
     if not written:
         message("uictest: no stop found")
         return ExitCode.NOTHING_SELECTED
-    stops = runs.stops_in_recordings(written, _canonical(mapped), inputs, case_of)
+    stops = runs.stops_in_recordings(written, _canonical(mapped), inputs, case_of, found=True)
     request = campaign.RecordingRequest("all")
-    batch = runs.recorded_batch(stops, context.obj, request, strict=strict)
+    passed_over = [_sentence(event) for event in found.passed_over]
+    batch = runs.recorded_batch(stops, context.obj, request, strict=strict)._replace(passed_over=passed_over)
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
     published = run_display.publish_and_show(batch, output, ("html",), junit, display)
     if published is None:
         return ExitCode.INTERRUPTED
     file_system.write(published.place, "stops.csv", _table(found))
     return of_run(published)
+
+
+def _require_many_triggers(map_name: str, preparation: field_data.Preparation) -> None:
+    """Raise InvalidInputError for a channel map whose trigger is one brake command."""
+    if preparation.trigger_time is not None or preparation.trigger not in service_log.SHOWN_BY:
+        raise runs.InvalidInputError(
+            f"{map_name}: preparation: a log has many brake commands: leave out trigger_time, and set trigger"
+            f" to one of {', '.join(service_log.SHOWN_BY)}"
+        )
+
+
+def _settings(from_speed: str, to_speed: str, standstill: float) -> service_log.FinderSettings:
+    with rejected("--to"):
+        lowest = float(yaml.parse_quantity(to_speed, "speed"))
+        if lowest < 0.0:
+            raise ValueError(f"{to_speed}: a speed is not negative")
+    with rejected("--from"):
+        least = float(yaml.parse_quantity(from_speed, "speed"))
+        if least <= max(lowest, standstill):
+            raise ValueError(f"{from_speed}: write a higher speed than that at which a stop ends")
+    return service_log.FinderSettings(least, lowest)
 
 
 def _stops(
@@ -96,20 +116,27 @@ def _stops(
 
 
 def _canonical(mapped: field_data.ChannelMap) -> field_data.ChannelMap:
-    """Return the map of the stops that were cut out: canonical names, prepared as the log's map says."""
+    """Return the map of the stops that were cut out: canonical names, prepared as the log's map says.
+
+    Each states its brake command.
+    """
     names = ("time", *field_data.CHANNEL_UNITS)
     channels = {name: field_data.ChannelSource(source=(name,)) for name in names}
-    return mapped.model_copy(update={"channels": channels})
+    return mapped.model_copy(update={"channels": channels}).triggered_by("auto")
 
 
 def _write_events(found: service_log.Log) -> None:
     """Write to stderr what was passed over, and what is unusual about stops."""
     for event in found.passed_over:
-        message(f"uictest: passed over: {_place(event)}: {event.reason}")
+        message(f"uictest: passed over: {_sentence(event)}")
     for number, event in enumerate(found.stops, start=1):
         if event.remarks:
             message(f"uictest: stop-{number:04d}: {_place(event)}: {'; '.join(event.remarks)}")
     message(f"uictest: {report.counted(len(found.stops), 'stop')}, {len(found.passed_over)} passed over")
+
+
+def _sentence(event: service_log.LoggedEvent) -> str:
+    return f"{_place(event)}: {event.reason}"
 
 
 def _place(event: service_log.LoggedEvent) -> str:

@@ -1,10 +1,11 @@
 from .parquet import (
+    channels_bytes as channels_bytes,
     parquet_bytes as parquet_bytes,
     read_parquet as read_parquet,
-    write_parquet as write_parquet,
 )
 from .plausibility import (
     LARGEST as LARGEST,
+    LONGEST_RECORD as LONGEST_RECORD,
     STATES as STATES,
     Implausible as Implausible,
     beyond as beyond,

@@ -8,7 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from uictest.core import files
+from numpy.typing import NDArray
+
 from uictest.core.recording.recording import Recording
 
 if TYPE_CHECKING:
@@ -18,17 +19,29 @@ SCHEMA = "uictest/recording/1"
 _SCHEMA, _UNITS, _METADATA, _UNIT = b"uictest.schema", b"uictest.units", b"uictest.metadata", b"unit"
 
 
-def write_parquet(recording: Recording, path: Path) -> None:
-    """Write a recording, whole or not at all. Raises OSError."""
-    files.write_to(path, parquet_bytes(recording))
-
-
 def parquet_bytes(recording: Recording) -> bytes:
     """Return a recording as a Parquet file: the same recording gives the same bytes."""
+    return channels_bytes(recording.channels, recording.units, recording.metadata, {_SCHEMA: SCHEMA})
+
+
+def channels_bytes(
+    channels: Mapping[str, NDArray[Any]],
+    units: Mapping[str, str],
+    metadata: Mapping[str, str],
+    marks: Mapping[bytes, str] | None = None,
+) -> bytes:
+    """Return channels of equal length as such a file, also those that are no recording: their clock may step.
+
+    Args:
+        channels: name -> samples.
+        units: name -> unit, of every channel.
+        metadata: facts, as text.
+        marks: further entries of the schema's metadata.
+    """
     import pyarrow.parquet as pq
 
     content = io.BytesIO()
-    pq.write_table(_table(recording), content, compression="zstd")
+    pq.write_table(_table(channels, units, metadata, marks or {}), content, compression="zstd")
     return content.getvalue()
 
 
@@ -53,19 +66,24 @@ def read_parquet(path: Path) -> Recording:
         raise ValueError(f"{path}: not a recording: {error}") from error
 
 
-def _table(recording: Recording) -> pa.Table:
+def _table(
+    channels: Mapping[str, NDArray[Any]],
+    units: Mapping[str, str],
+    metadata: Mapping[str, str],
+    marks: Mapping[bytes, str],
+) -> pa.Table:
     import pyarrow as pa
 
     fields = [
-        pa.field(name, pa.from_numpy_dtype(samples.dtype), metadata={_UNIT: recording.units[name]})
-        for name, samples in recording.channels.items()
+        pa.field(name, pa.from_numpy_dtype(samples.dtype), metadata={_UNIT: units[name]})
+        for name, samples in channels.items()
     ]
     schema_metadata = {
-        _SCHEMA: SCHEMA,
-        _UNITS: json.dumps(recording.units, ensure_ascii=False),
-        _METADATA: json.dumps(recording.metadata, ensure_ascii=False),
+        **marks,
+        _UNITS: json.dumps(dict(units), ensure_ascii=False),
+        _METADATA: json.dumps(dict(metadata), ensure_ascii=False),
     }
-    return pa.table(list(recording.channels.values()), schema=pa.schema(fields, metadata=schema_metadata))
+    return pa.table(list(channels.values()), schema=pa.schema(fields, metadata=schema_metadata))
 
 
 def _recording(table: pa.Table) -> Recording:

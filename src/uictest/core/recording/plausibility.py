@@ -84,15 +84,17 @@ def implausible_unit(
     )
 
 
-def implausible_time(time: Array, unit: str, sizes: Mapping[str, float]) -> Implausible | None:
+def implausible_time(
+    time: Array, unit: str, sizes: Mapping[str, float], longest: float = LONGEST_RECORD.value
+) -> Implausible | None:
     """Return why times, in s, are implausible; None if they are plausible or do not rise.
 
-    `unit` is their stated unit, a key of `sizes` (unit -> s).
+    `unit` is their stated unit, a key of `sizes` (unit -> s); they may span `longest`, s.
     """
     rising = len(time) > 1 and bool(np.isfinite(time).all()) and bool((time[1:] > time[:-1]).all())
-    if not rising or _plausible(time, 1.0):
+    if not rising or _plausible(time, 1.0, longest):
         return None
-    likely = next((each for each, size in sizes.items() if _plausible(time, size / sizes[unit])), "")
+    likely = next((each for each, size in sizes.items() if _plausible(time, size / sizes[unit], longest)), "")
     first, last, step = time[0] / sizes[unit], time[-1] / sizes[unit], _interval(time) / sizes[unit]
     return Implausible(
         f"runs from {first:.6g} to {last:.6g} {unit} with a sample every {step:.4g} {unit};"
@@ -102,9 +104,9 @@ def implausible_time(time: Array, unit: str, sizes: Mapping[str, float]) -> Impl
     )
 
 
-def _plausible(time: Array, factor: float) -> bool:
+def _plausible(time: Array, factor: float, longest: float) -> bool:
     interval, duration = _interval(time) * factor, float(time[-1] - time[0]) * factor
-    return SHORTEST_INTERVAL.value <= interval <= LONGEST_INTERVAL.value and duration <= LONGEST_RECORD.value
+    return SHORTEST_INTERVAL.value <= interval <= LONGEST_INTERVAL.value and duration <= longest
 
 
 def _interval(time: Array) -> float:

@@ -12,7 +12,6 @@ from .channel_map import (
 from .judgement import (
     judge_recording as judge_recording,
     recorded_description as recorded_description,
-    unusable_result as unusable_result,
 )
 from .proposal import (
     channel_rows as channel_rows,

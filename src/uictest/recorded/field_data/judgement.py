@@ -25,13 +25,12 @@ from uictest.core.record import fields_of
 from uictest.core.recording import BRAKE_COMMAND_TIME, Recording
 from uictest.core.units import KILOMETRE_PER_HOUR, STANDARD_GRAVITY
 from uictest.judging import evaluation
-from uictest.judging.evaluation import CaseResult, error_result, evaluate
+from uictest.judging.evaluation import CaseResult, evaluate
 from uictest.plans import scenario
 from uictest.plans.scenario import Case, Scenario
 from uictest.recorded.field_data.channel_map import CHANNEL_UNITS, WHEELSETS
 from uictest.recorded.field_data.recorded_stop import RecordedStop
 from uictest.recorded.field_data.support import coverage_of
-from uictest.recorded.field_data.time_axis import Defect
 from uictest.rig import highest_creep_forces
 
 Array = NDArray[np.float64]
@@ -140,11 +139,6 @@ def _metadata(case: scenario.Case, stop: RecordedStop, observed: Observed) -> It
     known = "initial_adhesion" not in observed.coverage.missing
     if known and math.isfinite(observed.measures.sliding_time):
         yield "sliding_time", f"{observed.measures.sliding_time:.6g}"
-
-
-def unusable_result(case: scenario.Case, defects: tuple[Defect, ...]) -> CaseResult:
-    """Return the result of a record that cannot be used at all: an error that names every defect."""
-    return error_result(case, "; ".join(map(str, defects)))
 
 
 _ASSUMED = " (assumed: not stated)"

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from uictest.core.physics import FILL, HOLD, VENT
 from uictest.core.recording import (
+    LONGEST_RECORD,
     STATES,
     TIME,
     Contents,
@@ -54,8 +55,12 @@ class RawChannel:
         return state_kind(self.name) is not None
 
 
-def select_channels(contents: Contents, channel_map: ChannelMap) -> dict[str, RawChannel]:
+def select_channels(
+    contents: Contents, channel_map: ChannelMap, longest: float = LONGEST_RECORD.value
+) -> dict[str, RawChannel]:
     """Return the channels of a file that a map selects; a channel without a source in the file is omitted.
+
+    Its times may span `longest`, s.
 
     Raises MapError where a name stands for several channels, a unit is unknown or not the channel's, a text
     is no state, or a channel has no time axis.
@@ -71,7 +76,7 @@ def select_channels(contents: Contents, channel_map: ChannelMap) -> dict[str, Ra
             group, original = place
             samples = _in_si(name, source, original, group)
             if id(group) not in times:
-                times[id(group)] = _time_of(group, sources.get(TIME), original)
+                times[id(group)] = _time_of(group, sources.get(TIME), original, longest)
             selected[name] = RawChannel(name, original, times[id(group)], samples)
     if "speed" not in selected:
         raise MapError(_no_speed(contents, sources))
@@ -106,17 +111,24 @@ def _matches(contents: Contents, alias: str) -> Iterator[tuple[Group, str]]:
                 yield group, name
 
 
-def _time_of(group: Group, source: ChannelSource | None, beside: str) -> Array:
+def _time_of(group: Group, source: ChannelSource | None, beside: str, longest: float) -> Array:
     if group.time is not None:
         time = np.asarray(group.time, dtype=np.float64)
-        return _require_plausible(implausible_time(time, "s", {"s": 1.0}), TIME, f"of {quoted(beside)}", time)
+        implausible = implausible_time(time, "s", {"s": 1.0}, longest)
+        return _require_plausible(implausible, TIME, f"of {quoted(beside)}", time)
     for alias in source.source if source else ():
         if source and alias in group.channels:
-            return _in_si(TIME, source, alias, group)
+            return _in_si(TIME, source, alias, group, longest)
     raise MapError(f"{quoted(beside)} has no time axis: map `time` to a channel of its group")
 
 
-def _in_si(name: str, source: ChannelSource, original: str, group: Group) -> Array:
+def _in_si(
+    name: str,
+    source: ChannelSource,
+    original: str,
+    group: Group,
+    longest: float = LONGEST_RECORD.value,
+) -> Array:
     samples = group.channels[original]
     if samples.dtype.kind == "U":
         samples = _numbered(name, source, original, group)
@@ -127,14 +139,14 @@ def _in_si(name: str, source: ChannelSource, original: str, group: Group) -> Arr
     # What overflows becomes infinite, which is reported as a sample that is no number.
     with np.errstate(over="ignore", invalid="ignore"):
         converted: Array = source.sign * (source.scale * samples + source.offset) * size
-    return _require_plausible(_implausible(name, converted, unit), name, quoted(original), converted)
+    return _require_plausible(_implausible(name, converted, unit, longest), name, quoted(original), converted)
 
 
-def _implausible(name: str, converted: Array, unit: str) -> Implausible | None:
+def _implausible(name: str, converted: Array, unit: str, longest: float) -> Implausible | None:
     si = CHANNEL_UNITS[name]
     sizes = {**recorded_spellings(si), unit: recorded_unit_size(unit, si) or 1.0}
     if name == TIME:
-        return implausible_time(converted, unit, sizes)
+        return implausible_time(converted, unit, sizes, longest)
     return implausible_unit(converted, si, unit, sizes)
 
 

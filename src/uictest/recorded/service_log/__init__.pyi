@@ -4,4 +4,5 @@ from .finder import (
     LoggedEvent as LoggedEvent,
     find_stops as find_stops,
 )
+from .signals import SHOWN_BY as SHOWN_BY
 from .stretches import write_stops as write_stops

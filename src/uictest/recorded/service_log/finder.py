@@ -8,13 +8,22 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.recorded.field_data import ChannelMap
-from uictest.recorded.service_log.signals import LONGEST_STEP, Array, Signals, continuous_clock, read_signals
+from uictest.recorded.service_log.signals import (
+    Array,
+    Signals,
+    continuous_clock,
+    read_signals,
+    steps_of_clock,
+)
 
 _SHORTEST_RELEASE = 1.0
 """s: a shorter release belongs to the application: pressures fall where the WSP vents; chosen."""
+_SHORTEST_APPLICATION = 0.1
+"""s: no brake acts so briefly, what is shorter is noise; chosen."""
 _RUN_OUT = 3.0
 """s after the release in which a train that still moves may come to its stop; chosen."""
 _STANDS = 1.0
@@ -25,6 +34,12 @@ _LARGEST_JUMP = 2.0
 """m/s between two rows beside a step of the clock: more, and the recording was interrupted; chosen."""
 _HELD = 0.1
 """Share of the speed that drag braking loses at most; chosen."""
+_LONG_HELD = 20.0
+"""s for which a stop that keeps its speed after the application is remarked on; chosen."""
+_ROWS_OF_SPEED = 6
+"""Rows up to the application whose median is its speed; chosen."""
+_REMARKED_STEPS = 3
+"""Steps of the clock that a stop names one by one; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +68,7 @@ class LoggedEvent:
         speed: at which the brake is applied, m/s.
         end_speed: at the end of the application, m/s.
         rows: first row and the one after the last of what belongs to it, over all files.
+        begins_braked: whether the brake is applied from the first of these rows on.
         reason: why it is no stop; empty for a stop.
         remarks: what is unusual about it: steps of the clock, running backwards.
 
@@ -65,6 +81,7 @@ class LoggedEvent:
     speed: float
     end_speed: float
     rows: tuple[int, int]
+    begins_braked: bool
     reason: str = ""
     remarks: tuple[str, ...] = ()
 
@@ -94,7 +111,7 @@ def find_stops(files: Sequence[Path], channel_map: ChannelMap, settings: FinderS
     """
     signals = read_signals(files, channel_map)
     standstill = float(channel_map.preparation.standstill_speed)
-    events = list(_events(signals, settings or FinderSettings(), standstill))
+    events = list(_events(_Course(signals), settings or FinderSettings(), standstill))
     return Log(
         files,
         signals.first_rows,
@@ -103,76 +120,107 @@ def find_stops(files: Sequence[Path], channel_map: ChannelMap, settings: FinderS
     )
 
 
-def _events(signals: Signals, settings: FinderSettings, standstill: float) -> Iterator[LoggedEvent]:
-    clock, speed = continuous_clock(signals.time), np.abs(signals.speed)
-    lowest = max(settings.to_speed, standstill)
-    travelled = _distance(clock, speed)
+class _Course:
+    """The course of a log: its clock without steps, the size of its speed, and where it was interrupted."""
+
+    def __init__(self, signals: Signals) -> None:
+        self.signals = signals
+        self.clock, self.speed = continuous_clock(signals.time), np.abs(signals.speed)
+        self.travelled = _distance(self.clock, self.speed)
+        self.steps = steps_of_clock(signals.time)
+        jumps = ~(np.abs(np.diff(self.speed)) <= _LARGEST_JUMP)
+        self.interruptions = self.steps[jumps[self.steps - 1]]
+
+    def row_after(self, row: int, seconds: float) -> int:
+        """Return the first row later than so many seconds after a row."""
+        return int(np.searchsorted(self.clock, self.clock[row] + seconds, side="right"))
+
+    def standstill(self, first: int, end: int, level: float) -> int | None:
+        """Return the row at which a train that brakes from `first` to `end` falls to a speed and stays there.
+
+        None where it does not, or longer than `_RUN_OUT` after the release, or behind an interruption.
+        """
+        last = self.row_after(end - 1, _RUN_OUT)
+        following = self.interruptions[self.interruptions > first]
+        last = min(last, int(following[0])) if len(following) else last
+        below = self.speed[first:last] <= level
+        for k in map(int, first + np.flatnonzero(below & ~np.concatenate(([False], below[:-1])))):
+            until = min(self.row_after(k, _STANDS), last)
+            if np.nanmedian(self.speed[k:until]) <= level:
+                return k
+        return None
+
+    def rows_of(self, first: int, stop_row: int, released: int) -> tuple[int, int]:
+        """Return the rows of an event with its lead, without what lies beyond a step of the clock.
+
+        `released` is the row at which the application before ended.
+        """
+        begin = max(released, int(np.searchsorted(self.clock, self.clock[first] - _BEFORE)))
+        end = self.row_after(stop_row, _AFTER)
+        before = self.steps[(self.steps > begin) & (self.steps <= first)]
+        after = self.steps[(self.steps > stop_row) & (self.steps < end)]
+        return (int(before[-1]) if len(before) else begin, int(after[0]) if len(after) else end)
+
+
+def _events(course: _Course, settings: FinderSettings, standstill: float) -> Iterator[LoggedEvent]:
+    signals, lowest = course.signals, max(settings.to_speed, standstill)
     released = 0
-    for first, end in _applications(clock, signals, speed):
-        last = int(np.searchsorted(clock, clock[end - 1] + _RUN_OUT, side="right"))
-        following = np.flatnonzero(_interruptions(signals.time[first:last], speed[first:last]))
-        last = first + int(following[0]) + 1 if len(following) else last
-        rest = _standing(clock[first:last], speed[first:last], lowest)
-        initial = _initial_speed(speed[max(first - 5, 0) : first + 1])
-        stop_row = end - 1 if rest is None else first + rest
-        cut = max(released, int(np.searchsorted(clock, clock[first] - _BEFORE)))
-        until = int(np.searchsorted(clock, clock[stop_row] + _AFTER, side="right"))
-        rows = _unbroken(signals.time, speed, cut, first, stop_row, until)
-        final = float(speed[stop_row])
-        whole = (
-            end < len(clock)
-            and not _interruptions(signals.time[end - 1 : end + 1], speed[end - 1 : end + 1]).any()
-        )
-        reason = _reason(initial, final, rest is not None, whole, lowest, settings)
-        file = int(np.searchsorted(signals.first_rows, first, side="right")) - 1
-        begin = signals.first_rows[file]
+    for first, end in _applications(course):
+        rest = course.standstill(first, end, lowest)
+        stop_row = end - 1 if rest is None else rest
+        rows = course.rows_of(first, stop_row, released)
+        initial, final = _speed_at(course.speed, first), float(course.speed[stop_row])
+        whole = end < len(course.clock) and end not in course.interruptions
+        place = int(np.searchsorted(signals.first_rows, first, side="right")) - 1
+        begin = signals.first_rows[place]
         yield LoggedEvent(
-            signals.files[file],
+            signals.files[place],
             first - begin,
             float(signals.time[first]),
-            float(travelled[first] - travelled[begin]),
+            float(course.travelled[first] - course.travelled[begin]),
             initial,
             final,
             rows,
-            reason,
-            tuple(_remarks(signals, rows)),
+            rows[0] == first,
+            "" if _is_stop(initial, rest, settings) else _reason(initial, final, whole, lowest, settings),
+            (*_remarks(course, rows), *_held(course, first, stop_row, initial)),
         )
         released = end
 
 
-def _applications(clock: Array, signals: Signals, speed: Array) -> Iterator[tuple[int, int]]:
+def _held(course: _Course, first: int, stop_row: int, initial: float) -> Iterator[str]:
+    """Yield for how long the brake dragged before the train slowed down."""
+    slower = np.flatnonzero(course.speed[first : stop_row + 1] < (1.0 - _HELD) * initial)
+    if len(slower) and (seconds := course.clock[first + slower[0]] - course.clock[first]) > _LONG_HELD:
+        yield f"the speed is kept for {seconds:.0f} s after the brake is applied"
+
+
+def _applications(course: _Course) -> Iterator[tuple[int, int]]:
     """Yield first row and the row after the last of every application; an interruption ends one."""
-    braked = np.concatenate(([False], signals.braked, [False]))
-    starts, ends = np.flatnonzero(braked[1:] & ~braked[:-1]), np.flatnonzero(~braked[1:] & braked[:-1])
-    breaks = np.flatnonzero(_interruptions(signals.time, speed)) + 1
-    pieces = [
-        (a, b)
-        for start, end in zip(starts, ends, strict=True)
-        for a, b in _split(int(start), int(end), breaks)
-    ]
+    pieces = list(_pieces(course.signals.braked, course.interruptions))
+    pieces.reverse()
     while pieces:
-        first, end = pieces.pop(0)
-        while (
-            pieces
-            and pieces[0][0] > end
-            and clock[pieces[0][0]] - clock[end] < _SHORTEST_RELEASE
-            and not np.any((breaks > first) & (breaks <= pieces[0][0]))
-        ):
-            end = pieces.pop(0)[1]
-        yield first, end
+        first, end = pieces.pop()
+        while pieces and _goes_on(course, end, pieces[-1][0]):
+            _, end = pieces.pop()
+        last = min(end, len(course.clock) - 1)
+        if course.clock[last] - course.clock[first] >= _SHORTEST_APPLICATION:
+            yield first, end
 
 
-def _split(start: int, end: int, breaks: np.ndarray) -> Iterator[tuple[int, int]]:
-    inside = breaks[(breaks > start) & (breaks < end)]
-    edges = [start, *map(int, inside), end]
-    yield from pairwise(edges)
+def _pieces(braked: NDArray[np.bool_], interruptions: NDArray[np.intp]) -> Iterator[tuple[int, int]]:
+    """Yield every stretch with the brake applied, cut where the recording was interrupted."""
+    padded = np.concatenate(([False], braked, [False]))
+    starts, ends = np.flatnonzero(padded[1:] & ~padded[:-1]), np.flatnonzero(~padded[1:] & padded[:-1])
+    for start, end in zip(starts, ends, strict=True):
+        inside = interruptions[(interruptions > start) & (interruptions < end)]
+        yield from pairwise([int(start), *map(int, inside), int(end)])
 
 
-def _interruptions(time: Array, speed: Array) -> np.ndarray:
-    """Return between which rows the clock steps and the train has another speed afterwards."""
-    steps = np.diff(time)
-    stepped = ~((steps > 0.0) & (steps <= LONGEST_STEP))
-    return np.asarray(stepped & ~(np.abs(np.diff(speed)) <= _LARGEST_JUMP))
+def _goes_on(course: _Course, end: int, begin: int) -> bool:
+    """Whether the stretch from row `begin` belongs to the application that ended before row `end`."""
+    interrupted = np.any((course.interruptions >= end) & (course.interruptions <= begin))
+    return bool(course.clock[begin] - course.clock[end] < _SHORTEST_RELEASE and not interrupted)
 
 
 def _distance(clock: Array, speed: Array) -> Array:
@@ -180,32 +228,17 @@ def _distance(clock: Array, speed: Array) -> Array:
     return np.concatenate(([0.0], np.cumsum(0.5 * (known[1:] + known[:-1]) * np.diff(clock))))
 
 
-def _initial_speed(speed: Array) -> float:
-    return float(np.nanmedian(speed)) if np.isfinite(speed).any() else float("nan")
+def _speed_at(speed: Array, first: int) -> float:
+    before = speed[max(first + 1 - _ROWS_OF_SPEED, 0) : first + 1]
+    return float(np.nanmedian(before)) if np.isfinite(before).any() else float("nan")
 
 
-def _standing(clock: Array, speed: Array, level: float) -> int | None:
-    """Return the first row at which the train falls to a speed and stays there for longer than a dropout."""
-    below = speed <= level
-    for k in np.flatnonzero(below & ~np.concatenate(([False], below[:-1]))):
-        end = int(np.searchsorted(clock, clock[k] + _STANDS, side="right"))
-        if np.nanmedian(speed[k:end]) <= level:
-            return int(k)
-    return None
+def _is_stop(initial: float, rest: int | None, settings: FinderSettings) -> bool:
+    return rest is not None and initial >= settings.from_speed
 
 
-def _unbroken(time: Array, speed: Array, cut: int, first: int, stop_row: int, until: int) -> tuple[int, int]:
-    """Return the rows of an event without what lies beyond a step of the clock before or after it."""
-    steps = np.flatnonzero(~((np.diff(time[cut:until]) > 0.0) & (np.diff(time[cut:until]) <= LONGEST_STEP)))
-    steps += cut + 1
-    before, after = steps[steps <= first], steps[steps > stop_row]
-    return (int(before[-1]) if len(before) else cut, int(after[0]) if len(after) else until)
-
-
-def _reason(
-    initial: float, final: float, stands: bool, whole: bool, lowest: float, settings: FinderSettings
-) -> str:
-    """Return why an application of the brake is no stop; empty where it is one."""
+def _reason(initial: float, final: float, whole: bool, lowest: float, settings: FinderSettings) -> str:
+    """Return why an application of the brake is no stop."""
     kmh = KILOMETRE_PER_HOUR
     if not np.isfinite(initial):
         return "the speed is not known when the brake is applied"
@@ -213,8 +246,6 @@ def _reason(
         return "without motion"
     if initial < settings.from_speed:
         return f"from {initial / kmh:.1f} km/h, below {settings.from_speed / kmh:g} km/h"
-    if stands:
-        return ""
     if not whole:
         return f"the recording ends or is interrupted at {final / kmh:.1f} km/h"
     if final > (1.0 - _HELD) * initial:
@@ -222,12 +253,15 @@ def _reason(
     return f"released at {final / kmh:.1f} km/h"
 
 
-def _remarks(signals: Signals, rows: tuple[int, int]) -> Iterator[str]:
-    part = slice(*rows)
-    steps = np.diff(signals.time[part])
-    for k in np.flatnonzero(~((steps > 0.0) & (steps <= LONGEST_STEP)))[:3]:
-        yield f"the clock steps by {steps[k]:+.6g} s at sample {rows[0] + int(k) + 1}"
-    if np.nanmedian(np.append(signals.speed[part], 0.0)) < 0.0:
+def _remarks(course: _Course, rows: tuple[int, int]) -> Iterator[str]:
+    signals, (begin, end) = course.signals, rows
+    inside = course.steps[(course.steps > begin) & (course.steps < end)]
+    for row in inside[:_REMARKED_STEPS]:
+        step = signals.time[row] - signals.time[row - 1]
+        yield f"the clock steps by {step:+.6g} s at sample {row - begin + 1} of the stop"
+    if len(inside) > _REMARKED_STEPS:
+        yield f"{len(inside) - _REMARKED_STEPS} further steps of the clock"
+    if np.nanmedian(np.append(signals.speed[begin:end], 0.0)) < 0.0:
         yield "runs backwards: speeds are recorded with their sign changed"
-    if signals.unusable[part].any():
+    if signals.unusable[begin:end].any():
         yield "the train speed is missing in part"

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,14 +17,27 @@ from uictest.recorded.field_data import ChannelMap, MapError, RawChannel, of_whe
 
 Array = NDArray[np.float64]
 WHEELS = of_wheelsets("wheel_speed")
-BRAKE = ("brake_command", "demanded_pressure", "brake_line_pressure")
-_PRESSURES = of_wheelsets("cylinder_pressure")
+_COMMAND, _DEMAND, _LINE = ("brake_command",), ("demanded_pressure",), ("brake_line_pressure",)
+_CYLINDERS = of_wheelsets("cylinder_pressure")
+SHOWN_BY: Final = {
+    "auto": (_COMMAND, _DEMAND, _LINE, _CYLINDERS),
+    "command": (_COMMAND,),
+    "demand": (_DEMAND,),
+    "pressure": (_LINE, _CYLINDERS),
+}
+"""What shows in a log that the brake is applied, by the trigger of its channel map; the first that it has."""
 _ON = 0.5
 """Above it the brake command, a state of 0 and 1, is given."""
+_RELEASED = 1.0
+"""Percentile of a pressure at which the brake counts as released; chosen."""
+_LARGEST_OFFSET = 0.5e5
+"""Pa that a sensor shows at most with the brake released; chosen."""
 _LEAST_STUCK = 2.0
 """s for which a speed may show one number to the last digit while the wheels change theirs; chosen."""
 _TELLING_CHANGE = 0.5
 """m/s by which the wheels must change meanwhile; chosen."""
+_LONGEST_INTERVAL = 60.0
+"""s: a longer interval between two rows is a step of the clock or an interruption; chosen."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,18 +71,18 @@ def read_signals(files: Sequence[Path], channel_map: ChannelMap) -> Signals:
     first_rows = [0]
     for path in files:
         try:
-            rows = [
-                _rows(channels, channel_map) for channels in channels_of(path, channel_map, finder_only=True)
-            ]
+            pieces = channels_of(path, channel_map, finder_only=True)
+            rows = [_rows(channels, channel_map.preparation.trigger) for channels in pieces]
         except (UnreadableError, MapError) as error:
             raise type(error)(f"{path}: {error}") from error
         if not rows:
             raise UnreadableError(f"{path}: no samples")
-        columns += rows
-        first_rows.append(first_rows[-1] + sum(len(row[0]) for row in rows))
-    time, train, wheels, braked, unusable = (np.concatenate(column) for column in zip(*columns, strict=True))
+        *own, command, pressure = (np.concatenate(column) for column in zip(*rows, strict=True))
+        columns.append((*own, _braked(command, pressure, float(channel_map.preparation.trigger_pressure))))
+        first_rows.append(first_rows[-1] + len(own[0]))
+    time, train, wheels, braked = (np.concatenate(column) for column in zip(*columns, strict=True))
     speed = _reference_speed(continuous_clock(time), train, wheels)
-    return Signals(time, speed, braked > _ON, unusable > _ON, files, first_rows)
+    return Signals(time, speed, braked > 0.0, ~np.isfinite(train), files, first_rows)
 
 
 def channels_of(path: Path, channel_map: ChannelMap, *, finder_only: bool) -> Iterator[dict[str, RawChannel]]:
@@ -76,12 +91,16 @@ def channels_of(path: Path, channel_map: ChannelMap, *, finder_only: bool) -> It
     A later piece with implausible numbers gets channels of NaN: the clock runs on, nothing is believed.
     """
     sources = channel_map.sources()
-    needed = ("time", "speed", *WHEELS, *BRAKE, *_PRESSURES) if finder_only else tuple(sources)
+    needed = (
+        ("time", "speed", *WHEELS, *_COMMAND, *_DEMAND, *_LINE, *_CYLINDERS)
+        if finder_only
+        else tuple(sources)
+    )
     names = {alias for name in needed if name in sources for alias in sources[name].source}
     known: dict[str, RawChannel] = {}
     for contents in read_pieces(path, channel_map.dialect, names):
         try:
-            yield (known := select_channels(contents, channel_map))
+            yield (known := select_channels(contents, channel_map, math.inf))
         except MapError:
             if not known:
                 raise
@@ -98,7 +117,7 @@ def _without_implausible(
         others = {each.source for other, each in known.items() if other not in (name, "speed")}
         reduced = replace(group, channels={k: v for k, v in group.channels.items() if k not in others})
         try:
-            kept[name] = select_channels(Contents((reduced,)), channel_map)[name]
+            kept[name] = select_channels(Contents((reduced,)), channel_map, math.inf)[name]
         except (MapError, KeyError):
             kept[name] = replace(channel, samples=np.full(len(group), np.nan))
     times = [each.time for each in kept.values() if len(each.time) == len(group)]
@@ -107,23 +126,34 @@ def _without_implausible(
     return {name: replace(channel, time=times[0]) for name, channel in kept.items()}
 
 
-def _rows(channels: dict[str, RawChannel], channel_map: ChannelMap) -> tuple[Array, ...]:
+def _rows(channels: dict[str, RawChannel], trigger: str) -> tuple[Array, ...]:
+    """Return time, speeds of train and wheels, and what shows the brake: its command, else a pressure."""
     speed = channels["speed"]
+    none = np.full(len(speed.time), np.nan)
     wheels = [channels[name].samples for name in WHEELS if name in channels]
-    level = float(channel_map.preparation.trigger_pressure)
-    name = next((each for each in BRAKE if each in channels), None)
-    if name is not None:
-        braked = channels[name].samples > (_ON if name == "brake_command" else level)
-    elif pressures := [channels[each].samples for each in _PRESSURES if each in channels]:
-        braked = np.any([pressure > level for pressure in pressures], axis=0)
-    else:
-        raise MapError(
-            "nothing shows when the brake is applied: map brake_command, demanded_pressure,"
-            " brake_line_pressure or cylinder_pressure_{n}"
-        )
-    second = _second_largest(wheels) if len(wheels) > 1 else np.full(len(speed.time), np.nan)
-    unusable = ~np.isfinite(speed.samples)
-    return speed.time, speed.samples, second, braked.astype(np.float64), unusable.astype(np.float64)
+    second = _second_largest(wheels) if len(wheels) > 1 else none
+    for names in SHOWN_BY[trigger]:
+        shown = [channels[name].samples for name in names if name in channels]
+        if shown and names == _COMMAND:
+            return speed.time, speed.samples, second, shown[0], none
+        if shown:
+            return speed.time, speed.samples, second, none, np.fmax.reduce(shown)
+    looked_for = ", ".join(name for names in SHOWN_BY[trigger] for name in names)
+    raise MapError(f"nothing shows when the brake is applied: map one of {looked_for}")
+
+
+def _braked(command: Array, pressure: Array, rise: float) -> Array:
+    """Return 1 where the brake of a file is applied: by its command, else where a pressure has risen.
+
+    A sensor may show some pressure with the brake released: the median of what lies within that rise of the
+    lowest hundredth of the file, unless that is too much for an offset, as where the brake is hardly ever
+    released.
+    """
+    known = pressure[np.isfinite(pressure)]
+    lowest = float(np.percentile(known, _RELEASED)) if len(known) else 0.0
+    offset = float(np.median(known[known <= lowest + rise])) if len(known) else 0.0
+    released = offset if 0.0 < offset <= _LARGEST_OFFSET else 0.0
+    return ((command > _ON) | (pressure > released + rise)).astype(np.float64)
 
 
 def _second_largest(wheels: Sequence[Array]) -> Array:
@@ -147,11 +177,16 @@ def _reference_speed(clock: Array, train: Array, wheels: Array) -> Array:
 
 def continuous_clock(time: Array) -> Array:
     """Return a clock that runs on where the recorded one steps: there it takes the usual interval."""
-    steps = np.diff(time)
-    sound = (steps > 0.0) & (steps <= LONGEST_STEP)
-    usual = float(np.median(steps[sound])) if sound.any() else 1.0
-    return np.concatenate(([0.0], np.cumsum(np.where(sound, steps, usual))))
+    intervals = np.diff(time)
+    sound = _runs_on(intervals)
+    usual = float(np.median(intervals[sound])) if sound.any() else 1.0
+    return np.concatenate(([0.0], np.cumsum(np.where(sound, intervals, usual))))
 
 
-LONGEST_STEP = 60.0
-"""s: a longer interval between two rows is a step of the clock or an interruption; chosen."""
+def steps_of_clock(time: Array) -> NDArray[np.intp]:
+    """Return the rows at which the recorded clock steps: back, not at all, or by more than a minute."""
+    return np.flatnonzero(~_runs_on(np.diff(time))) + 1
+
+
+def _runs_on(intervals: Array) -> NDArray[np.bool_]:
+    return (intervals > 0.0) & (intervals <= _LONGEST_INTERVAL)

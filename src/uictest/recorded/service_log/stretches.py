@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import io
-import json
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
-from uictest.core import files
+from uictest.core import files, recording
+from uictest.core.recording import BRAKE_COMMAND_TIME
 from uictest.recorded.field_data import CHANNEL_UNITS, ChannelMap, RawChannel
 from uictest.recorded.service_log.finder import Log, LoggedEvent
 from uictest.recorded.service_log.signals import WHEELS, Array, channels_of
@@ -36,7 +35,8 @@ def write_stops(log: Log, channel_map: ChannelMap, folder: Path) -> list[Path]:
             pending.setdefault(k, []).append({name: samples[part].copy() for name, samples in piece.items()})
             if last <= end:
                 path = folder / f"stop-{k + 1:04d}.parquet"
-                files.write_to(path, _parquet(_joined(pending.pop(k)), log.stops[k]))
+                lead = float(channel_map.preparation.trigger_lead)
+                files.write_to(path, _parquet(_joined(pending.pop(k)), log.stops[k], lead))
                 written.append(path)
                 following = k + 1
     return written
@@ -55,26 +55,28 @@ def _samples(channels: dict[str, RawChannel]) -> dict[str, Array]:
 
 
 def _joined(parts: list[dict[str, Array]]) -> dict[str, Array]:
-    names = [name for name in parts[0] if all(name in part for part in parts)]
-    return {name: np.concatenate([part[name] for part in parts]) for name in names}
+    """Return the parts one behind the other; a channel that a part has not is NaN there."""
+    names = dict.fromkeys(name for part in parts for name in part)
+    blank = [np.full(len(part["time"]), np.nan) for part in parts]
+    return {
+        name: np.concatenate([part.get(name, none) for part, none in zip(parts, blank, strict=True)])
+        for name in names
+    }
 
 
-def _parquet(channels: dict[str, Array], event: LoggedEvent) -> bytes:
-    """Return a stop as a file; its clock is as recorded, steps included, which a recording could not hold."""
-    import pyarrow as pa
-    import pyarrow.parquet as pq
+def _parquet(channels: dict[str, Array], event: LoggedEvent, lead: float) -> bytes:
+    """Return a stop as a file; its clock is as recorded, steps included, which a recording could not hold.
 
+    It states the brake command, `lead` before the brake is applied, unless it begins with the brake applied.
+    """
     backwards = np.nanmedian(np.append(channels["speed"], 0.0)) < 0.0
     facts = {
         "source": event.file.name,
         "place": f"sample {event.row + 1}, {event.time:.6g} s, {event.distance:.6g} m",
         "remarks": "; ".join(event.remarks),
     }
+    if not event.begins_braked:
+        facts[BRAKE_COMMAND_TIME] = f"{event.time - lead:.6f} s"
     units = {"time": "s", **CHANNEL_UNITS}
-    fields = [pa.field(name, pa.float64(), metadata={"unit": units[name]}) for name in channels]
     signed = {name: -v if backwards and name in _SIGNED else v for name, v in channels.items()}
-    metadata = {"uictest.metadata": json.dumps(facts), "uictest.schema": "uictest/recording/1"}
-    table = pa.table(list(signed.values()), schema=pa.schema(fields, metadata=metadata))
-    content = io.BytesIO()
-    pq.write_table(table, content, compression="zstd")
-    return content.getvalue()
+    return recording.channels_bytes(signed, {name: units[name] for name in signed}, facts)

@@ -42,6 +42,7 @@ def run_summary(content: RunContent) -> Document:
         _firmness(content),
         _requirements(content),
         cases_table(content),
+        Lines(list(content.passed_over), "Passed over"),
         Table(_READINGS, list(_readings(content.results)), more="more are in `criteria.csv`.", most=_MOST),
     ]
     more = "more tables are in `results.json`."

@@ -138,6 +138,8 @@ def parameter_rows(cases: Iterable[Mapping[str, evaluation.EffectivePart]]) -> I
 def _provenance(content: RunContent) -> Iterator[Row]:
     yield {"what": "run", "value": content.name}
     yield {"what": "complete", "value": content.complete}
+    for sentence in content.passed_over:
+        yield {"what": "passed over", "value": sentence}
     if content.baseline is not None:
         yield {"what": "baseline", "value": baseline_summary(content.baseline)}
         yield {"what": "baseline: SHA-256", "value": content.baseline.sha256}
