@@ -29,6 +29,12 @@ def test_json(call, scenario):
     ]
 
 
+def test_a_sweep_that_ships_is_listed_by_name(call, workplace):
+    lines = call("list", "slide-80-friction-command").out.splitlines()
+    assert lines[0] == "slide-80-friction-command[command=60,friction=0.02]"
+    assert len(lines) == len(set(lines)) > 10
+
+
 def test_nothing_selected_exits_5(call, scenario):
     scenario("a")
     assert call("list", "-m", "wet").code == 5

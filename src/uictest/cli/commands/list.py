@@ -69,11 +69,12 @@ def list_cases(
         option = "--fail-uncovered" if requirement_list is None else "--requirement-list"
         raise typer.BadParameter("add --requirements", param_hint=option)
     request = RequirementRequest(requirement_list, fail_uncovered)
-    if paths and all(map(runs.is_sweep, paths)):
+    named = runs.scenario_paths(paths) if paths else []
+    if named and all(map(runs.is_sweep, named)):
         if requirements:
-            plans = (_plan(path, overrides, trusted) for path in paths)
+            plans = (_plan(path, overrides, trusted) for path in named)
             return list_requirements([plan.base for plan in plans], request, shown)
-        return _list_sweeps(paths, expression, overrides, trusted)
+        return _list_sweeps(named, expression, overrides, trusted)
     cases, planned = runs.load_cases_and_series(paths, overrides, None, trusted)
     selected = select_by_options(cases, expression, tag)
     of_series = select_by_options(planned, expression, tag)
