@@ -12,9 +12,9 @@ from uictest.core.physics import arithmetic
 from uictest.rig.backends.compiled import with_controllers
 from uictest.rig.model.controller import CHOICES, decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
+from uictest.rig.model.start import start
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.step import step
-from uictest.rig.model.stop import start
 
 
 class Rig:

@@ -19,8 +19,8 @@ from uictest.rig.assembly import assemble
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.model.controller import begin
 from uictest.rig.model.parameters import Parameters
+from uictest.rig.model.start import start
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
-from uictest.rig.model.stop import start
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS, WheelsetParameters
 from uictest.rig.single_stop import run_to_end

@@ -22,8 +22,9 @@ from uictest.rig.model.faults import (
 )
 from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.rail import clean_rail, forget_rail
+from uictest.rig.model.start import start
 from uictest.rig.model.step import step
-from uictest.rig.model.stop import is_running, start
+from uictest.rig.model.stop import is_running
 from uictest.rig.model.stop_measures import (
     begin_stop_measures,
     begin_tables,

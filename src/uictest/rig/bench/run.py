@@ -31,8 +31,8 @@ from uictest.rig.model.cycle import command_valve
 from uictest.rig.model.module_air import follow_tank
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.pneumatics import move_valve
+from uictest.rig.model.start import start_module
 from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
-from uictest.rig.model.stop import start_module
 from uictest.rig.model.wheelset_parameters import (
     WHEELSET_PARAMETERS,
     WheelsetParameters,

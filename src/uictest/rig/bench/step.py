@@ -24,8 +24,8 @@ from uictest.rig.model.cycle import (
 from uictest.rig.model.module_air import follow_tank, read_line_pressure
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.pneumatics import follow_demanded_pressure, step_tank
+from uictest.rig.model.start import start_module, start_supply
 from uictest.rig.model.state import CAR, WHEELSET, Car, Wheelset
-from uictest.rig.model.stop import start_module, start_supply
 from uictest.rig.model.wheelset_parameters import WheelsetParameters, copy_wheelset_parameters
 
 SETTINGS = tuple(COMPENSATION_SETTINGS)
