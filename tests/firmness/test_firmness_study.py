@@ -107,6 +107,36 @@ def test_what_turns_twice_on_the_way_to_an_end_has_no_turning_value():
     assert (turn.key, turn.value) == ("a", "")
 
 
+def test_no_stop_is_run_twice_and_a_search_is_announced():
+    """Outcome and limit turn at the same place, so that one search serves both."""
+    stops, expected = [], []
+
+    def judge(columns, seeds):
+        forces = columns[0].numbers.tolist()
+        stops.append(list(zip(forces, seeds, strict=True)))
+        return [one("pass" if force < 102.0 else "fail") for force in forces]
+
+    def one(status):
+        return Drawn(status, {"limit": status})
+
+    FirmnessStudy([A], judge, effort=SMALL, expect=expected.append).run()
+    first, draws, *searched = stops
+    assert (len(first), len(draws)) == (16 + 2 * 4, 256)
+    alone = [stop for queue in (first, *searched) for stop in queue]
+    assert len(alone) == len(set(alone))
+    # The other twelve seeds at the end, seven places before it, then the interval is halved four times.
+    assert expected == list(map(len, searched)) == [12, 7 * 16, 16, 16, 16, 16]
+
+
+def test_where_the_end_turns_few_seeds_there_is_no_turning_value_to_search():
+    expected = []
+    # At 105 N the margin is 0.5, less than the noise under a quarter of the seeds.
+    found = study([A], lambda a: max(3.0 - a, 0.5), noise=1.0, expect=expected.append)
+    [turn] = found.turned_by
+    assert (turn.value, turn.stands_to, turn.turned_from, turn.end) == ("", "100 N", "", "105 N")
+    assert expected == [12]
+
+
 def test_what_turns_within_and_not_at_the_ends_turns_in_draws():
     firmness = study([A], lambda a: abs(a - 2.0) - 0.5)
     result = CaseResult("stop", "stop.yaml", {}, "pass", "pass", firmness=firmness)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from time import monotonic
 from typing import TYPE_CHECKING, Final
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
 HEARTBEAT = 30.0  # seconds between two lines where there is no terminal
 
-Advance = Callable[[int], None]
-
 
 def error_console() -> Console:
     """Return the console of stderr."""
@@ -31,10 +29,13 @@ def error_console() -> Console:
 
 
 @contextlib.contextmanager
-def progress(total: int, *, quiet: bool, unit: str = "cases") -> Iterator[Advance]:
-    """Lend a function to call with how many more of `total` cases, or what `unit` says, are finished."""
+def progress(total: int, *, quiet: bool, unit: str = "cases") -> Iterator[runs.Advance]:
+    """Lend a function to call with how many more of `total` cases, or what `unit` says, are finished.
+
+    Its second argument is by how much the total grows.
+    """
     if quiet:
-        yield lambda count: None
+        yield lambda finished, further=0: None
     elif interactive(sys.stderr):
         with _bar(total) as advance:
             yield advance
@@ -44,17 +45,23 @@ def progress(total: int, *, quiet: bool, unit: str = "cases") -> Iterator[Advanc
 
 
 @contextlib.contextmanager
-def _bar(total: int) -> Iterator[Advance]:
+def _bar(total: int) -> Iterator[runs.Advance]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("simulating"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=error_console(), transient=True) as bar:
         task = bar.add_task("simulating", total=total)
-        yield lambda count: bar.advance(task, count)
+
+        def advance(finished: int, further: int = 0, /) -> None:
+            nonlocal total
+            total += further
+            bar.update(task, advance=finished, total=total)
+
+        yield advance
 
 
 @contextlib.contextmanager
-def _heartbeat(total: int, unit: str) -> Iterator[Advance]:
+def _heartbeat(total: int, unit: str) -> Iterator[runs.Advance]:
     done = 0
     ended = threading.Event()
     started = monotonic()
@@ -63,9 +70,10 @@ def _heartbeat(total: int, unit: str) -> Iterator[Advance]:
         while not ended.wait(HEARTBEAT):
             message(f"uictest: {done} of {total} {unit} after {monotonic() - started:.0f} s")
 
-    def advance(count: int) -> None:
-        nonlocal done
-        done += count
+    def advance(finished: int, further: int = 0, /) -> None:
+        nonlocal done, total
+        total += further
+        done += finished
 
     thread = threading.Thread(target=beat, name="heartbeat", daemon=True)
     thread.start()
@@ -77,10 +85,10 @@ def _heartbeat(total: int, unit: str) -> Iterator[Advance]:
 
 
 @contextlib.contextmanager
-def sweep_progress(total: int, done: int, *, quiet: bool) -> Iterator[Advance]:
+def sweep_progress(total: int, done: int, *, quiet: bool) -> Iterator[runs.Advance]:
     """Lend a function that counts finished cases; `done` of `total` were finished before."""
     if quiet:
-        yield lambda cases: None
+        yield lambda cases, further=0: None
     elif interactive(sys.stderr):
         with _bar_with_rate(total, done) as advance:
             yield advance
@@ -89,7 +97,7 @@ def sweep_progress(total: int, done: int, *, quiet: bool) -> Iterator[Advance]:
 
 
 @contextlib.contextmanager
-def _bar_with_rate(total: int, done: int) -> Iterator[Advance]:
+def _bar_with_rate(total: int, done: int) -> Iterator[runs.Advance]:
     from rich.progress import (
         BarColumn,
         MofNCompleteColumn,
@@ -108,7 +116,7 @@ def _bar_with_rate(total: int, done: int) -> Iterator[Advance]:
     console = error_console()
     with Progress(*columns, console=console, transient=True, speed_estimate_period=60.0) as bar:
         task = bar.add_task("simulating", total=total, completed=done)
-        yield lambda cases: bar.advance(task, cases)
+        yield lambda cases, further=0: bar.advance(task, cases)
 
 
 class _SweepHeartbeat:
@@ -118,8 +126,9 @@ class _SweepHeartbeat:
         self._total, self._before, self._done = total, done, 0
         self._started = self._last_line = monotonic()
 
-    def advance(self, cases: int) -> None:
+    def advance(self, cases: int, further: int = 0, /) -> None:
         """Count finished cases, and print a line if the last one is old enough."""
+        self._total += further
         self._done += cases
         now = monotonic()
         if now - self._last_line >= HEARTBEAT:
@@ -218,6 +227,6 @@ class TerminalObserver(runs.Observer):
 
     def simulating(
         self, count: int, finished: int = 0, unit: str = "cases"
-    ) -> AbstractContextManager[Advance]:
+    ) -> AbstractContextManager[runs.Advance]:
         """Show the progress of the stops."""
         return progress(count, quiet=self.quiet, unit=unit)

@@ -15,7 +15,7 @@ from uictest.analysis import summaries
 from uictest.cli.cases import malformed
 from uictest.cli.options import Format, rejected
 from uictest.cli.output import ExitCode, append_summary, data, message, terminal_width
-from uictest.cli.progress import Advance, TerminalObserver, sweep_progress
+from uictest.cli.progress import TerminalObserver, sweep_progress
 from uictest.core import files
 from uictest.plans import sweeps
 from uictest.report import counted, printable
@@ -161,7 +161,7 @@ class SweepObserver(TerminalObserver):
 
     def simulating(
         self, count: int, finished: int = 0, unit: str = "cases"
-    ) -> AbstractContextManager[Advance]:
+    ) -> AbstractContextManager[runs.Advance]:
         """Show the progress of the cases, or of stops that are run besides."""
         if unit != "cases":
             return super().simulating(count, finished, unit)

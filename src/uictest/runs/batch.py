@@ -240,7 +240,7 @@ def simulate_cases(
     with ExitStack() as stack:
         advance = stack.enter_context(observer.simulating(stops, unit=unit))
         if asked:
-            firm = stack.enter_context(firmness_run(settings, varied, advance))
+            firm = stack.enter_context(firmness_run(settings, advance))
             settings = replace(
                 settings, firmness=lambda name: firm.of_case(asked[name]) if name in asked else None
             )
@@ -261,7 +261,7 @@ def _with_firmness(
     stops = stops_of_series(planned, settings)
     with observer.compiling():
         rig.load_block([case.scenario.controller.program for case in (*planned.cases, *settings.calibration)])
-    with observer.simulating(stops, unit="stops") as advance, firmness_run(settings, stops, advance) as firm:
+    with observer.simulating(stops, unit="stops") as advance, firmness_run(settings, advance) as firm:
         return replace(result, firmness=firm.of_series(planned))
 
 

@@ -18,7 +18,7 @@ from uictest.plans.scenario.yaml import nearest
 from uictest.report import FirmPair
 from uictest.running import campaign
 from uictest.runs.errors import InvalidInputError
-from uictest.runs.firmness import firmness_run, stops_of_case
+from uictest.runs.firmness import firmness_run, stops_of_pair
 from uictest.runs.observer import Observer
 
 _WRITTEN: Final = ("numbers", "draws", "infeasible", "not_run", "seeds", "on_four_calipers", "calibrated_by")
@@ -47,8 +47,8 @@ def firm_pairs(
     with observer.compiling():
         run = [*chain(*pairs), *settings.calibration]
         rig.load_block([case.scenario.controller.program for case in run])
-    stops = sum(stops_of_case(case, settings) for case in chain(*pairs))
-    with observer.simulating(stops, unit="stops") as advance, firmness_run(settings, stops, advance) as firm:
+    stops = sum(stops_of_pair(*pair, settings) for pair in pairs)
+    with observer.simulating(stops, unit="stops") as advance, firmness_run(settings, advance) as firm:
         for first, second in pairs:
             found = firm.of_pair(first, second)
             decided = {each.criterion for each in found.criteria}

@@ -18,6 +18,7 @@ from uictest.plans import scenario, series as series_plans, sweeps
 from uictest.plans.sweeps import Column, RangedNumber
 from uictest.running import campaign, chunked
 from uictest.runs.errors import InvalidInputError
+from uictest.runs.observer import Advance
 
 _TOGETHER: Final = 128
 """Draws of a series whose stops are in memory at a time; chosen."""
@@ -34,7 +35,7 @@ class FirmnessRun:
 
     Args:
         jobs: number of threads.
-        advance: is called with how many more stops are finished.
+        advance: is called with how many more stops are finished, and how many more a search takes.
         run_block: simulates stops with controllers from outside.
         effort: how many stops.
         calibration: stops by which the numbers are known, with the outcomes that these expect.
@@ -42,7 +43,7 @@ class FirmnessRun:
     """
 
     jobs: int
-    advance: Callable[[int], None] = lambda count: None
+    advance: Advance = lambda finished, further=0: None
     run_block: chunked.RunBlock = rig.run_block
     effort: Effort = EFFORT
     calibration: Sequence[scenario.Case] = ()
@@ -103,7 +104,11 @@ class FirmnessRun:
         )
         hold = self._hold(numbers) if self.calibration else None
         random_rail = any(each.varied.case.scenario.rail.variation_in_force for each in cases)
-        study = FirmnessStudy(list(numbers.values()), judge, hold, validity, self.effort, random_rail)
+        repeats = sum(each.varied.case.scenario.repeat for each in cases)
+        study = FirmnessStudy(
+            *(list(numbers.values()), judge, hold, validity, self.effort, random_rail),
+            expect=lambda stops: self.advance(0, stops * repeats),
+        )
         return study.run(
             on_four_calipers=any(each.on_four_calipers for each in cases),
             calibrated_by=[each.id for each in self.calibration],
@@ -131,6 +136,7 @@ class FirmnessRun:
 
     def require_calibration(self) -> None:
         """Raise InvalidInputError where a calibrating stop comes to another outcome itself."""
+        self.advance(0, sum(each.scenario.repeat for each in self.calibration))
         for each in self.calibration:
             if not all(_VariedStops.of(each, self).as_expected({}, 1)):
                 raise InvalidInputError(
@@ -214,6 +220,12 @@ def stops_of_case(case: scenario.Case, settings: campaign.RunSettings) -> int:
     return EFFORT.stops(len(sweeps.ranged_numbers(case.scenario))) + _calibrating_stops(settings)
 
 
+def stops_of_pair(first: scenario.Case, second: scenario.Case, settings: campaign.RunSettings) -> int:
+    """Return how many stops are run for two cases before turning values are searched."""
+    numbers = {_identity(each) for case in (first, second) for each in sweeps.ranged_numbers(case.scenario)}
+    return 2 * EFFORT.stops(len(numbers)) + _calibrating_stops(settings)
+
+
 def stops_of_series(planned: series_plans.Series, settings: campaign.RunSettings) -> int:
     """Return how many stops are run for a series before turning values are searched."""
     numbers = {_identity(each) for case in planned.cases for each in sweeps.ranged_numbers(case.scenario)}
@@ -226,25 +238,12 @@ def _calibrating_stops(settings: campaign.RunSettings) -> int:
 
 
 @contextmanager
-def firmness_run(
-    settings: campaign.RunSettings, most: int, advance: Callable[[int], None]
-) -> Iterator[FirmnessRun]:
-    """Lend what finds out how firm verdicts are.
-
-    `advance` hears of finished stops up to `most`: how many more a search takes is not known before.
-    """
-    left = most
-
-    def count(finished: int) -> None:
-        nonlocal left
-        counted = min(finished, left)
-        left -= counted
-        advance(counted)
-
+def firmness_run(settings: campaign.RunSettings, advance: Advance) -> Iterator[FirmnessRun]:
+    """Lend what finds out how firm verdicts are; `advance` hears of its stops."""
     with rig.Workers() as workers:
         run_block = rig.run_block if settings.in_process else workers.run_block
         try:
-            run = FirmnessRun(settings.jobs, count, run_block, EFFORT, settings.calibration)
+            run = FirmnessRun(settings.jobs, advance, run_block, EFFORT, settings.calibration)
             run.require_calibration()
             yield run
         except KeyboardInterrupt:

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
+from typing import Protocol
 
 from uictest import report
 from uictest.judging import series
 from uictest.running import campaign
+
+
+class Advance(Protocol):
+    """Is called with how many more are finished, and how many more there are than was said before."""
+
+    def __call__(self, finished: int, further: int = 0, /) -> None:
+        """Count `finished` more, of a total that grows by `further`."""
 
 
 class Observer:
@@ -24,7 +32,7 @@ class Observer:
 
     def simulating(
         self, count: int, finished: int = 0, unit: str = "cases"
-    ) -> AbstractContextManager[Callable[[int], None]]:
+    ) -> AbstractContextManager[Advance]:
         """Return a context of a simulation; it lends what is called with how many more are finished.
 
         `finished` of `count` are finished before; `unit` says what is counted.
@@ -59,7 +67,7 @@ class Observer:
         """Take note that the frontier along a parameter is being searched."""
 
 
-def _ignore(count: int) -> None:
+def _ignore(finished: int, further: int = 0, /) -> None:
     pass
 
 

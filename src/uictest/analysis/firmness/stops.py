@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Final
 
 from uictest.judging.evaluation import Verdict, by_reading, relative_margin
@@ -51,7 +52,7 @@ def drawn(outcome: str, verdicts: Iterable[Verdict]) -> Drawn:
     return Drawn(outcome, statuses, margins, {reading.id: criterion for reading, criterion in read})
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Stops:
     """The verdicts of all stops.
 
@@ -75,9 +76,15 @@ class Stops:
         """The ends at which no stop could be run."""
         return [place for place, drawn in self.ends.items() if all(each.outcome == "error" for each in drawn)]
 
+    @cached_property
+    def _usual(self) -> dict[str, str]:
+        return {}
+
     def usual(self, criterion: str) -> str:
         """Return what a verdict is at the nominal values, under most seeds."""
-        return usual(self.nominal, criterion)
+        if criterion not in self._usual:
+            self._usual[criterion] = usual(self.nominal, criterion)
+        return self._usual[criterion]
 
     def stands(self, drawn: Drawn, criterion: str) -> bool | None:
         """Return whether a verdict is what it is at the nominal values; None for one that does not count.
@@ -111,3 +118,9 @@ class Stops:
 def usual(drawn: Sequence[Drawn], criterion: str) -> str:
     """Return the most frequent status; of equally frequent ones the first."""
     return Counter(each.status(criterion) for each in drawn).most_common(1)[0][0]
+
+
+def share(stands: Sequence[bool | None]) -> float | None:
+    """Return the share of stops in which a verdict stands, of those that count; None without any."""
+    counted = [each for each in stands if each is not None]
+    return sum(counted) / len(counted) if counted else None

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from statistics import median
 from typing import Any, Final
@@ -11,8 +12,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.analysis.firmness.scan import Scan
-from uictest.analysis.firmness.stops import OUTCOME, Drawn, Place, Stops, usual
+from uictest.analysis.firmness.scan import MovedStops, Scan, Setting, scan_side_by_side
+from uictest.analysis.firmness.stops import OUTCOME, Drawn, Place, Stops, share, usual
 from uictest.judging.evaluation import (
     CalibratedDraws,
     Firmness,
@@ -30,8 +31,6 @@ FIRM_SHARE: Final = 0.997
 draws without a turn show."""
 _DOUBT: Final = 0.05
 """Probability that a share lies below its bound: 95 % confidence, as usual of test results; chosen."""
-_HALVINGS: Final = 4
-"""Of the interval between two places of a scan: a turning value is known to 1 / 128 of its side; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +77,7 @@ class FirmnessStudy:
         validity: ids of the criteria that say whether a stop is a test.
         effort: how many stops.
         random_rail: whether friction varies at random, so that every draw has a seed of its own.
+        expect: is called with how many stops a search for turning values will run, before it runs them.
     """
 
     numbers: Sequence[RangedNumber]
@@ -86,25 +86,39 @@ class FirmnessStudy:
     validity: frozenset[str] = frozenset()
     effort: Effort = field(default_factory=Effort)
     random_rail: bool = False
+    expect: Callable[[int], None] = lambda count: None
 
     def run(self, *, on_four_calipers: bool = False, calibrated_by: Sequence[str] = ()) -> Firmness:
         """Run all stops and return what they show. Arguments as for :class:`Firmness`."""
         count, effort = len(self.numbers), self.effort
         places = [(number, end) for number in range(count) for end in (0, 1)]
-        at_ends = self._one_by_one([(number, float(end)) for number, end in places], effort.seeds_at_ends)
+        nominal: list[tuple[Setting, int]] = [((None, math.nan), seed) for seed in range(effort.seeds)]
+        at_ends: list[tuple[Setting, int]] = [
+            ((number, float(end)), seed) for number, end in places for seed in range(effort.seeds_at_ends)
+        ]
+        drawn = self._run_moved([*nominal, *at_ends])
+        moved = MovedStops(self._run_more, dict(zip(at_ends, drawn[len(nominal) :], strict=True)))
+        of_ends = moved.at([(number, float(end)) for number, end in places], effort.seeds_at_ends)
         points = sobol_blocks(effort.blocks, effort.block, count, seed=0) if count else np.empty((0, 0))
         stops = Stops(
-            self._drawn(np.full((effort.seeds, count), np.nan), range(effort.seeds)),
-            dict(zip(places, at_ends, strict=True)),
+            drawn[: len(nominal)],
+            {(number, end): of_ends[number, float(end)] for number, end in places},
             self._drawn(points, range(len(points)) if self.random_rail else [0] * len(points)),
             None if self.hold is None or not len(points) else self.hold(self._columns(points)),
             self.validity,
         )
         criteria = [each for each in stops.nominal[0].statuses if stops.usual(each) in _DECIDED]
+        turning = {each: self._turning(each, stops) for each in (OUTCOME, *criteria)}
+        nominal_places = [each.nominal_place for each in self.numbers]
+        scans = scan_side_by_side(turning, nominal_places, stops, moved, effort.seeds)
+        turns = {
+            each: tuple(self._turn(each, place, scans[each, place], stops) for place in of_verdict)
+            for each, of_verdict in turning.items()
+        }
         outcomes = Counter(each.outcome for each in stops.joint)
         return Firmness(
-            **self._firmness(OUTCOME, stops),
-            criteria=tuple(VerdictFirmness(**self._firmness(each, stops)) for each in criteria),
+            **self._firmness(OUTCOME, stops, turns[OUTCOME]),
+            criteria=tuple(VerdictFirmness(**self._firmness(each, stops, turns[each])) for each in criteria),
             numbers=tuple(self._effect(number, stops, criteria) for number in range(count)),
             draws=len(stops.joint),
             infeasible=outcomes["error"],
@@ -124,85 +138,66 @@ class FirmnessStudy:
     def _columns(self, places: NDArray[np.float64]) -> list[Column]:
         return [each.at(places[:, k]) for k, each in enumerate(self.numbers)]
 
-    def _one_by_one(self, settings: Sequence[tuple[int, float]], seeds: int) -> list[Sequence[Drawn]]:
-        """Return for each number and place of it the stops in which all others are nominal, one per seed."""
-        places = np.full((len(settings) * seeds, len(self.numbers)), np.nan)
-        for row, (number, place) in enumerate(settings):
-            places[row * seeds : (row + 1) * seeds, number] = place
-        stops = self._drawn(places, [*range(seeds)] * len(settings))
-        return [stops[first : first + seeds] for first in range(0, len(stops), seeds)]
+    def _run_moved(self, stops: Sequence[tuple[Setting, int]]) -> Sequence[Drawn]:
+        places = np.full((len(stops), len(self.numbers)), np.nan)
+        for row, ((number, place), _) in enumerate(stops):
+            if number is not None:
+                places[row, number] = place
+        return self._drawn(places, [seed for _, seed in stops])
 
-    def _firmness(self, criterion: str, stops: Stops) -> dict[str, Any]:
-        """Return the fields of :class:`VerdictFirmness` for a criterion, or the outcome."""
+    def _run_more(self, stops: Sequence[tuple[Setting, int]]) -> Sequence[Drawn]:
+        self.expect(len(stops))
+        return self._run_moved(stops)
+
+    def _turning(self, criterion: str, stops: Stops) -> list[Place]:
+        """Return the ends at which a verdict turns; none for one that turns over the seeds, too."""
+        if self._noisy(criterion, stops):
+            return []
+        return [place for place in stops.ends if stops.turned_at(place, criterion)]
+
+    def _noisy(self, criterion: str, stops: Stops) -> bool:
         nominal = stops.usual(criterion)
+        return any(each.outcome != "error" and each.status(criterion) != nominal for each in stops.nominal)
+
+    def _firmness(self, criterion: str, stops: Stops, turns: tuple[Turn, ...]) -> dict[str, Any]:
+        """Return the fields of :class:`VerdictFirmness` for a criterion, or the outcome."""
         joint = [stops.stands(each, criterion) for each in stops.joint]
         size = self.effort.block
-        shares = [_share(joint[first : first + size]) for first in range(0, len(joint), size)]
-        known = [share for share in shares if share is not None]
+        shares = [share(joint[first : first + size]) for first in range(0, len(joint), size)]
+        known = [each for each in shares if each is not None]
         counted, turned = len(joint) - joint.count(None), joint.count(False)
-        noisy = any(each.outcome != "error" and each.status(criterion) != nominal for each in stops.nominal)
-        turning = [place for place in stops.ends if stops.turned_at(place, criterion)]
         # An end that cannot be run shows nothing, whatever the draws say.
         shown = counted and not turned and not stops.not_run
         at_least = _DOUBT ** (1.0 / counted) if shown else None
         return {
             "criterion": criterion,
-            "nominal": nominal,
-            "status": _status(noisy, bool(turning or turned), at_least),
+            "nominal": stops.usual(criterion),
+            "status": _status(self._noisy(criterion, stops), bool(turns or turned), at_least),
             "counted": counted,
             "turned": turned,
-            "share": _share(joint),
+            "share": share(joint),
             "share_at_least": at_least,
             "lowest_block": min(known, default=None),
             "highest_block": max(known, default=None),
             "calibrated": None if stops.calibrated is None else _calibrated(joint, stops.calibrated),
             "margin": _median(each.margins.get(criterion) for each in stops.nominal),
-            "turned_by": () if noisy else tuple(self._turns(criterion, turning, stops)),
+            "turned_by": turns,
         }
 
-    def _turns(self, criterion: str, turning: Sequence[Place], stops: Stops) -> Iterator[Turn]:
-        """Yield where each number turns a verdict, and the criterion with which the outcome turns."""
-        scans = self._scanned(turning, criterion, stops)
-        for place in turning:
-            ranged, end = self.numbers[place[0]], place[1]
-            scan = scans[place]
-            turns_at, stands_to, turned_from = scan.values
-            # Rounded to where it was seen: what stands towards the nominal value, what is turned to the end.
-            value, first_turned = (
-                "" if each is None else ranged.rounded_text(each, up=bool(end))
-                for each in (turns_at, turned_from)
-            )
-            yield Turn(
-                *(ranged.key, "above" if end else "below", criterion or stops.deciding_at(place)),
-                usual(stops.turned_at(place, criterion), criterion),
-                *(value, ranged.rounded_text(stands_to, up=not end), first_turned, ranged.ends[end].text),
-            )
-
-    def _scanned(self, turning: Sequence[Place], criterion: str, stops: Stops) -> dict[Place, Scan]:
-        """Scan each number from its nominal value to an end, all numbers together, then halve."""
-        scans = {
-            (number, end): Scan({self.numbers[number].nominal_place: 1.0}, float(end))
-            for number, end in turning
-        }
-        self._extend(scans, {place: scan.grid() for place, scan in scans.items()}, criterion, stops)
-        for _ in range(_HALVINGS):
-            middles = {place: [scan.middle] for place, scan in scans.items() if scan.middle is not None}
-            self._extend(scans, middles, criterion, stops)
-        return scans
-
-    def _extend(
-        self,
-        scans: Mapping[Place, Scan],
-        points: Mapping[Place, Sequence[float]],
-        criterion: str,
-        stops: Stops,
-    ) -> None:
-        flat = [(place, point) for place, of_place in points.items() for point in of_place]
-        drawn = self._one_by_one([(place[0], point) for place, point in flat], self.effort.seeds)
-        for (place, point), of_point in zip(flat, drawn, strict=True):
-            standing = _share([stops.stands(each, criterion) for each in of_point])
-            if standing is not None:
-                scans[place].standing[point] = standing
+    def _turn(self, criterion: str, place: Place, scan: Scan, stops: Stops) -> Turn:
+        """Return where a number turns a verdict, and the criterion with which the outcome turns."""
+        ranged, end = self.numbers[place[0]], place[1]
+        turns_at, stands_to, turned_from = scan.values
+        # Rounded to where it was seen: what stands towards the nominal value, what is turned to the end.
+        value, first_turned = (
+            "" if each is None else ranged.rounded_text(each, up=bool(end))
+            for each in (turns_at, turned_from)
+        )
+        return Turn(
+            *(ranged.key, "above" if end else "below", criterion or stops.deciding_at(place)),
+            usual(stops.turned_at(place, criterion), criterion),
+            *(value, ranged.rounded_text(stands_to, up=not end), first_turned, ranged.ends[end].text),
+        )
 
     def _effect(self, number: int, stops: Stops, criteria: Sequence[str]) -> NumberEffect:
         ranged = self.numbers[number]
@@ -225,14 +220,9 @@ def _status(noisy: bool, turns: bool, at_least: float | None) -> FirmnessStatus:
     return "firm" if at_least is not None and at_least >= FIRM_SHARE else "not_shown"
 
 
-def _share(stands: Sequence[bool | None]) -> float | None:
-    counted = [each for each in stands if each is not None]
-    return sum(counted) / len(counted) if counted else None
-
-
 def _calibrated(stands: Sequence[bool | None], holds: Sequence[bool]) -> CalibratedDraws:
     counted = [each for each, known in zip(stands, holds, strict=True) if known and each is not None]
-    return CalibratedDraws(len(counted), _share(counted))
+    return CalibratedDraws(len(counted), share(counted))
 
 
 def _median(values: Iterable[float | None]) -> float | None:

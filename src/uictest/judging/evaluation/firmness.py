@@ -27,7 +27,8 @@ class Turn:
         to: its status there.
         value: beyond which it turns under most seeds, as a scenario has it; empty where there is no such
             value: it turns in several places, or under few seeds only.
-        stands_to: the last value found, from the nominal one, at which it stands under every seed.
+        stands_to: the last value found, from the nominal one, at which it stands under every seed. It is the
+            nominal one where the end turns few seeds: no turning value is searched then.
         turned_from: the first value found from which on it is turned under every seed; empty where there is
             none.
         end: the end of the range on this side.

@@ -60,7 +60,9 @@ class VariedCase:
             block = replace(block, judged_as=ScenarioVariants(self.case.scenario, {}, places.size))
             return runner.results(block)[0]
 
-        blocks = np.array_split(names, max(-(-count // _TOGETHER), min(self.jobs, count)))
+        # As many for each thread: at the end of the longest all others wait.
+        rounds = -(-count // (_TOGETHER * self.jobs))
+        blocks = np.array_split(names, min(rounds * self.jobs, count))
         results: list[CaseResult] = []
         with ThreadedMap(run, blocks, jobs=self.jobs) as done:
             for of_block in done:
