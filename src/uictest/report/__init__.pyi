@@ -1,3 +1,10 @@
+from .campaign import (
+    STOPS as STOPS,
+    Campaign as Campaign,
+    CampaignColumn as CampaignColumn,
+    CampaignTable as CampaignTable,
+    number_cell as number_cell,
+)
 from .case_table import measure_columns as measure_columns
 from .close_calls import close_lines as close_lines
 from .content import (
@@ -190,6 +197,7 @@ from .traces.trace import (
     trace_of as trace_of,
     trace_of_stop as trace_of_stop,
 )
+from .traces.vent_cycles import VentCycle as VentCycle, vent_cycles as vent_cycles
 from .verdict_sentences import (
     CASE_WORDS as CASE_WORDS,
     DIFFERS as DIFFERS,

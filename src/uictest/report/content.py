@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from uictest.judging import evaluation
 from uictest.report import series as series_views
+from uictest.report.campaign import Campaign
 from uictest.report.difference import BaselineComparison, Difference, case_explanation, case_word, run_tally
 from uictest.report.manifest import RunManifest
 from uictest.report.part_wording import controllers_text
@@ -92,6 +93,7 @@ class RunContent:
         series: every series, with the results of its own cases, which are not among `results`.
         drawn_first: ids of the cases that are to be drawn before all others.
         passed_over: what was found and not judged, a sentence with the reason each.
+        campaign: what the stops of a log show together; None without a log.
 
     """
 
@@ -105,6 +107,7 @@ class RunContent:
     series: Sequence[SeriesResult] = ()
     drawn_first: Collection[str] = ()
     passed_over: Sequence[str] = ()
+    campaign: Campaign | None = None
 
     def subject(self, case_id: str) -> CaseDescription:
         """Return the description of a case; an empty one where there is none."""

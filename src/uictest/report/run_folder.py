@@ -20,6 +20,7 @@ from pydantic import (
 
 from uictest.core import files, recording
 from uictest.judging import evaluation, series
+from uictest.report.campaign import campaign_form, read_campaign
 from uictest.report.content import CaseDescription, RunContent, drawn_cases
 from uictest.report.difference import BaselineComparison, Difference
 from uictest.report.formats import IN_EVERY_RUN, write_formats
@@ -175,6 +176,8 @@ def _document(content: RunContent) -> dict[str, Any]:
         header["series"] = series.series_document(content.series)
     if content.passed_over:
         header["passed_over"] = list(content.passed_over)
+    if content.campaign is not None:
+        header["campaign"] = campaign_form(content.campaign)
     return evaluation.result_document(content.results, **header)
 
 
@@ -225,6 +228,7 @@ def run_content(document: object, name: str) -> RunContent:
         subjects = read_subjects(document)
         manifest = read_manifest(document)
         baseline = read_baseline_comparison(document)
+        campaign = read_campaign(document)
         judged = series.series_results_of(document["series"]) if "series" in document else []
     except (AttributeError, TypeError) as error:
         raise ValueError(str(error)) from error
@@ -239,6 +243,7 @@ def run_content(document: object, name: str) -> RunContent:
         baseline=baseline,
         series=judged,
         passed_over=passed_over,
+        campaign=campaign,
     )
     require_names(result.id for result in content.all_results)
     return content

@@ -38,6 +38,7 @@ class Batch(NamedTuple):
         drawn_first: ids of the cases whose stops a page draws before all others.
         judge: returns what a recorded case came to; None where cases are simulated.
         passed_over: what was found and is not judged, a sentence with the reason each.
+        together: returns what the results of a log show together.
     """
 
     cases: Sequence[scenario.Case]
@@ -49,6 +50,7 @@ class Batch(NamedTuple):
     drawn_first: Collection[str] = ()
     judge: Callable[[scenario.Case], campaign.CaseRun] | None = None
     passed_over: Sequence[str] = ()
+    together: Callable[[Sequence[evaluation.CaseResult]], report.Campaign] | None = None
 
     @property
     def all_cases(self) -> list[scenario.Case]:
@@ -65,14 +67,13 @@ class Batch(NamedTuple):
     ) -> report.RunContent:
         """Return what reports show of results of the cases and series, but for traces and the baseline."""
         return report.RunContent(
-            name,
-            results,
-            self.manifest,
+            *(name, results, self.manifest),
             complete=not interrupted and (len(results), len(judged)) == (len(self.cases), len(self.series)),
             subjects=self.subjects,
             series=judged,
             drawn_first=self.drawn_first,
             passed_over=self.passed_over,
+            campaign=None if self.together is None else self.together(results),
         )
 
 
@@ -112,9 +113,8 @@ def batch_of(
     references = _references(everything, validated)
     parts = campaign.parts_of_cases(everything)
     settings = settings or campaign.RunSettings()
-    inputs: list[Mapping[str, str]] = [case.inputs for case in (*everything, *settings.calibration)]
-    inputs += [each.inputs for each in planned]
-    read = {name: digest for each in inputs for name, digest in each.items()}
+    read_for: Sequence[scenario.Case | series_plans.Series] = (*everything, *settings.calibration, *planned)
+    read = {name: digest for each in read_for for name, digest in each.inputs.items()}
     manifest = report.run_manifest(arguments, seed, read, len(everything), parts.values())
     domains = {case_id: each.domain_of(parts[case_id]) for case_id, each in references.items()}
     of_validations = {each.file: each.sha256 for each in references.values()}

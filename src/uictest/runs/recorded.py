@@ -144,11 +144,17 @@ def case_of_stop(
 
 
 def recorded_batch(
-    stops: RecordedStops, arguments: Sequence[str], request: campaign.RecordingRequest, *, strict: bool
+    stops: RecordedStops,
+    arguments: Sequence[str],
+    request: campaign.RecordingRequest,
+    *,
+    strict: bool,
+    observe: Callable[[scenario.Case, field_data.RecordedStop, evaluation.CaseResult], None] | None = None,
 ) -> Batch:
     """Return the batch that judges recorded stops.
 
-    `arguments` are those of the command line; `request` and `strict` as for :class:`campaign.RunSettings`.
+    `arguments` are those of the command line; `request` and `strict` as for :class:`campaign.RunSettings`;
+    `observe` is called with every stop that was judged.
     """
     everything = all_cases(stops.cases, stops.series)
     files = {case.id: file for file, case in zip(stops.files, everything, strict=True)}
@@ -159,7 +165,10 @@ def recorded_batch(
         file = files[case.id]
         if file.stop is None:
             return campaign.CaseRun(evaluation.error_result(case, file.unusable))
-        return campaign.CaseRun(*field_data.judge_recording(case, file.stop))
+        result, samples = field_data.judge_recording(case, file.stop)
+        if observe is not None:
+            observe(case, file.stop, result)
+        return campaign.CaseRun(result, samples)
 
     return Batch(
         stops.cases,

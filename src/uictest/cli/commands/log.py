@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
@@ -11,12 +12,15 @@ from typing import Annotated
 import typer
 
 from uictest import report, runs
+from uictest.analysis import logged_stops
 from uictest.cli import options, recordings, run_display
 from uictest.cli.options import option, rejected
-from uictest.cli.output import ExitCode, message, of_run
+from uictest.cli.output import ExitCode, data, message, of_run, terminal_width
 from uictest.core import files as file_system
+from uictest.core.document import Lines, Table
 from uictest.core.recording import formats
 from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.plans import scenario as scenarios
 from uictest.plans.scenario import yaml
 from uictest.recorded import field_data, service_log
 from uictest.running import campaign
@@ -69,12 +73,16 @@ def log(
     stops = runs.stops_in_recordings(written, _canonical(mapped), inputs, case_of, found=True)
     request = campaign.RecordingRequest("all")
     passed_over = [_sentence(event) for event in found.passed_over]
-    batch = runs.recorded_batch(stops, context.obj, request, strict=strict)._replace(passed_over=passed_over)
+    survey = logged_stops.LogSurvey(vehicle_known=_states_vehicle(case, overrides or ()))
+    batch = runs.recorded_batch(stops, context.obj, request, strict=strict, observe=survey.add)
+    batch = batch._replace(passed_over=passed_over, together=survey.campaign)
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
     published = run_display.publish_and_show(batch, output, ("html",), junit, display)
     if published is None:
         return ExitCode.INTERRUPTED
     file_system.write(published.place, "stops.csv", _table(found))
+    if shown is options.Format.TEXT and not quiet:
+        _show_together(published.content.campaign)
     return of_run(published)
 
 
@@ -85,6 +93,21 @@ def _require_many_triggers(map_name: str, preparation: field_data.Preparation) -
             f"{map_name}: preparation: a log has many brake commands: leave out trigger_time, and set trigger"
             f" to one of {', '.join(service_log.SHOWN_BY)}"
         )
+
+
+def _show_together(together: report.Campaign | None) -> None:
+    """Write what the stops show together to stdout: sentences, and the tables that stand first."""
+    if together is not None:
+        tables = [each.document() for each in together.at("first")]
+        sections: list[Table | Lines] = [Lines(together.sentences), *tables]
+        for line in report.titled_lines(sections, terminal_width(sys.stdout)):
+            data(line)
+
+
+def _states_vehicle(case: scenarios.Case | None, overrides: Sequence[str]) -> bool:
+    return case is not None or any(
+        each.partition(".")[0].partition("=")[0] == "vehicle" for each in overrides
+    )
 
 
 def _settings(from_speed: str, to_speed: str, standstill: float) -> service_log.FinderSettings:

@@ -1,4 +1,12 @@
-from .fit import CleaningFit as CleaningFit, Fit as Fit, fit_cleaning as fit_cleaning, fit_stop as fit_stop
+from .balances import Balances as Balances
+from .fit import (
+    CleaningFit as CleaningFit,
+    Fit as Fit,
+    balances_of as balances_of,
+    fit_balances as fit_balances,
+    fit_cleaning as fit_cleaning,
+    fit_stop as fit_stop,
+)
 from .outputs import (
     Agreement as Agreement,
     agreement as agreement,

@@ -68,11 +68,16 @@ def fit_stop(
         raise FitError("pad friction that varies cannot be fitted: write brake.pad: constant")
     if with_pads and any(own.pad_friction is not None for own in scenario.vehicle.wheelsets.values()):
         raise FitError("one factor cannot stand for pads of single wheelsets: leave out their pad_friction")
-    samples = samples_of(stop, scenario)
-    balances = Balances(samples, windows_of(samples), scenario)
-    if with_pads and samples.torque is None:
+    balances = balances_of(stop, scenario)
+    if with_pads and balances.samples.torque is None:
         raise FitError("pad friction cannot be fitted: the clamping forces of all wheelsets are not recorded")
     return fit_balances(balances, breaks, with_pads=with_pads)
+
+
+def balances_of(stop: RecordedStop, scenario: Scenario) -> Balances:
+    """Return the balances of a recorded stop of a scenario's vehicle. Raises FitError as :func:`fit_stop`."""
+    samples = samples_of(stop, scenario)
+    return Balances(samples, windows_of(samples), scenario)
 
 
 def fit_balances(balances: Balances, breaks: Sequence[float], *, with_pads: bool) -> Fit:
@@ -175,10 +180,9 @@ def _no_cleaning() -> str:
 
 def _balances(stop: RecordedStop, scenario: Scenario, number: int, count: int) -> Balances:
     try:
-        samples = samples_of(stop, scenario)
+        return balances_of(stop, scenario)
     except FitError as error:
         raise FitError(f"recording {number}: {error}" if count > 1 else str(error)) from error
-    return Balances(samples, windows_of(samples), scenario)
 
 
 def _in_force(found: CleaningEstimate, stated: Cleaning) -> Cleaning:

@@ -9,6 +9,7 @@ from uictest.core.document import Cell, Data
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.judging import evaluation
 from uictest.report import series as series_views
+from uictest.report.campaign import campaign_data
 from uictest.report.content import RunContent
 from uictest.report.firmness_sentences import firmness_rows
 from uictest.report.formats import ReportFormat
@@ -100,7 +101,7 @@ def firmness_data(results: Sequence[evaluation.CaseResult], series: Sequence[Ser
 def run_tables(content: RunContent) -> Mapping[str, Data]:
     """Return the tables of a run by the names of their files, without `.csv`.
 
-    Without repeated cases, requirements, firmness or series, the tables of these are missing.
+    Without repeated cases, requirements, firmness, series or a log, the tables of these are missing.
     """
     results = content.results
     optional = {
@@ -114,6 +115,7 @@ def run_tables(content: RunContent) -> Mapping[str, Data]:
         "criteria": criteria_table(results),
         **{name: table for name, table in optional.items() if table.rows},
         **(series_views.series_tables(content.series) if content.series else {}),
+        **campaign_data(content.campaign),
     }
 
 

@@ -37,6 +37,7 @@ def run_summary(content: RunContent) -> Document:
     """Return the whole result of a run: the tally, then one row per case, those not met first."""
     sections = [
         close_lines(content.results, content.series),
+        *(content.campaign.sections if content.campaign else ()),
         *series_views.series_sections(content.series),
         *_baseline(content),
         _firmness(content),

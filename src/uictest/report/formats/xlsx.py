@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 from collections.abc import Iterable, Iterator, Mapping
+from typing import Final
 
 from uictest.core.measures import STOP_COLUMNS
 from uictest.judging import evaluation
@@ -33,6 +34,9 @@ from uictest.report.sheet import (
     write_table,
 )
 from uictest.report.verdict_sentences import result_word
+
+_LONGEST_SHEET: Final = 31
+"""Letters of the name of a sheet that Excel takes."""
 
 
 def workbook_bytes(content: RunContent) -> bytes:
@@ -69,6 +73,11 @@ def _sheets(content: RunContent) -> Mapping[str, Iterable[Row]]:
         sheets["Repeats"] = RowsMadeAnew(lambda: map(_of_case, stop_rows(results)))
     if requirements:
         sheets[REQUIREMENTS_SHEET] = requirement_matrix(requirements)
+    if content.campaign is not None:
+        tables = [each for each in content.campaign.tables if each.rows]
+        sheets |= {
+            f"Log {each.name.replace('_', ' ')}"[:_LONGEST_SHEET]: list(each.data.rows) for each in tables
+        }
     if baseline is not None:
         sheets["Baseline"] = [_difference_row(each) for each in baseline.all_differences]
     if known:

@@ -8,6 +8,7 @@ from itertools import islice
 from typing import Any
 
 from uictest.judging import evaluation
+from uictest.report.campaign import STOPS
 from uictest.report.case_table import measure_columns
 from uictest.report.close_calls import MOST_CLOSE, NARROW
 from uictest.report.content import DRAWN, MOST_DRAWN, RunContent, drawn_cases, worst_first
@@ -16,6 +17,7 @@ from uictest.report.difference import (
     differences_table,
     not_compared_sentences,
 )
+from uictest.report.page.campaign_view import cell_class, shade
 from uictest.report.page.case_view import CaseView, case_view, plots_json
 from uictest.report.page.findings import (
     MOST_FINDINGS,
@@ -60,6 +62,9 @@ def page_html(content: RunContent) -> str:
         matrix=matrix_of(margins),
         narrow=NARROW,
         **_of_series(content),
+        stops_key=STOPS,
+        cell_class=cell_class,
+        shade=shade,
         maps=maps_of(content.results),
         requirements=verified_requirements(content.results, content.series),
         requirement_tones=REQUIREMENT_TONES,

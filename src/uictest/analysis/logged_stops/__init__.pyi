@@ -1,0 +1,1 @@
+from .survey import LogSurvey as LogSurvey

@@ -1,0 +1,224 @@
+"""Wheelsets beside their neighbours in the same stops, and what stands out.
+
+In every stop a wheelset is compared with the middle one of the others: speed, rail and noise are the same for
+all. Over stops the median of these differences has an interval by order statistics, whatever their
+distribution, at 95 % for the four wheelsets together. A wheelset stands out where the whole interval lies
+beyond a limit, which is chosen: no interval makes a difference matter that a train may have.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from statistics import median
+from typing import Final, NamedTuple
+
+from uictest import report
+from uictest.core import statistics
+from uictest.core.document import Cell
+from uictest.core.series_measures import Estimate, median_of
+from uictest.recorded import service_log
+
+_WHEELSETS: Final = (1, 2, 3, 4)
+_CONFIDENCE: Final = 1.0 - 0.05 / len(_WHEELSETS)
+"""Of the interval of one wheelset: 95 % for all four (Bonferroni)."""
+FEWEST: Final = statistics.draws_needed(0.5, _CONFIDENCE, "both")
+"""Stops below which no median has an interval."""
+_FEWEST_OTHERS: Final = 2
+_FEWEST_VENTS: Final = 3
+"""Long vents of a stop that say whether a valve answers; chosen."""
+_UNANSWERED: Final = 0.5
+"""Share of these without an answer from which the valve does not vent; chosen."""
+_NAMED: Final = 8
+"""Stops that a finding names; chosen."""
+Signs = Sequence[service_log.WheelsetSigns]
+
+
+class NeighbourDifference(NamedTuple):
+    """By how much one number of a wheelset differs from that of the middle one of the others.
+
+    Args:
+        sign: its kind, a key of `service_log.SIGNS`.
+        wheelset: its number.
+        own, others: medians over the stops, in the unit of the sign.
+        difference: median over stops, in the unit of the sign or in %.
+        stops: differences by the name of the stop.
+    """
+
+    sign: str
+    wheelset: int
+    own: float
+    others: float
+    difference: Estimate
+    stops: dict[str, float]
+
+    @property
+    def kind(self) -> service_log.SignKind:
+        """What is compared."""
+        return service_log.SIGNS[self.sign]
+
+    @property
+    def limit(self) -> float:
+        """The limit of the difference, in its unit."""
+        return 100.0 * self.kind.limit if self.kind.relative else self.kind.limit
+
+    @property
+    def unit(self) -> str:
+        """The unit of the difference."""
+        return "%" if self.kind.relative else self.kind.unit
+
+    @property
+    def finding(self) -> str:
+        """What the wheelset does that its neighbours do not; empty where nothing stands out."""
+        if self.difference.low > self.limit:
+            return self.kind.more
+        return self.kind.less if self.difference.high < -self.limit else ""
+
+    @property
+    def showing(self) -> list[str]:
+        """The stops in which the difference lies beyond the limit, the farthest first."""
+        sign = math.copysign(1.0, self.difference.value)
+        beyond = {name: sign * value for name, value in self.stops.items() if sign * value > self.limit}
+        return sorted(beyond, key=lambda name: -beyond[name])
+
+
+def neighbour_differences(signs: Signs) -> list[NeighbourDifference]:
+    """Return the differences of every sign and wheelset that some stop shows."""
+    return [each for sign in service_log.SIGNS for n in _WHEELSETS for each in _differences(signs, sign, n)]
+
+
+def _differences(signs: Signs, sign: str, wheelset: int) -> Iterator[NeighbourDifference]:
+    relative = service_log.SIGNS[sign].relative
+    known: dict[str, tuple[float, float]] = {}
+    for stop in signs:
+        numbers = stop.numbers[sign]
+        others = [numbers[n - 1] for n in _WHEELSETS if n != wheelset and math.isfinite(numbers[n - 1])]
+        if len(others) >= _FEWEST_OTHERS and math.isfinite(numbers[wheelset - 1]):
+            known[stop.stop] = numbers[wheelset - 1], median(others)
+    known = {name: pair for name, pair in known.items() if pair[1] or not relative}
+    if known:
+        values = {
+            name: 100.0 * (own / other - 1.0) if relative else own - other
+            for name, (own, other) in known.items()
+        }
+        own, others_ = (median(side) for side in zip(*known.values(), strict=True))
+        estimate = median_of(list(values.values()), _CONFIDENCE)
+        yield NeighbourDifference(sign, wheelset, own, others_, estimate, values)
+
+
+_FINDINGS: Final = (
+    report.CampaignColumn("wheelset", "wheelset", 0),
+    report.CampaignColumn("finding", "finding"),
+    report.CampaignColumn("measure", "by", wraps=True),
+    report.CampaignColumn("own", "it"),
+    report.CampaignColumn("neighbours", "neighbours"),
+    report.CampaignColumn("difference", "difference,\n95 % interval"),
+    report.CampaignColumn("shown_in", "shown in"),
+    report.CampaignColumn(report.STOPS, "stops", wraps=True),
+)
+
+
+def findings_table(signs: Signs, differences: Sequence[NeighbourDifference]) -> report.CampaignTable:
+    """Return what stands out: components of a wheelset that answer late, weakly, wrongly or never."""
+    rows = [*_from_differences(differences), *_from_valves(signs), *_from_defects(signs)]
+    return report.CampaignTable(
+        "findings",
+        "Wheelsets that stand out",
+        "Against the middle one of the others in the same stops: the whole interval of the median lies"
+        " beyond a chosen limit. Valves that never vent and defects of the record: stop by stop.",
+        "first",
+        _FINDINGS,
+        tuple(sorted(rows, key=lambda row: int(row[0] or 0))),
+    )
+
+
+def _from_differences(differences: Sequence[NeighbourDifference]) -> Iterator[tuple[Cell, ...]]:
+    for each in differences:
+        if each.finding:
+            kind, digits = each.kind, each.kind.digits
+            unit = "" if kind.unit == "1" else f" {kind.unit}"
+            shown = each.difference
+            places = 1 if kind.relative else digits
+            interval = f"{shown.low:+.{places}f} to {shown.high:+.{places}f}"
+            yield (
+                each.wheelset,
+                each.finding,
+                kind.meaning,
+                f"{each.own:.{digits}f}{unit}",
+                f"{each.others:.{digits}f}{unit}",
+                f"{shown.value:+.{places}f} {each.unit} ({interval})",
+                f"{len(each.showing)} of {shown.stops} stops",
+                named(each.showing),
+            )
+
+
+def _from_valves(signs: Signs) -> Iterator[tuple[Cell, ...]]:
+    for n in _WHEELSETS:
+        asked = {stop.stop: (stop.unanswered[n - 1], stop.vents[n - 1]) for stop in signs}
+        asked = {name: pair for name, pair in asked.items() if pair[1] >= _FEWEST_VENTS}
+        silent = [name for name, (without, vents) in asked.items() if without >= _UNANSWERED * vents]
+        if silent:
+            without, vents = (sum(asked[name][k] for name in silent) for k in (0, 1))
+            own = f"{without} of {vents} vents without an answer"
+            shown = f"{len(silent)} of {len(asked)} stops"
+            yield n, "does not vent", "fall of the pressure in a vent", own, "", "", shown, named(silent)
+
+
+def _from_defects(signs: Signs) -> Iterator[tuple[Cell, ...]]:
+    for n in _WHEELSETS:
+        by_kind: dict[str, list[str]] = {}
+        first: dict[str, str] = {}
+        for stop in signs:
+            for defect in stop.defects[n - 1]:
+                kind, _, text = defect.partition(" ")
+                channel, _, what = text.partition(" ")
+                by_kind.setdefault(f"{kind} {channel}", []).append(stop.stop)
+                first.setdefault(f"{kind} {channel}", what)
+        for kind, stops in by_kind.items():
+            shown = f"{len(stops)} of {len(signs)} stops"
+            yield n, kind, "defect of the record", f"{first[kind]} ({stops[0]})", "", "", shown, named(stops)
+
+
+def named(stops: Sequence[str]) -> str:
+    """Return the names of stops for a cell; of many the first."""
+    more = len(stops) - _NAMED
+    return ", ".join(stops[:_NAMED]) + (f" and {more} more" if more > 0 else "")
+
+
+_COMPARED: Final = (
+    report.CampaignColumn("measure", "number"),
+    report.CampaignColumn("wheelset", "wheelset", 0),
+    report.CampaignColumn("own", "it", 3),
+    report.CampaignColumn("neighbours", "neighbours", 3),
+    report.CampaignColumn("unit", "unit"),
+    report.CampaignColumn("difference", "difference", 3),
+    report.CampaignColumn("low", "from", 3),
+    report.CampaignColumn("high", "to", 3),
+    report.CampaignColumn("difference_unit", "of it"),
+    report.CampaignColumn("limit", "limit", 3),
+    report.CampaignColumn("stops_compared", "stops", 0),
+)
+
+
+def compared_table(differences: Sequence[NeighbourDifference]) -> report.CampaignTable:
+    """Return every difference between a wheelset and its neighbours, with its interval."""
+    number = report.number_cell
+    return report.CampaignTable(
+        "wheelsets",
+        "Wheelsets beside their neighbours",
+        "Median over stops of the difference from the middle one of the others; interval by order statistics,"
+        f" 95 % for the four wheelsets of a number together, from {FEWEST} stops on. Limits are chosen.",
+        "detail",
+        _COMPARED,
+        tuple(
+            (
+                *(each.kind.meaning, each.wheelset, number(each.own), number(each.others), each.kind.unit),
+                *(
+                    number(value)
+                    for value in (each.difference.value, each.difference.low, each.difference.high)
+                ),
+                *(each.unit, each.limit, each.difference.stops),
+            )
+            for each in differences
+        ),
+    )

@@ -1,0 +1,136 @@
+"""What the stops of a log show together: tables of data, which every format of a report renders."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final, Literal, NamedTuple
+
+from pydantic import ConfigDict, TypeAdapter
+
+from uictest.core.document import Cell, Column, Data, Lines, Table
+from uictest.judging import evaluation
+
+Place = Literal["first", "map", "detail"]
+"""Where a table stands: first, before the stops; as a map behind that; behind the stops."""
+STOPS: Final = "stops"
+"""Key of the column that names stops, separated by commas."""
+_MOST: Final = 30
+"""Rows of a table that a reader of a summary is given."""
+
+
+class CampaignColumn(NamedTuple):
+    """A column: its key for programs, its heading for people, and how many digits of its numbers they see.
+
+    `digits` is None for a column of texts; long ones wrap.
+    """
+
+    key: str
+    heading: str
+    digits: int | None = None
+    wraps: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class CampaignTable:
+    """A table over the stops of a log.
+
+    Args:
+        name: of its file and its sheet.
+        title: what it shows.
+        basis: what it rests on, in one sentence.
+        place: where it stands.
+        columns: of the rows.
+        rows: a cell for each column; None where there is none.
+    """
+
+    name: str
+    title: str
+    basis: str
+    place: Place
+    columns: tuple[CampaignColumn, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+
+    @property
+    def data(self) -> Data:
+        """The table for programs."""
+        keys = [column.key for column in self.columns]
+        return Data(keys, [dict(zip(keys, row, strict=True)) for row in self.rows])
+
+    def document(self) -> Table:
+        """Return the table for people."""
+        columns = [_column(each, number) for number, each in enumerate(self.columns)]
+        more = f"more rows are in `{file_name(self)}.csv`."
+        return Table(columns, self.rows, self.title, self.basis, more, most=_MOST)
+
+
+def _column(column: CampaignColumn, number: int) -> Column[Sequence[Cell]]:
+    return Column(
+        heading=column.heading,
+        text=_text_of(number, column.digits),
+        rank=number,
+        right=column.digits is not None,
+        wraps=column.wraps,
+    )
+
+
+def _text_of(number: int, digits: int | None) -> Callable[[Sequence[Cell]], str]:
+    def text(row: Sequence[Cell]) -> str:
+        cell = row[number]
+        if cell is None or digits is None or isinstance(cell, str):
+            return "" if cell is None else str(cell)
+        return f"{cell:.{digits}f}"
+
+    return text
+
+
+@dataclass(frozen=True, slots=True)
+class Campaign:
+    """What the stops of a log show together: in sentences, and in tables."""
+
+    sentences: tuple[str, ...] = ()
+    tables: tuple[CampaignTable, ...] = ()
+
+    def at(self, place: Place) -> list[CampaignTable]:
+        """Return the tables that stand at a place and have rows."""
+        return [table for table in self.tables if table.place == place and table.rows]
+
+    @property
+    def sections(self) -> list[Table | Lines]:
+        """The sections of a summary."""
+        lines = [Lines(self.sentences, "All stops together")] if self.sentences else []
+        return [*lines, *(table.document() for place in _PLACES for table in self.at(place))]
+
+
+_PLACES: Final[tuple[Place, ...]] = ("first", "map", "detail")
+
+
+def file_name(table: CampaignTable) -> str:
+    """Return the name of the file of a table, without `.csv`."""
+    return f"campaign_{table.name}"
+
+
+def campaign_data(campaign: Campaign | None) -> dict[str, Data]:
+    """Return the tables for programs that have rows, by the names of their files."""
+    return {file_name(each): each.data for each in campaign.tables if each.rows} if campaign else {}
+
+
+def number_cell(value: float) -> float | None:
+    """Return a number as a cell, None for NaN."""
+    return None if math.isnan(value) else float(value)
+
+
+_FORM: Final = TypeAdapter(tuple[Campaign, ...], config=ConfigDict(extra="forbid", defer_build=True))
+
+
+def campaign_form(campaign: Campaign) -> dict[str, Any]:
+    """Return the JSON form of a campaign."""
+    form: dict[str, Any] = evaluation.to_json_form(_FORM, (campaign,))[0]
+    return form
+
+
+def read_campaign(document: Mapping[str, Any]) -> Campaign | None:
+    """Return the campaign of a document, None without one. Raises ValueError where it is none."""
+    content = document.get("campaign")
+    return evaluation.from_json_form(_FORM, [content], place="campaign")[0] if content else None

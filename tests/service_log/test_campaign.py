@@ -1,0 +1,126 @@
+"""What a log of a night shows of wheelsets and rail: defects are told, and a sound train tells nothing."""
+
+import csv
+import json
+import re
+from zipfile import ZipFile
+
+import pytest
+
+from tests.service_log import logs
+from uictest.cli.entry import execute
+
+SOUND = {"wheelset", "finding"}
+
+
+def judged(folder, stops, *arguments, forces=True):
+    """Run `uictest log` over a log of stops, and return the folder of the run."""
+    logs.write_log(stops, folder / "night.parquet", forces=forces)
+    (folder / "night.yaml").write_text(logs.CONDITIONS, "utf-8")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        code = execute(["log", "night.parquet", "--scenario", "night.yaml", "-q", *arguments])
+    assert code in (0, 1)
+    return next(folder.glob("reports/2*"))
+
+
+def rows(run, name):
+    path = run / f"campaign_{name}.csv"
+    return list(csv.DictReader(path.read_text("utf-8").splitlines())) if path.is_file() else []
+
+
+def told(run):
+    return {(row["wheelset"], row["finding"]) for row in rows(run, "findings")}
+
+
+@pytest.fixture(name="sound", scope="module")
+def _sound(tmp_path_factory):
+    return judged(tmp_path_factory.mktemp("sound"), logs.night(1))
+
+
+@pytest.fixture(name="defective", scope="module")
+def _defective(tmp_path_factory):
+    """Wheelset 1 fills through a third, 2 is 1.2 % smaller, 3 has no exhaust, 4 has a slow valve."""
+    settings = logs.own(2, wheel_radius="0.4248 m") | logs.faults(
+        (1, "fill-valve", "blocked", "70 %"),
+        (3, "vent-valve", "stuck-closed", ""),
+        (4, "wsp-valve", "slow", "150 ms"),
+    )
+    return judged(tmp_path_factory.mktemp("defective"), logs.night(2, settings=settings))
+
+
+def test_a_sound_train_tells_nothing(sound):
+    assert told(sound) == set()
+    assert "no wheelset stands out" in (sound / "index.html").read_text("utf-8")
+
+
+def test_each_defect_is_told_with_its_wheelset(defective):
+    findings = told(defective)
+    assert {
+        ("2", "reads fast: small wheel or sensor"),
+        ("3", "does not vent"),
+        ("4", "vents late"),
+    } <= findings
+    assert ("1", "brakes late") in findings
+    beyond = {wheelset for wheelset, finding in findings if "slides" not in finding}
+    assert beyond == {"1", "2", "3", "4"}
+    assert ("1", "vents late") not in findings
+    assert ("2", "vents late") not in findings
+
+
+def test_a_small_wheel_reads_fast_by_what_its_radius_lacks(defective):
+    (row,) = [each for each in rows(defective, "findings") if each["finding"].startswith("reads fast")]
+    low, high = map(float, re.search(r"\((\S+) to (\S+)\)", row["difference"]).groups())
+    assert low <= 100.0 * (0.43 / 0.4248 - 1.0) <= high + 0.05
+
+
+def test_the_stops_that_show_a_finding_are_named_and_linked(defective):
+    (row,) = [each for each in rows(defective, "findings") if each["finding"] == "does not vent"]
+    names = re.findall(r"stop-\d+", row["stops"])
+    assert names
+    assert all(int(name.removeprefix("stop-")) > 3 for name in names), "dry stops have no vents"
+    page = (defective / "index.html").read_text("utf-8")
+    assert f'">{names[0]}</a>' in page
+
+
+def test_the_friction_of_every_slippery_stop_is_that_of_its_rail(tmp_path):
+    stops = [logs.simulated(logs.wet(mu), 80.0, k) for k, mu in enumerate((0.075, 0.09, 0.11))]
+    run = judged(tmp_path, [logs.simulated(logs.DRY, 80.0, 9), *stops])
+    first, *others = rows(run, "friction")
+    assert first["standing"] == "at least"
+    assert float(first["friction"]) < 0.3
+    for row, truth in zip(others, (0.075, 0.09, 0.11), strict=True):
+        assert row["standing"] == "found"
+        assert float(row["friction"]) == pytest.approx(truth, rel=0.02)
+
+
+def test_adhesion_is_not_seen_where_the_brake_never_reached_the_limit(tmp_path):
+    run = judged(tmp_path, [logs.simulated(logs.DRY, 80.0, k) for k in (1, 2)])
+    seen = rows(run, "adhesion_by_speed")
+    assert seen
+    assert {row["median"] for row in seen} == {"not seen"}
+    assert {row["windows"] for row in seen} == {"0"}
+
+
+def test_the_adhesion_that_is_seen_lies_below_the_friction(sound):
+    largest = max(float(row["friction"]) for row in rows(sound, "friction") if row["standing"] == "found")
+    medians = [float(row["median"]) for row in rows(sound, "adhesion_by_speed") if row["windows"] != "0"]
+    assert medians
+    assert 0.0 < min(medians) <= max(medians) < largest
+
+
+def test_without_forces_only_the_mean_of_all_wheelsets_is_seen(tmp_path):
+    run = judged(tmp_path, [logs.simulated(logs.wet(0.08), 80.0, 3)], forces=False)
+    assert {row["wheelset"] for row in rows(run, "adhesion_by_speed")} == {"0"}
+
+
+def test_every_format_has_the_campaign(defective, monkeypatch):
+    results = json.loads((defective / "results.json").read_text("utf-8"))
+    names = {table["name"] for table in results["campaign"]["tables"]}
+    assert {"findings", "wheelsets", "adhesion_by_speed", "friction"} <= names
+    (defective / "index.html").unlink()
+    assert execute(["report", str(defective), "--format", "html,md,xlsx"]) == 0
+    for name in ("index.html", "summary.md"):
+        assert "does not vent" in (defective / name).read_text("utf-8")
+    with ZipFile(defective / "report.xlsx") as book:
+        assert "findings" in book.read("xl/workbook.xml").decode()
