@@ -7,14 +7,15 @@ import pytest
 
 from uictest.core.lanes import translate
 from uictest.plans.scenario import load
-from uictest.rig import coupled_cars
+from uictest.rig import train_inputs
 from uictest.rig.backends.compiled import with_controllers
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.coupled_cars import Coupling, run_coupled
+from uictest.rig.coupled_cars import run_coupled
 from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.couplers import coupler_energy
 from uictest.rig.model.train import run_train
 from uictest.rig.single_stop import run_to_end
+from uictest.rig.train_inputs import Coupling
 
 COUPLED = Coupling(distance=26.4)
 LOOSE = Coupling(distance=26.4, stiffness=0.0, damping=0.0)
@@ -46,7 +47,7 @@ def test_cars_that_nothing_couples_stop_as_each_alone(rig):
 
 
 def test_two_equal_cars_with_equal_noise_stop_as_one_and_do_not_pull(rig, monkeypatch):
-    monkeypatch.setattr(coupled_cars, "_KEY_STEP", 0)
+    monkeypatch.setattr(train_inputs, "_KEY_STEP", 0)
     train = run_coupled([rig.case(*WET)] * 2, COUPLED)
     assert bits(train.cars[0]) == bits(train.cars[1]) == bits(rig.stop(*WET))
     assert train.couplers["largest_pull"][0] == train.couplers["largest_push"][0] == 0.0

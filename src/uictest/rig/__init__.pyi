@@ -24,7 +24,8 @@ from .backends.stepped import (
     SteppedStop as SteppedStop,
     stepping_code as stepping_code,
 )
-from .coupled_cars import Coupling as Coupling, TrainStop as TrainStop, run_coupled as run_coupled
+from .backends.train_lanes import TrainMeasures as TrainMeasures, run_trains_in_lanes as run_trains_in_lanes
+from .coupled_cars import TrainStop as TrainStop, run_coupled as run_coupled
 from .derived_parameters import Assignment as Assignment
 from .derived_wheelset_parameters import WHEELSET_ASSIGNMENTS as WHEELSET_ASSIGNMENTS
 from .external.block import (
@@ -55,3 +56,4 @@ from .simulation import (
     simulate as simulate,
 )
 from .single_stop import StopInputs as StopInputs, noise_key_text as noise_key_text, noise_keys as noise_keys
+from .train_inputs import Coupling as Coupling, TrainInputs as TrainInputs, assemble_train as assemble_train

@@ -35,7 +35,7 @@ from uictest.rig.model.stop_measures import (
 )
 from uictest.rig.model.traction import hold_speed
 
-_IDLE = -1
+IDLE = -1
 """Number of a lane's case when it has none."""
 
 
@@ -45,6 +45,16 @@ class RigRecords(NamedTuple):
     car: Any
     bogies: Any
     wheelsets: Any
+
+
+class Needs(NamedTuple):
+    """What the steps of a controller cycle have to do for any lane: how many there are, and what else."""
+
+    steps: int
+    follows_air: bool
+    warms_discs: bool
+    leaks: bool
+    brakes_dynamically: bool
 
 
 class Lanes(NamedTuple):
@@ -82,13 +92,13 @@ def run_queue(lanes: Lanes, blank: RigRecords, cases: Cases, queue: Any, running
     started = 0
     for k in range(running.size):
         # A lane for which no case is left steps this one: its numbers stay those of a stop.
-        _set_to_start(lanes, blank, cases, queue[0], k)
+        set_to_start(lanes, blank, cases, queue[0], k)
         started = _start_next_case(lanes, blank, cases, queue, running, memories, started, k)
     ended = 0
     while ended < queue.size:
         _run_cycle(lanes, cases, running, memories)
         for k in range(running.size):
-            if running[k] != _IDLE and _finish_if_stopped(lanes, cases, running[k], k):
+            if running[k] != IDLE and finish_if_stopped(lanes, cases, running[k], k):
                 ended += 1
                 started = _start_next_case(lanes, blank, cases, queue, running, memories, started, k)
 
@@ -105,18 +115,22 @@ def _start_next_case(
 ) -> int:
     """Start the next case in lane ``k``, or leave it idle when none waits; return how many have started."""
     if started == queue.size:
-        running[k] = _IDLE
+        running[k] = IDLE
         return started
-    case = queue[started]
-    running[k] = case
-    _set_to_start(lanes, blank, cases, case, k)
-    begin_tables(cases.measures[case], cases.wheelset_measures[case])
-    if cases.parameters[case].cleans_rail > 0.0:
-        forget_rail(memories[k], cases.parameters[case])
+    running[k] = queue[started]
+    begin_case(lanes, blank, cases, queue[started], memories, k)
     return started + 1
 
 
-def _set_to_start(lanes: Lanes, blank: RigRecords, cases: Cases, case: int, k: int) -> None:
+def begin_case(lanes: Lanes, blank: RigRecords, cases: Cases, case: int, memories: Any, k: int) -> None:
+    """Begin the stop of a case in lane ``k``."""
+    set_to_start(lanes, blank, cases, case, k)
+    begin_tables(cases.measures[case], cases.wheelset_measures[case])
+    if cases.parameters[case].cleans_rail > 0.0:
+        forget_rail(memories[k], cases.parameters[case])
+
+
+def set_to_start(lanes: Lanes, blank: RigRecords, cases: Cases, case: int, k: int) -> None:
     """Set lane ``k`` to the instant of the brake command of a case."""
     p, rig = cases.parameters[case], lanes.rig
     car, bogies, wheelsets = lane(rig.car, k), lane(rig.bogies, k), lane(rig.wheelsets, k)
@@ -131,10 +145,17 @@ def _set_to_start(lanes: Lanes, blank: RigRecords, cases: Cases, case: int, k: i
 
 
 def _run_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> None:
-    """Step all lanes through a controller cycle; idle lanes skip their controller."""
+    """Step all lanes through a controller cycle."""
+    needs = begin_cycle(lanes, cases, running, memories)
+    for _ in range(needs.steps):
+        advance(lanes, needs)
+    end_cycle(lanes, needs)
+
+
+def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Needs:
+    """Do what comes before the steps of a controller cycle; idle lanes skip their controller."""
     rig = lanes.rig
-    car, bogies, wheelsets = vectors(rig.car), vectors(rig.bogies), vectors(rig.wheelsets)
-    settings = vectors(lanes.settings)
+    car, wheelsets, settings = vectors(rig.car), vectors(rig.wheelsets), vectors(lanes.settings)
     steps = 0
     follows_air = False
     warms_discs = False
@@ -146,7 +167,7 @@ def _run_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> None:
         read_pole_wheels(car, wheelsets, settings)
     for k in range(running.size):
         case = running[k]
-        if case != _IDLE:
+        if case != IDLE:
             p = cases.parameters[case]
             start_cycle(lane(rig.car, k), lane(rig.wheelsets, k), p, cases.rail[case])
             if p.cleans_rail > 0.0:
@@ -169,15 +190,27 @@ def _run_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> None:
     if brakes_dynamically:
         _demand_dynamic_brakes(lanes, cases, running)
     _limit_valves(lanes, cases, running)
-    for _ in range(steps):
-        if follows_air:
-            follow_module_air(car, wheelsets, settings)
-        if leaks:
-            let_air_leak(car, wheelsets, settings)
-        if brakes_dynamically:
-            brake_dynamically(wheelsets, settings)
-        step(car, bogies, wheelsets, settings)
-    if warms_discs:
+    return Needs(steps, follows_air, warms_discs, leaks, brakes_dynamically)
+
+
+def advance(lanes: Lanes, needs: Needs) -> None:
+    """Make one step."""
+    rig = lanes.rig
+    car, bogies, wheelsets = vectors(rig.car), vectors(rig.bogies), vectors(rig.wheelsets)
+    settings = vectors(lanes.settings)
+    if needs.follows_air:
+        follow_module_air(car, wheelsets, settings)
+    if needs.leaks:
+        let_air_leak(car, wheelsets, settings)
+    if needs.brakes_dynamically:
+        brake_dynamically(wheelsets, settings)
+    step(car, bogies, wheelsets, settings)
+
+
+def end_cycle(lanes: Lanes, needs: Needs) -> None:
+    """Do what comes after the steps of a controller cycle: warm the discs, feed the measures."""
+    car, wheelsets, settings = vectors(lanes.rig.car), vectors(lanes.rig.wheelsets), vectors(lanes.settings)
+    if needs.warms_discs:
         warm_discs(wheelsets, settings)
     observe_cycle(car, wheelsets, vectors(lanes.measures), vectors(lanes.wheelset_measures), settings)
 
@@ -186,7 +219,7 @@ def _update_faults(lanes: Lanes, cases: Cases, running: Any) -> None:
     """Decide lane by lane which faults are active."""
     for k in range(running.size):
         case = running[k]
-        if case != _IDLE and cases.parameters[case].fault_count > 0:
+        if case != IDLE and cases.parameters[case].fault_count > 0:
             car, wheelsets = lane(lanes.rig.car, k), lane(lanes.rig.wheelsets, k)
             update_faults(car, wheelsets, cases.parameters[case], cases.wheelset_parameters[case])
 
@@ -195,7 +228,7 @@ def _demand_dynamic_brakes(lanes: Lanes, cases: Cases, running: Any) -> None:
     """Divide lane by lane the force between both brakes."""
     for k in range(running.size):
         case = running[k]
-        if case != _IDLE and cases.parameters[case].has_dynamic_brake > 0.0:
+        if case != IDLE and cases.parameters[case].has_dynamic_brake > 0.0:
             car, wheelsets = lane(lanes.rig.car, k), lane(lanes.rig.wheelsets, k)
             demand_dynamic_brake(car, wheelsets, cases.parameters[case])
 
@@ -204,7 +237,7 @@ def _limit_valves(lanes: Lanes, cases: Cases, running: Any) -> None:
     """Limit lane by lane the valves that are faulty."""
     for k in range(running.size):
         case = running[k]
-        if case != _IDLE and cases.parameters[case].fault_count > 0:
+        if case != IDLE and cases.parameters[case].fault_count > 0:
             limit_valves(lane(lanes.rig.car, k), lane(lanes.rig.wheelsets, k), cases.parameters[case])
 
 
@@ -212,12 +245,12 @@ def _any_pole_wheel(cases: Cases, running: Any) -> bool:
     """Whether the case of any lane has a sensor that the pole wheels are read for."""
     found = False
     for k in range(running.size):
-        if running[k] != _IDLE:
+        if running[k] != IDLE:
             found = found or cases.parameters[running[k]].uses_pole_wheels > 0.0
     return found
 
 
-def _finish_if_stopped(lanes: Lanes, cases: Cases, case: int, k: int) -> bool:
+def finish_if_stopped(lanes: Lanes, cases: Cases, case: int, k: int) -> bool:
     """Keep the tables after a cycle of lane ``k``; complete the measures and return True after the last."""
     p, rig = cases.parameters[case], lanes.rig
     measures, wheelset_measures = cases.measures[case], cases.wheelset_measures[case]

@@ -32,9 +32,9 @@ from uictest.rig.model.step import step
 from uictest.rig.model.stop_measures import observe_cycle
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
-_RIG = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
+RIG = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
 """Records of one rig and how many there are."""
-_BLOCKS = (*_RIG, (PARAMETERS, 1), (STOP_MEASURES, 1), (WHEELSET_MEASURES, 4))
+BLOCKS = (*RIG, (PARAMETERS, 1), (STOP_MEASURES, 1), (WHEELSET_MEASURES, 4))
 """Records that each lane has."""
 _BRAKED_ADHESION, _LEAST_ADHESION = 0.12, 0.01
 """What full service uses of a better rail, and the least that a rail is taken to have; chosen."""
@@ -106,8 +106,8 @@ def _run_queue(
     queue: NDArray[np.int64],
     width: int,
 ) -> None:
-    blocks = [block(layout, width, number) for layout, number in _BLOCKS]
-    blank = [np.zeros(number, layout) for layout, number in _RIG]
+    blocks = [block(layout, width, number) for layout, number in BLOCKS]
+    blank = [np.zeros(number, layout) for layout, number in RIG]
     allocated = (*blocks, *blank, *batch, queue, np.empty(width, np.int64), np.empty(width, RAIL_MEMORY))
     count, points = parameters.size, rail.shape[-1]
     arguments = (
@@ -134,8 +134,10 @@ def _name(width: int) -> str:
 
 def _entries(width: int) -> Entries:
     """Return the loop over a queue of cases, as a function of addresses and of what lies there."""
+    from uictest.rig.backends.lane_stops import Cases, Lanes, RigRecords, run_queue  # loads numba
+
     carray = compiler().carray
-    lanes, rig, all_cases, run_queue = _translated()
+    run = translated_for_lanes(run_queue)
 
     def on_addresses(
         parameters: Any,
@@ -159,15 +161,15 @@ def _entries(width: int) -> Entries:
         points: int,
         queued: int,
     ) -> int:
-        run_queue(
-            lanes(
-                rig(carray(cars, 1), carray(bogies, 2), carray(wheelsets, 4)),
+        run(
+            Lanes(
+                RigRecords(carray(cars, 1), carray(bogies, 2), carray(wheelsets, 4)),
                 carray(settings, 1),
                 carray(samples, 1),
                 carray(wheelset_samples, 4),
             ),
-            rig(carray(blank_car, 1), carray(blank_bogies, 2), carray(blank_wheelsets, 4)),
-            all_cases(
+            RigRecords(carray(blank_car, 1), carray(blank_bogies, 2), carray(blank_wheelsets, 4)),
+            Cases(
                 carray(parameters, count),
                 carray(wheelset_parameters, (count, 4)),
                 carray(rail, (count, ROWS, points)),
@@ -180,20 +182,19 @@ def _entries(width: int) -> Entries:
         )
         return 0
 
-    blocks = (block(layout, width).dtype for layout, _ in _BLOCKS)
-    records = (*(layout for layout, _ in _RIG), STOP_MEASURES, WHEELSET_MEASURES)
+    blocks = (block(layout, width).dtype for layout, _ in BLOCKS)
+    records = (*(layout for layout, _ in RIG), STOP_MEASURES, WHEELSET_MEASURES)
     inputs = PARAMETERS, WHEELSET_PARAMETERS, "f8"
     arguments = (*inputs, *blocks, *records, "i8", "i8", RAIL_MEMORY, int, int, int)
     return {_name(width): (on_addresses, arguments)}
 
 
-def _translated() -> tuple[Any, Any, Any, Any]:
-    """Return the types of lanes, of a rig and of cases, and the loop over a queue of cases.
+def translated_for_lanes(run: Function, *without_branches: Function) -> Any:
+    """Return a loop over a queue, translated.
 
-    Functions without branches are translated for all lanes at once, the others for one lane.
+    Functions without branches, those of a rig and ``without_branches``, are translated for all lanes at once,
+    the others for one lane.
     """
-    from uictest.rig.backends.lane_stops import Cases, Lanes, RigRecords, run_queue  # loads numba
-
     in_lanes: dict[Function, Any] = {
         **compiled_operations(),
         select: vector_functions.select,
@@ -202,7 +203,7 @@ def _translated() -> tuple[Any, Any, Any, Any]:
         sqrt: vector_functions.sqrt,
         floor: vector_functions.floor,
     }
-    without_branches = (
+    of_rig: tuple[Function, ...] = (
         read_sensors,
         read_pole_wheels,
         command_valves,
@@ -213,6 +214,8 @@ def _translated() -> tuple[Any, Any, Any, Any]:
         warm_discs,
         observe_cycle,
     )
-    wide = {function: translate(function, compile_inner, in_lanes) for function in without_branches}
+    wide = {
+        function: translate(function, compile_inner, in_lanes) for function in (*of_rig, *without_branches)
+    }
     scalar = with_controllers(CHOICES, compile_inner, compiled_operations())
-    return Lanes, RigRecords, Cases, translate(run_queue, compile_inner, {**scalar, **wide})
+    return translate(run, compile_inner, {**scalar, **wide})

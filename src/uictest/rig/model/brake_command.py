@@ -33,7 +33,8 @@ def follow_commands(car: Car, measures: StopMeasures, p: Parameters) -> None:
             car.dynamic_dropped = 0.0  # another application begins
         car.command_place = effective
         _begin_ramp(car, p)
-        measures.commanded_pressure = _NAN
+        if car.closed == 0.0:
+            measures.commanded_pressure = _NAN
 
 
 def _begin_ramp(car: Car, p: Parameters) -> None:

@@ -5,9 +5,7 @@ the cars does not matter. Work is that of the force with the mean of the speeds 
 the step. A coupler acts on the body at its height, so that it makes the cars pitch.
 """
 
-from collections.abc import Sequence
-
-from uictest.core.physics import longitudinal, suspension_force
+from uictest.core.physics import longitudinal, maximum, suspension_force
 from uictest.core.record import Record, layout_of
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car
@@ -31,39 +29,38 @@ COUPLER = layout_of(Coupler)
 """Layout of :class:`Coupler`."""
 
 
-def pull_cars(cars: Sequence[Car], parameters: Sequence[Parameters], couplers: Sequence[Coupler]) -> None:
-    """Set the coupler forces of all cars for a step; cars and parameters in the order of the train."""
-    for j in range(len(cars)):
-        cars[j].coupler_force = 0.0
-        cars[j].coupler_moment = 0.0
-    for j in range(len(couplers)):
-        coupler = couplers[j]
-        coupler.leading_speed = point_speed(cars[j], parameters[j], coupler)
-        coupler.trailing_speed = point_speed(cars[j + 1], parameters[j + 1], coupler)
-        stretch = _point_place(cars[j], parameters[j], coupler) - _point_place(
-            cars[j + 1], parameters[j + 1], coupler
-        )
-        rate = coupler.leading_speed - coupler.trailing_speed
-        coupler.force = suspension_force(coupler.stiffness, coupler.damping, stretch, rate)
-        coupler.largest_pull = max(coupler.largest_pull, coupler.force)
-        coupler.largest_push = max(coupler.largest_push, -coupler.force)
-        _load(cars[j], parameters[j], coupler, -coupler.force)
-        _load(cars[j + 1], parameters[j + 1], coupler, coupler.force)
+def release_couplers(car: Car) -> None:
+    """Clear the coupler forces on a car before they are summed for a step."""
+    car.coupler_force = 0.0
+    car.coupler_moment = 0.0
 
 
-def account_for_couplers(
-    cars: Sequence[Car], parameters: Sequence[Parameters], couplers: Sequence[Coupler]
+def pull_cars(
+    coupler: Coupler, leading: Car, leading_p: Parameters, trailing: Car, trailing_p: Parameters
 ) -> None:
-    """Add the work of the couplers in the step that has just been made."""
-    for j in range(len(couplers)):
-        coupler = couplers[j]
-        leading = 0.5 * (coupler.leading_speed + point_speed(cars[j], parameters[j], coupler))
-        trailing = 0.5 * (coupler.trailing_speed + point_speed(cars[j + 1], parameters[j + 1], coupler))
-        duration = parameters[j].step
-        cars[j].coupler_work -= duration * coupler.force * leading
-        cars[j + 1].coupler_work += duration * coupler.force * trailing
-        rate = coupler.leading_speed - coupler.trailing_speed
-        coupler.loss += duration * coupler.damping * rate * (leading - trailing)
+    """Add the force of a coupler to the cars before and behind it, for a step; in lanes, too."""
+    coupler.leading_speed = point_speed(leading, leading_p, coupler)
+    coupler.trailing_speed = point_speed(trailing, trailing_p, coupler)
+    stretch = _point_place(leading, leading_p, coupler) - _point_place(trailing, trailing_p, coupler)
+    rate = coupler.leading_speed - coupler.trailing_speed
+    coupler.force = suspension_force(coupler.stiffness, coupler.damping, stretch, rate)
+    coupler.largest_pull = maximum(coupler.force, coupler.largest_pull)
+    coupler.largest_push = maximum(-coupler.force, coupler.largest_push)
+    _load(leading, leading_p, coupler, -coupler.force)
+    _load(trailing, trailing_p, coupler, coupler.force)
+
+
+def account_for_coupler(
+    coupler: Coupler, leading: Car, leading_p: Parameters, trailing: Car, trailing_p: Parameters
+) -> None:
+    """Add the work of a coupler in the step that has just been made; in lanes, too."""
+    leading_mean = 0.5 * (coupler.leading_speed + point_speed(leading, leading_p, coupler))
+    trailing_mean = 0.5 * (coupler.trailing_speed + point_speed(trailing, trailing_p, coupler))
+    duration = leading_p.step
+    leading.coupler_work -= duration * coupler.force * leading_mean
+    trailing.coupler_work += duration * coupler.force * trailing_mean
+    rate = coupler.leading_speed - coupler.trailing_speed
+    coupler.loss += duration * coupler.damping * rate * (leading_mean - trailing_mean)
 
 
 def coupler_energy(

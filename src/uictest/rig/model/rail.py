@@ -50,9 +50,11 @@ class RailMemory(Record):
     """The rail between the wheelsets, and each wheelset's work on it so far."""
 
     position: float  # of the car when the rail was last written, m
+    passed: float  # of the car when it was written before that, m
     loss: Annotated[MutableSequence[float], _WHEELSETS]  # of each wheelset's contacts until then, J
     cleaned: Annotated[MutableSequence[float], _WHEELSETS]  # share that each wheelset itself has cleaned
     left: Annotated[MutableSequence[float], _WHEELSETS]  # share behind each wheelset then
+    passed_left: float  # share behind the last wheelset at ``passed``
     points: Annotated[MutableSequence[float], _RINGS]  # cleaned share before each wheelset, in rings
 
 
@@ -81,6 +83,8 @@ def clean_rail(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, memory: R
         memory: of the rail; it is written up to the present place of each wheelset.
     """
     distance = car.position - memory.position
+    memory.passed = memory.position
+    memory.passed_left = memory.left[_WHEELSETS - 1]
     for i in range(_WHEELSETS):
         wheelset = wheelsets[i]
         if distance > 0.0:
@@ -97,29 +101,18 @@ def clean_rail(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, memory: R
     memory.position = car.position
 
 
-def hand_rail_on(
-    car: Car,
-    last: Wheelset,
-    p: Parameters,
-    memory: RailMemory,
-    behind: RailMemory,
-    passed: float,
-    left: float,
-) -> None:
+def hand_rail_on(last: Wheelset, p: Parameters, memory: RailMemory, behind: RailMemory) -> None:
     """Write for the next car what the last wheelset of a car has left since the cycle before.
 
     Args:
-        car: car record, after :func:`clean_rail`.
-        last: its last wheelset.
-        p: its parameter record.
-        memory: of the rail under it.
+        last: the last wheelset.
+        p: parameter record of its car.
+        memory: of the rail under that car, after :func:`clean_rail`.
         behind: of the rail under the next car.
-        passed: position of the car in the cycle before, m.
-        left: share that the wheelset left there.
     """
-    start = (passed - last.behind) * p.rail_points_per_metre
-    place = (car.position - last.behind) * p.rail_points_per_metre
-    write_passed(behind, 0, start, place, left, memory.left[_WHEELSETS - 1])
+    start = (memory.passed - last.behind) * p.rail_points_per_metre
+    place = (memory.position - last.behind) * p.rail_points_per_metre
+    write_passed(behind, 0, start, place, memory.passed_left, memory.left[_WHEELSETS - 1])
 
 
 def set_creep_curve(wheelset: Wheelset, p: Parameters) -> None:

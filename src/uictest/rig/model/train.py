@@ -9,7 +9,8 @@ from typing import Any
 
 from uictest.core.measures import StopMeasures, WheelsetMeasures
 from uictest.rig.model.controller import decide
-from uictest.rig.model.couplers import Coupler, account_for_couplers, pull_cars
+from uictest.rig.model.couplers import Coupler, account_for_coupler, pull_cars, release_couplers
+from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail import RailMemory, hand_rail_on
 from uictest.rig.model.state import Bogie, Car, Wheelset
@@ -95,12 +96,10 @@ def _begin_cycle(
     memories: Sequence[RailMemory],
 ) -> None:
     """Begin a cycle of car ``j`` and leave to the next car the rail that its last wheelset has passed."""
-    passed = memories[j].position
-    left = memories[j].left[3]
     own = wheelsets[4 * j : 4 * j + 4]
     begin_cycle(cars[j], own, parameters[j], wheelset_parameters[4 * j : 4 * j + 4], rail, memories[j])
     if parameters[j].cleans_rail > 0.0 and j + 1 < len(cars):
-        hand_rail_on(cars[j], own[3], parameters[j], memories[j], memories[j + 1], passed, left)
+        hand_rail_on(own[3], parameters[j], memories[j], memories[j + 1])
 
 
 def _step_cycle(
@@ -120,10 +119,14 @@ def _step_cycle(
     if steps_per_sample > 0 and rows == 0:
         rows = _sample(cars, wheelsets, parameters, train_samples, wheelset_samples, rows)
     for _ in range(p.steps_per_cycle):
-        pull_cars(cars, parameters, couplers)
+        for j in range(len(cars)):
+            release_couplers(cars[j])
+        for j in range(len(couplers)):
+            pull_cars(couplers[j], cars[j], parameters[j], cars[j + 1], parameters[j + 1])
         for j in range(len(cars)):
             advance(cars[j], bogies[2 * j : 2 * j + 2], wheelsets[4 * j : 4 * j + 4], parameters[j])
-        account_for_couplers(cars, parameters, couplers)
+        for j in range(len(couplers)):
+            account_for_coupler(couplers[j], cars[j], parameters[j], cars[j + 1], parameters[j + 1])
         steps += 1
         if steps_per_sample > 0 and steps % steps_per_sample == 0:
             rows = _sample(cars, wheelsets, parameters, train_samples, wheelset_samples, rows)
@@ -159,9 +162,11 @@ def _observe(
     running = 0
     for j in range(len(cars)):
         car, p, of_stop = cars[j], parameters[j], measures[j]
-        if car.closed > 0.0:
-            continue
         own, of_wheelsets = wheelsets[4 * j : 4 * j + 4], wheelset_measures[4 * j : 4 * j + 4]
+        if car.closed > 0.0:
+            if p.models_disc_temperature > 0.0:
+                warm_discs(own, p)  # others may still push the car along
+            continue
         end_cycle(car, own, p, of_stop, of_wheelsets)
         if is_running(car, p):
             running += 1

@@ -1,0 +1,117 @@
+"""What the rig is given for a train: the inputs of its cars, and what they have because they are coupled."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.plans.scenario import Case
+from uictest.rig.assembly import assemble
+from uictest.rig.model.couplers import COUPLER
+from uictest.rig.model.rail import MARGIN, POINTS
+from uictest.rig.single_stop import StopInputs
+
+_SHARED: Final = ("step", "steps_per_cycle", "initial_speed", "seed", "cycles")
+"""What all cars of a train have in common."""
+_KEY_STEP: Final = 0x9E3779B1
+"""Between the noise keys of neighbours, so that equal cars differ in noise; the first keeps its own."""
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """How the cars of a train hang together.
+
+    Attributes:
+        distance: between the centres of neighbouring cars, m.
+        stiffness: of a coupler, N/m; 5 MN/m as in open data of an eight-car unit, second-hand.
+        damping: of a coupler, N s/m; 0.8 MN s/m likewise.
+        height: of a coupler above the rail, m; chosen, that of usual buffers.
+        pipe_speed: at which the brake command travels from car to car, m/s; infinite along a wire.
+    """
+
+    distance: float
+    stiffness: float = 5.0e6
+    damping: float = 0.8e6
+    height: float = 1.025
+    pipe_speed: float = float("inf")
+
+
+class TrainInputs(NamedTuple):
+    """What the rig is given for one stop of a train of n cars.
+
+    Attributes:
+        parameters: records of :data:`~uictest.rig.model.parameters.PARAMETERS`, shape (n,).
+        wheelset_parameters: of :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`, (n, 4).
+        distances: of each car's first wheelset behind that of the train, m, shape (n,).
+        couplers: records of :data:`~uictest.rig.model.couplers.COUPLER` before the stop, shape (n - 1,).
+        rail: friction of the rail, the rows of :mod:`~uictest.rig.model.rail`, shape (4, points).
+    """
+
+    parameters: NDArray[Any]
+    wheelset_parameters: NDArray[Any]
+    distances: NDArray[np.float64]
+    couplers: NDArray[Any]
+    rail: NDArray[np.float64]
+
+
+def assemble_train(cases: Sequence[Case], coupling: Coupling) -> TrainInputs:
+    """Return the inputs of a train.
+
+    Args:
+        cases: one for each car, from the leading one, all with the same rail.
+        coupling: between them.
+
+    Raises:
+        ValueError: where cars differ in what a train has only once, or a controller comes from outside.
+    """
+    inputs = [assemble(case) for case in cases]
+    _check(cases, inputs)
+    parameters = np.array([each.parameters for each in inputs])
+    distances = _distances(parameters, coupling)
+    _set_train(parameters, distances, coupling)
+    couplers = np.zeros(len(inputs) - 1, COUPLER)
+    for name in ("stiffness", "damping", "height"):
+        couplers[name] = getattr(coupling, name)
+    of_wheelsets = np.array([each.wheelset_parameters for each in inputs])
+    return TrainInputs(parameters, of_wheelsets, distances, couplers, np.ascontiguousarray(inputs[0].rail))
+
+
+def _check(cases: Sequence[Case], inputs: Sequence[StopInputs]) -> None:
+    if not inputs:
+        raise ValueError("a train has at least one car")
+    for number, case in enumerate(cases, start=1):
+        if case.scenario.rail != cases[0].scenario.rail:
+            raise ValueError(f"car {number}: its rail is not that of the first car")
+    for number, each in enumerate(inputs, start=1):
+        if each.program is not None:
+            raise ValueError(f"car {number}: its controller comes from outside; a train runs built-in ones")
+        for name in _SHARED:
+            found, expected = each.parameters[name], inputs[0].parameters[name]
+            if found != expected:
+                raise ValueError(f"car {number}: {name} is {found:g}, that of the first car is {expected:g}")
+
+
+def _distances(parameters: NDArray[Any], coupling: Coupling) -> NDArray[np.float64]:
+    """Return the distance of each car's first wheelset behind that of the train, m, shape (n,)."""
+    ahead = parameters["half_pivot_distance"] + parameters["half_wheelbase"]
+    distances: NDArray[np.float64] = coupling.distance * np.arange(len(parameters)) + ahead[0] - ahead
+    if np.any(np.diff(distances) <= 2.0 * ahead[:-1]):
+        raise ValueError("the wheelsets of neighbouring cars overlap: their distance is too small")
+    return distances
+
+
+def _set_train(parameters: NDArray[Any], distances: NDArray[np.float64], coupling: Coupling) -> None:
+    """Set what a car has because it runs in a train: grid of the rail, delay of the command, noise."""
+    between = (
+        np.diff(distances) - 2.0 * (parameters["half_pivot_distance"] + parameters["half_wheelbase"])[:-1]
+    )
+    finest = (POINTS - 2 * MARGIN) / between.max(initial=0.0) if between.size else np.inf
+    parameters["rail_points_per_metre"] = min(parameters["rail_points_per_metre"].min(), finest)
+    delays = coupling.distance * np.arange(len(parameters)) / coupling.pipe_speed
+    parameters["dead_time"] += delays
+    for name in ("command_times", "command_given"):
+        parameters[name] += delays[:, None]
+    keys = parameters["noise_key"] ^ (np.arange(len(parameters)) * _KEY_STEP & 0xFFFFFFFF)
+    parameters["noise_key"] = keys
