@@ -5,17 +5,16 @@ import json
 import re
 from zipfile import ZipFile
 
+import numpy as np
 import pytest
 
 from tests.service_log import logs
 from uictest.cli.entry import execute
 
-SOUND = {"wheelset", "finding"}
 
-
-def judged(folder, stops, *arguments, forces=True):
+def judged(folder, stops, *arguments, forces=True, begin=0.0):
     """Run `uictest log` over a log of stops, and return the folder of the run."""
-    logs.write_log(stops, folder / "night.parquet", forces=forces)
+    logs.write_log(stops, folder / "night.parquet", begin, forces)
     (folder / "night.yaml").write_text(logs.CONDITIONS, "utf-8")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
@@ -35,7 +34,8 @@ def told(run):
 
 @pytest.fixture(name="sound", scope="module")
 def _sound(tmp_path_factory):
-    return judged(tmp_path_factory.mktemp("sound"), logs.night(1))
+    dry = "stop-0001 or stop-0002 or stop-0003"
+    return judged(tmp_path_factory.mktemp("sound"), logs.night(1), "--dry", dry, begin=1.75e9)
 
 
 @pytest.fixture(name="defective", scope="module")
@@ -124,3 +124,38 @@ def test_every_format_has_the_campaign(defective, monkeypatch):
         assert "does not vent" in (defective / name).read_text("utf-8")
     with ZipFile(defective / "report.xlsx") as book:
         assert "findings" in book.read("xl/workbook.xml").decode()
+
+
+def test_stops_named_as_dry_are_judged_on_a_dry_rail_and_make_the_reference(sound):
+    results = json.loads((sound / "results.json").read_text("utf-8"))
+    rails = [each["settings"]["rail"] for each in results["subjects"].values()]
+    assert rails == ["dry"] * 3 + ["wet"] * 11
+    (dry,) = rows(sound, "dry_stops")
+    assert (dry["dry_stops"], dry["accepted"]) == ("3", "3 of 3")
+    wet = rows(sound, "wet_stops")
+    assert len(wet) == 11
+    assert all(float(row["extension_percent"]) > 0.0 for row in wet)
+
+
+def test_k_wet_is_that_of_the_stops(sound):
+    measures = {
+        case["id"]: case["measures"]
+        for case in json.loads((sound / "results.json").read_text("utf-8"))["cases"]
+    }
+    lengths = [measures[f"stop-{k:04d}"]["deceleration_distance_m"] for k in range(1, 15)]
+    increase = 100.0 * (np.mean(lengths[3:]) / np.mean(lengths[:3]) - 1.0)
+    (row,) = [each for each in rows(sound, "wet_series") if each["measure"] == "k_wet"]
+    assert float(row["value"]) == pytest.approx(100.0 / (100.0 + increase), rel=1e-9)
+    assert float(row["low"]) < float(row["value"]) < float(row["high"])
+
+
+def test_a_log_with_dates_has_its_drift_per_day(sound):
+    assert {row["unit"] for row in rows(sound, "drift")} == {"% per day"}
+
+
+def test_a_selection_of_dry_stops_that_is_empty_is_refused(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    logs.write_log([logs.simulated(logs.DRY, 40.0, 1)], tmp_path / "night.parquet")
+    (tmp_path / "night.yaml").write_text(logs.CONDITIONS, "utf-8")
+    assert execute(["log", "night.parquet", "--scenario", "night.yaml", "--dry", "stop-0007"]) == 4
+    assert "stop-0007: selects no stop" in capsys.readouterr().err

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Final
 
 from uictest import report
+from uictest.analysis.logged_stops.drift import drift_table, drifts
 from uictest.analysis.logged_stops.neighbours import (
     FEWEST,
     compared_table,
@@ -12,28 +15,45 @@ from uictest.analysis.logged_stops.neighbours import (
     neighbour_differences,
 )
 from uictest.analysis.logged_stops.rail_tables import rail_tables
+from uictest.analysis.logged_stops.stop_groups import (
+    LoggedStop,
+    dry_groups,
+    dry_table,
+    outliers_of,
+    series_table,
+    wet_series,
+    wet_table,
+)
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging.evaluation import CaseResult
+from uictest.judging.series import SeriesResult
 from uictest.plans.scenario import Case
 from uictest.recorded import field_data, service_log
+
+DRY: Final = "dry"
+"""Name of the condition of a dry rail."""
 
 
 class LogSurvey:
     """What the stops of a log show.
 
     Args:
+        times: of the brake commands by the name of the stop, s as recorded.
         vehicle_known: whether the conditions state vehicle and brake: without, nothing is said of the rail.
     """
 
-    def __init__(self, *, vehicle_known: bool) -> None:
+    def __init__(self, times: Mapping[str, float], *, vehicle_known: bool) -> None:
+        self._times = times
         self._vehicle_known = vehicle_known
         self._signs: list[service_log.WheelsetSigns] = []
         self._uses: list[service_log.RailUse] = []
-        self._speeds: dict[str, float] = {}
+        self._stops: list[LoggedStop] = []
 
     def add(self, case: Case, stop: field_data.RecordedStop, result: CaseResult) -> None:
         """Observe one judged stop."""
-        self._speeds[case.id] = float(stop.recording["speed"][0]) / KILOMETRE_PER_HOUR
+        speed = float(stop.recording["speed"][0]) / KILOMETRE_PER_HOUR
+        dry = case.scenario.rail.condition.name == DRY
+        self._stops.append(LoggedStop(result, speed, dry, self._times.get(case.id, math.nan), case))
         self._signs.append(service_log.wheelset_signs(stop, result, case.scenario))
         if self._vehicle_known:
             self._uses.append(service_log.rail_use(case.id, stop, case.scenario))
@@ -42,22 +62,60 @@ class LogSurvey:
         """Return what the stops observed show together; `results` are those of all."""
         differences = neighbour_differences(self._signs)
         findings = findings_table(self._signs, differences)
-        tables = (findings, *rail_tables(self._uses, results, self._speeds), compared_table(differences))
-        return report.Campaign(tuple(self._sentences(findings)), tables)
+        series = wet_series(self._stops)
+        friction = {use.stop: use.friction for use in self._uses if use.standing == "found"}
+        drifting = drift_table(drifts(self._stops, friction))
+        speeds = {stop.result.id: stop.speed for stop in self._stops}
+        return report.Campaign(
+            tuple(self._sentences(findings, series, drifting)),
+            (
+                findings,
+                dry_table(self._stops),
+                *rail_tables(self._uses, results, speeds),
+                *((series_table(series),) if series else ()),
+                wet_table(self._stops, series),
+                drifting,
+                compared_table(differences),
+            ),
+        )
 
-    def _sentences(self, findings: report.CampaignTable) -> list[str]:
+    def _sentences(
+        self,
+        findings: report.CampaignTable,
+        series: SeriesResult | None,
+        drifting: report.CampaignTable,
+    ) -> Iterator[str]:
         found = len(findings.rows)
-        sentences = [
+        yield (
             f"{report.counted(found, 'finding')} on wheelsets"
             if found
             else "no wheelset stands out from its neighbours"
-        ]
+        )
         if len(self._signs) < FEWEST:
-            sentences.append(
-                f"wheelsets are compared over {report.counted(len(self._signs), 'stop')}: {FEWEST} are needed"
-                " for an interval"
-            )
-        return [*sentences, self._rail_sentence()]
+            counted = report.counted(len(self._signs), "stop")
+            yield f"wheelsets are compared over {counted}: {FEWEST} are needed for an interval"
+        yield from self._group_sentences(series)
+        yield self._rail_sentence()
+        for row in drifting.data.rows:
+            if row["finding"] == "drifts":
+                yield f"{row['quantity']}: {row['change']:+.1f} % from the first stop to the last"
+
+    def _group_sentences(self, series: SeriesResult | None) -> Iterator[str]:
+        groups = dry_groups(self._stops)
+        outliers = [name for group in groups.values() for name in outliers_of(group)]
+        if outliers:
+            yield f"dry stops beyond 15 % of their group's mean: {', '.join(outliers)}"
+        if series is None:
+            return
+        if not groups:
+            yield "no dry stop to compare wet stops with: say which are dry with --dry"
+            return
+        for speed in series.speeds:
+            value = speed.measures["k_wet"].estimate
+            if value is not None:
+                interval = f" ({value.low:.3f} to {value.high:.3f})" if value.stops > 1 else ""
+                wet = report.counted(speed.wet.counted, "wet stop")
+                yield f"K_wet from {speed.speed_kmh:g} km/h: {value.value:.3f}{interval}, {wet}"
 
     def _rail_sentence(self) -> str:
         if not self._vehicle_known:

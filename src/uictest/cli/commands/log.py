@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -14,6 +14,7 @@ import typer
 from uictest import report, runs
 from uictest.analysis import logged_stops
 from uictest.cli import options, recordings, run_display
+from uictest.cli.cases import malformed
 from uictest.cli.options import option, rejected
 from uictest.cli.output import ExitCode, data, message, of_run, terminal_width
 from uictest.core import files as file_system
@@ -31,6 +32,12 @@ StopsFolder = Annotated[Path, option("--recordings DIR", "Where every stop is wr
 ScenarioFile = Annotated[
     Path | None, option("--scenario FILE", "Scenario with the test conditions and the criteria.")
 ]
+DryStops = Annotated[
+    str | None,
+    option("--dry EXPR", "Stops on a dry rail, by name or file, as -k selects; the others are as stated."),
+]
+_ON_DRY_RAIL = ("rail.condition=dry", "rail.friction=null", "rail.cleaning=null")
+"""What is stated of these."""
 
 
 def log(
@@ -41,6 +48,7 @@ def log(
     to_speed: ToSpeed = "0 km/h",
     folder: StopsFolder = Path("stops"),
     scenario: ScenarioFile = None,
+    dry: DryStops = None,
     expression: options.Expression = None,
     overrides: options.Overrides = None,
     trusted: options.Trusted = None,
@@ -60,20 +68,26 @@ def log(
     mapped, inputs = recordings.channel_map(map_name, trusted, None)
     _require_many_triggers(map_name, mapped.preparation)
     settings = _settings(from_speed, to_speed, float(mapped.preparation.standstill_speed))
-    case = None if scenario is None else recordings.one_case(scenario, expression, overrides or (), trusted)
-    case_of = runs.case_of_stop(
-        case, overrides or (), trusted, lambda keys: " ".join(f"--set {key}=..." for key in keys)
-    )
+    stated = _case_of(scenario, expression, overrides or (), trusted)
     found, written = _stops(files, mapped, settings, folder)
     if not quiet:
         _write_events(found)
     if not written:
         message("uictest: no stop found")
         return ExitCode.NOTHING_SELECTED
+    named = {f"stop-{number:04d}": event for number, event in enumerate(found.stops, start=1)}
+    on_dry_rail = _dry_stops(dry, named)
+    of_dry = _case_of(scenario, expression, (*(overrides or ()), *_ON_DRY_RAIL), trusted)
+
+    def case_of(name: str, speed: float) -> scenarios.Case:
+        return of_dry(name, speed) if name in on_dry_rail else stated(name, speed)
+
     stops = runs.stops_in_recordings(written, _canonical(mapped), inputs, case_of, found=True)
     request = campaign.RecordingRequest("all")
     passed_over = [_sentence(event) for event in found.passed_over]
-    survey = logged_stops.LogSurvey(vehicle_known=_states_vehicle(case, overrides or ()))
+    times = {name: event.time for name, event in named.items()}
+    known = scenario is not None or _states_vehicle(overrides or ())
+    survey = logged_stops.LogSurvey(times, vehicle_known=known)
     batch = runs.recorded_batch(stops, context.obj, request, strict=strict, observe=survey.add)
     batch = batch._replace(passed_over=passed_over, together=survey.campaign)
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
@@ -104,10 +118,35 @@ def _show_together(together: report.Campaign | None) -> None:
             data(line)
 
 
-def _states_vehicle(case: scenarios.Case | None, overrides: Sequence[str]) -> bool:
-    return case is not None or any(
-        each.partition(".")[0].partition("=")[0] == "vehicle" for each in overrides
+def _states_vehicle(overrides: Sequence[str]) -> bool:
+    return any(each.partition("=")[0].strip().partition(".")[0] == "vehicle" for each in overrides)
+
+
+def _case_of(
+    scenario: Path | None,
+    expression: str | None,
+    overrides: Sequence[str],
+    trusted: Sequence[Path] | None,
+) -> runs.CaseOfStop:
+    """Return what makes the case of a stop. Raises as :func:`runs.case_of_stop`."""
+    case = None if scenario is None else recordings.one_case(scenario, expression, overrides, trusted)
+    return runs.case_of_stop(
+        case, overrides, trusted, lambda keys: " ".join(f"--set {key}=..." for key in keys)
     )
+
+
+def _dry_stops(expression: str | None, named: Mapping[str, service_log.LoggedEvent]) -> frozenset[str]:
+    """Return the names of the stops that `--dry` selects. Raises typer.BadParameter where it selects none."""
+    if expression is None:
+        return frozenset()
+    with malformed("--dry", expression):
+        selects = campaign.parse(expression)
+    chosen = frozenset(
+        name for name, event in named.items() if selects(campaign.mentioned_in((name, event.file.name)))
+    )
+    if not chosen:
+        raise typer.BadParameter(f"{expression}: selects no stop", param_hint="--dry")
+    return chosen
 
 
 def _settings(from_speed: str, to_speed: str, standstill: float) -> service_log.FinderSettings:

@@ -10,5 +10,6 @@ from .model import (
     PlannedStop as PlannedStop,
     Role as Role,
     Series as Series,
+    series_of as series_of,
     series_schema as series_schema,
 )

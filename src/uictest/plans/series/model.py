@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal, NamedTuple
@@ -219,3 +219,11 @@ class Series:
             for criterion in profile.criteria
             if criterion.scope == "series" or criterion.layer == "requirement"
         ]
+
+
+def series_of(name: str, stops: Sequence[PlannedStop]) -> Series:
+    """Return a series of stops that no file lists, dry ones first; defaults as in a file, no criteria."""
+    head = {"schema": "uictest/series/1", "name": name, "dry": [name], "wet": [name], "criteria": []}
+    file = SeriesFile.model_validate(head)
+    inputs = {path: digest for stop in stops for path, digest in stop.case.inputs.items()}
+    return Series(name, Path(name), file, {}, tuple(stops), inputs)

@@ -1,0 +1,269 @@
+"""Stops of a log in groups of one nominal speed: dry ones beside each other, wet ones beside the dry."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+from uictest import report
+from uictest.core.document import Cell
+from uictest.core.series_measures import (
+    SERIES_MEASURES,
+    CountedStop,
+    SpeedStops,
+    mean_of,
+    of_stop,
+    percent_of_dry,
+)
+from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.judging import series as judged_series
+from uictest.judging.evaluation import CaseResult
+from uictest.plans import series as series_plans
+from uictest.plans.scenario import Case, yaml
+
+_SPEED_STEP: Final = 10.0
+"""km/h between nominal speeds; chosen."""
+SPEED_TOLERANCE: Final = 3.0
+"""km/h from the nominal speed at most, as for a series."""
+_ACCEPTED: Final = 15.0
+"""% about the mean of a group of dry stops: usual in slide tests, second-hand."""
+_CONFIDENCE: Final = 0.95
+_NO_MEASURES: Final = ("error", "skipped")
+_SHOWN: Final = (
+    "k_wet",
+    "deceleration_distance_extension",
+    "stopping_distance_extension",
+    "worst_stopping_distance_extension",
+    "median_braking_distance",
+    "passing_share",
+    "worst_locked_time",
+    "worst_slid_distance",
+    "median_adhesion_utilisation",
+)
+"""Measures of a series that are shown, in this order."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoggedStop:
+    """A judged stop of a log.
+
+    Args:
+        result: of the stop.
+        speed: at the brake command, km/h.
+        dry: whether it is judged as one on a dry rail.
+        time: recorded at the brake command, s; NaN where it is not known.
+        case: that it was judged as; None where the result was read back.
+    """
+
+    result: CaseResult
+    speed: float
+    dry: bool
+    time: float = math.nan
+    case: Case | None = None
+
+    @property
+    def nominal(self) -> float | None:
+        """The nominal speed, km/h; None where that of the stop is too far from it."""
+        nearest = _SPEED_STEP * round(self.speed / _SPEED_STEP)
+        return nearest if abs(self.speed - nearest) <= SPEED_TOLERANCE else None
+
+    @property
+    def distance(self) -> float:
+        """The braking distance from the nominal speed at the same mean deceleration, m; NaN without one."""
+        measures = self.result.measures or {}
+        if self.nominal is None or self.result.outcome in _NO_MEASURES:
+            return math.nan
+        return float(measures.get("braking_distance_m", math.nan)) * (self.nominal / self.speed) ** 2
+
+
+def dry_groups(stops: Sequence[LoggedStop]) -> dict[float, list[LoggedStop]]:
+    """Return the dry stops with a distance by their nominal speed, km/h."""
+    groups: dict[float, list[LoggedStop]] = {}
+    for stop in stops:
+        if stop.dry and stop.nominal is not None and math.isfinite(stop.distance):
+            groups.setdefault(stop.nominal, []).append(stop)
+    return dict(sorted(groups.items()))
+
+
+def deviations(group: Sequence[LoggedStop]) -> dict[str, float]:
+    """Return by how much the distance of each stop exceeds the mean of the others of its group, %.
+
+    Of the others: a stop would hide behind a mean that it makes itself. One stop alone has none.
+    """
+    total = math.fsum(stop.distance for stop in group)
+    others = len(group) - 1
+    return {
+        stop.result.id: 100.0 * (stop.distance * others / (total - stop.distance) - 1.0)
+        for stop in group
+        if others
+    }
+
+
+_DRY: Final = (
+    report.CampaignColumn("speed_kmh", "from, km/h", 0),
+    report.CampaignColumn("dry_stops", "stops", 0),
+    report.CampaignColumn("mean_m", "mean\nm", 1),
+    report.CampaignColumn("low_m", "95 % interval\nfrom, m", 1),
+    report.CampaignColumn("high_m", "to\nm", 1),
+    report.CampaignColumn("deviation_percent", "standard deviation\n%", 1),
+    report.CampaignColumn("accepted", "within 15 %"),
+    report.CampaignColumn(report.STOPS, "outliers"),
+)
+
+
+def dry_table(stops: Sequence[LoggedStop]) -> report.CampaignTable:
+    """Return mean, spread and outliers of the dry stops from each speed."""
+    return report.CampaignTable(
+        "dry_stops",
+        "Dry stops by speed",
+        "Braking distances, each brought to the nominal speed by the square of the speeds (at most"
+        f" {SPEED_TOLERANCE:g} km/h apart). Accepted: within {_ACCEPTED:g} % of the mean of the others. The"
+        " width is usual in slide tests (second-hand, no standard at hand); to leave the stop out is ours.",
+        "first",
+        _DRY,
+        tuple(_dry_row(speed, group) for speed, group in dry_groups(stops).items()),
+    )
+
+
+def _dry_row(speed: float, group: Sequence[LoggedStop]) -> tuple[Cell, ...]:
+    distances = [stop.distance for stop in group]
+    mean, number = mean_of(distances, _CONFIDENCE), report.number_cell
+    spread = math.sqrt(math.fsum((d - mean.value) ** 2 for d in distances) / max(len(distances) - 1, 1))
+    outliers = outliers_of(group)
+    kept = f"{len(group) - len(outliers)} of {len(group)}" if len(group) > 1 else "one stop alone"
+    percent = 100.0 * spread / mean.value if len(group) > 1 else math.nan
+    names = ", ".join(outliers)
+    return speed, len(group), mean.value, number(mean.low), number(mean.high), number(percent), kept, names
+
+
+def outliers_of(group: Sequence[LoggedStop]) -> list[str]:
+    """Return the stops that lie beyond the accepted width, the farthest first.
+
+    One after the other: an outlier moves the mean of the others, which is made without it then.
+    """
+    remaining, outliers = list(group), []
+    while len(remaining) > 2:
+        apart = deviations(remaining)
+        farthest = max(apart, key=lambda name: abs(apart[name]))
+        if abs(apart[farthest]) <= _ACCEPTED:
+            break
+        outliers.append(farthest)
+        remaining = [stop for stop in remaining if stop.result.id != farthest]
+    return outliers
+
+
+def wet_series(stops: Sequence[LoggedStop]) -> judged_series.SeriesResult | None:
+    """Return the wet stops as a series beside the dry ones; None without wet stops in a speed group."""
+    of_groups = [stop for stop in stops if stop.nominal is not None and stop.case is not None]
+    of_groups = [stop for stop in of_groups if stop.result.outcome not in _NO_MEASURES]
+    if not any(not stop.dry for stop in of_groups):
+        return None
+    ordered = sorted(of_groups, key=lambda stop: not stop.dry)
+    planned = series_plans.series_of("log", [_planned(stop) for stop in ordered])
+    return judged_series.judge_results(planned, [stop.result for stop in ordered])
+
+
+def _planned(stop: LoggedStop) -> series_plans.PlannedStop:
+    assert stop.case is not None
+    speed = yaml.parse_quantity(f"{stop.nominal:g} km/h", "speed")
+    scenario = stop.case.scenario.model_copy(update={"initial_speed": speed})
+    case = replace(stop.case, scenario=scenario, id=stop.result.id, path=Path(stop.case.path))
+    return series_plans.PlannedStop("dry" if stop.dry else "wet", case)
+
+
+_SERIES: Final = (
+    report.CampaignColumn("speed_kmh", "from, km/h", 0),
+    report.CampaignColumn("measure", "measure"),
+    report.CampaignColumn("value", "value", 3),
+    report.CampaignColumn("low", "95 % interval\nfrom", 3),
+    report.CampaignColumn("high", "to", 3),
+    report.CampaignColumn("unit", "unit"),
+    report.CampaignColumn("dry_stops", "dry stops\ncounted", 0),
+    report.CampaignColumn("wet_stops", "wet stops\ncounted", 0),
+    report.CampaignColumn("remark", "remark", wraps=True),
+)
+
+
+def series_table(result: judged_series.SeriesResult) -> report.CampaignTable:
+    """Return the measures of the wet stops from each speed."""
+    rows: list[tuple[Cell, ...]] = []
+    for speed in result.speeds:
+        for name in _SHOWN:
+            value, measure = speed.measures[name], SERIES_MEASURES[name]
+            estimate = value.estimate
+            numbers: list[Cell] = [None] * 3
+            if estimate is not None:
+                numbers = [report.number_cell(n) for n in (estimate.value, estimate.low, estimate.high)]
+            unit = "" if measure.unit == "1" else measure.unit
+            counts = speed.dry.counted, speed.wet.counted
+            rows.append((speed.speed_kmh, name, *numbers, unit, *counts, value.unavailable_reason))
+    return report.CampaignTable(
+        "wet_series",
+        "Wet stops as a series",
+        "As `uictest evaluate` judges a series; a stop that is no valid test, or was not judged, does not"
+        " count. Distances are not corrected for the initial speed.",
+        "detail",
+        _SERIES,
+        tuple(rows),
+    )
+
+
+_WET: Final = (
+    report.CampaignColumn(report.STOPS, "stop"),
+    report.CampaignColumn("speed_kmh", "from, km/h", 1),
+    report.CampaignColumn("outcome", "outcome"),
+    report.CampaignColumn("counts", "counts"),
+    report.CampaignColumn("braking_distance_m", "braking distance\nm", 1),
+    report.CampaignColumn("extension_percent", "extension\n%", 1),
+    report.CampaignColumn("remark", "why not", wraps=True),
+)
+
+
+def wet_table(stops: Sequence[LoggedStop], result: judged_series.SeriesResult | None) -> report.CampaignTable:
+    """Return every wet stop with its extension over the dry ones, and whether it counts."""
+    lengths = extensions(stops)
+    uncounted = {each.case: each.reason for each in result.not_counted} if result else {}
+    rows = []
+    for stop in stops:
+        if stop.dry:
+            continue
+        name = stop.result.id
+        distance = float((stop.result.measures or {}).get("braking_distance_m", math.nan))
+        grouped = stop.nominal is not None and stop.result.outcome not in _NO_MEASURES
+        why = uncounted.get(name, "") if grouped else "in no group of speeds"
+        counts = "yes" if grouped and name not in uncounted else "no"
+        cells = report.number_cell(distance), report.number_cell(lengths.get(name, math.nan))
+        rows.append((name, stop.speed, stop.result.outcome, counts, *cells, why or stop.result.reason))
+    return report.CampaignTable(
+        "wet_stops",
+        "Wet stops",
+        "Extension: braking distance over the mean of the dry stops from the same nominal speed, each brought"
+        " to it.",
+        "detail",
+        _WET,
+        tuple(rows),
+    )
+
+
+def extensions(stops: Sequence[LoggedStop]) -> dict[str, float]:
+    """Return by how much the distance of each wet stop exceeds the mean of the dry ones of its speed, %."""
+    return {name: value for name, value in _extensions(stops, dry_groups(stops)) if math.isfinite(value)}
+
+
+def _extensions(
+    stops: Sequence[LoggedStop], dry: Mapping[float, Sequence[LoggedStop]]
+) -> Iterator[tuple[str, float]]:
+    figure = of_stop("distance")
+    for stop in stops:
+        if not stop.dry and stop.nominal is not None:
+            reference = tuple(_counted(each) for each in dry.get(stop.nominal, ()))
+            group = SpeedStops(stop.nominal * KILOMETRE_PER_HOUR, reference, (_counted(stop),))
+            (percent,) = percent_of_dry(figure, group)
+            yield stop.result.id, percent - 100.0
+
+
+def _counted(stop: LoggedStop) -> CountedStop:
+    return CountedStop({"distance": stop.distance}, (), stop.result.outcome == "pass")

@@ -1,0 +1,86 @@
+"""Groups of stops with known truth: means, outliers, drift."""
+
+import numpy as np
+import pytest
+from hypothesis import given, strategies as st
+
+from uictest.analysis.logged_stops.drift import drifts
+from uictest.analysis.logged_stops.stop_groups import LoggedStop, dry_table, extensions, outliers_of
+from uictest.judging.evaluation import CaseResult
+
+KMH = 1.0 / 3.6
+
+
+def stop(number, speed, distance, *, dry=True, time=float("nan")):
+    measures = {"braking_distance_m": distance}
+    result = CaseResult(f"stop-{number:04d}", "s.yaml", {}, "pass", "pass", measures=measures)
+    return LoggedStop(result, speed, dry, time)
+
+
+def distances(deceleration, speeds):
+    return [(speed * KMH) ** 2 / (2.0 * deceleration) for speed in speeds]
+
+
+@given(st.lists(st.floats(117.1, 122.9), min_size=2, max_size=10), st.floats(0.5, 1.5))
+def test_stops_of_one_deceleration_have_one_distance(speeds, deceleration):
+    stops = [
+        stop(k, *pair) for k, pair in enumerate(zip(speeds, distances(deceleration, speeds), strict=True))
+    ]
+    (row,) = dry_table(stops).data.rows
+    assert row["mean_m"] == pytest.approx((120.0 * KMH) ** 2 / (2.0 * deceleration), rel=1e-9)
+    assert row["deviation_percent"] == pytest.approx(0.0, abs=1e-5)
+
+
+def test_speeds_between_two_groups_are_in_none():
+    assert stop(1, 115.0, 400.0).nominal is None
+    assert [
+        row["speed_kmh"] for row in dry_table([stop(1, 115.0, 400.0), stop(2, 82.0, 200.0)]).data.rows
+    ] == [80.0]
+
+
+@pytest.mark.parametrize("factor", [0.8, 1.3])
+def test_an_outlier_is_named_and_hides_no_other(factor):
+    lengths = [500.0, 505.0, 495.0, 500.0 * factor, 502.0, 500.0 * factor * factor]
+    group = [stop(k, 120.0, length) for k, length in enumerate(lengths)]
+    assert set(outliers_of(group)) == {"stop-0003", "stop-0005"}
+
+
+def test_stops_within_15_percent_are_all_accepted():
+    assert outliers_of([stop(k, 120.0, 500.0 * f) for k, f in enumerate((0.95, 1.0, 1.05, 0.97, 1.1))]) == []
+
+
+def test_the_extension_is_that_over_the_dry_stops_of_the_same_speed():
+    stops = [stop(1, 120.0, 500.0), stop(2, 80.0, 230.0), stop(3, 120.0, 600.0, dry=False)]
+    assert extensions([*stops, stop(4, 100.0, 400.0, dry=False)]) == pytest.approx({"stop-0003": 20.0})
+
+
+def drift_of(lengths, days=None):
+    times = np.full(len(lengths), np.nan) if days is None else 1.7e9 + 86_400.0 * np.asarray(days)
+    stops = [stop(k, 120.0, own, time=time) for k, (own, time) in enumerate(zip(lengths, times, strict=True))]
+    (found,) = drifts(stops, {})
+    return found
+
+
+def test_a_brake_that_gets_worse_from_day_to_day_is_told():
+    days = np.arange(12.0)
+    noise = np.random.default_rng(4).normal(0.0, 2.0, 12)
+    found = drift_of(500.0 * (1.0 + 0.01 * days) + noise, days)
+    assert found.told
+    assert found.over == "day"
+    # The others' mean moves against each stop: n / (n - 1) of a slope that begins at 500 of 527.5 m.
+    assert found.low < 100.0 * 5.0 / 527.5 * 12.0 / 11.0 < found.high
+
+
+def test_without_dates_the_order_counts_and_few_stops_say_nothing():
+    assert drift_of([500.0, 502.0, 499.0, 501.0, 500.0]).over == "stop"
+    assert np.isnan(drift_of([500.0, 520.0, 540.0, 560.0]).slope)
+
+
+def test_stops_without_drift_hardly_ever_tell_one():
+    """One row has 95 %: of 400 intervals 20 miss, and more than 45 do with a chance below 1e-6."""
+    draw = np.random.default_rng(11)
+    wrong = sum(
+        found.low > 0.0 or found.high < 0.0
+        for found in (drift_of(draw.normal(500.0, 10.0, 10)) for _ in range(400))
+    )
+    assert wrong <= 45
