@@ -223,6 +223,7 @@ MISSING = {
     "end_speed": "end above standstill: it cannot run until",
     "drag_duration": "traction: it cannot run drag",
     "has_dynamic_brake": "motors: it cannot run brake.dynamic",
+    "has_track_brake": "magnets on the rail: it cannot run brake.track",
     "fault_count": "faults: it cannot run a scenario with any",
     "varies_pad_friction": "pads that vary: it cannot run brake.pad other than constant",
     "models_disc_temperature": "discs that warm: it cannot run brake.disc_temperature=modelled",

@@ -90,6 +90,7 @@ def _refuse_unknown(scenario: Any) -> None:
     present = {
         "a course of brake.command": len(brake.commands) > 1,
         "brake.dynamic": brake.dynamic is not None,
+        "brake.track": brake.track is not None,
         "brake.system.load_valve": brake.system.load_valve is not None,
         "until": scenario.until is not None,
         "drag": scenario.drag is not None,

@@ -36,6 +36,8 @@ MEASURES = [
     "deceleration_bogie_1_mps2",
     "deceleration_bogie_2_mps2",
     "sliding_share",
+    "track_brake_energy_kj",
+    "track_brake_time_s",
     "reservoir_minimum_bar",
     "air_consumed_nl",
     "reservoir_margin_bar",

@@ -3,7 +3,8 @@
 import pytest
 
 from uictest.core.units import KINDS
-from uictest.plans.faults import FAULT_KINDS, SPEED_SENSOR, Effects
+from uictest.plans.fault_effects import Effects
+from uictest.plans.faults import FAULT_KINDS, SPEED_SENSOR
 from uictest.plans.scenario.yaml import parse_quantity
 
 ROWS = list(FAULT_KINDS.values())
@@ -39,7 +40,7 @@ def test_a_lost_sensor_alone_reports_its_fault(row):
 
 @pytest.mark.parametrize("row", ROWS, ids=NAMES)
 def test_only_what_the_train_has_once_belongs_to_no_wheelset(row):
-    assert row.of_wheelset == (row.part not in ("brake-line", "controller", "dynamic-brake"))
+    assert row.of_wheelset == (row.part not in ("brake-line", "controller", "dynamic-brake", "track-brake"))
 
 
 @pytest.mark.parametrize("row", ROWS, ids=NAMES)

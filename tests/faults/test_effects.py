@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from uictest.plans.faults import FAULT_KINDS, Effects
+from uictest.plans.fault_effects import Effects
+from uictest.plans.faults import FAULT_KINDS
 from uictest.plans.scenario.yaml import parse_quantity
 
 NOTHING = {
@@ -28,6 +29,7 @@ NOTHING = {
     "silent": 0.0,
     "release_time": math.inf,
     "dynamic_failed": 0.0,
+    "track_failed": 0.0,
 }
 """Sensors that read true, valves that open and close as commanded, no leak, a controller that is heard."""
 NO_VALUE = ""
@@ -62,6 +64,7 @@ FAULTS = [
     ("controller", "silent", "2 s", {"silent": 1.0, "release_time": 2.0}),
     ("controller", "silent", NO_VALUE, {"silent": 1.0}),
     ("dynamic-brake", "failed", NO_VALUE, {"dynamic_failed": 1.0}),
+    ("track-brake", "failed", NO_VALUE, {"track_failed": 1.0}),
 ]
 
 

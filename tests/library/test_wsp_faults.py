@@ -42,13 +42,18 @@ MISSED = {
     ("controller", "silent"): WORN | {"sound-wheelsets-turn"},
 }
 """Criteria that are missed; all others pass or do not apply."""
+OPTIONAL = {
+    "dynamic-brake": "{dynamic: {force: 60 kN, power: 1.6 MW}}",
+    "track-brake": "{position: emergency, track: {attraction: 100 kN}}",
+}
+"""Brakes that a car need not have."""
 NOT_OF_A_SENSOR = "brake-force-returns"
 
 
 def judged(tmp_path, part, kind, controller="threshold"):
     """The stop from 80 km/h on a slippery rail with a fault of wheelset 2 from 3 s on."""
-    own = "" if part in ("brake-line", "controller", "dynamic-brake") else ", wheelset: 2"
-    brake = "brake: {dynamic: {force: 60 kN, power: 1.6 MW}}\n" if part == "dynamic-brake" else ""
+    own = "" if part in ("brake-line", "controller", *OPTIONAL) else ", wheelset: 2"
+    brake = f"brake: {OPTIONAL[part]}\n" if part in OPTIONAL else ""
     value = f", value: {VALUES[part, kind]}" if (part, kind) in VALUES else ""
     sensors = "{speed: {method: whole-teeth}, extends: standard}" if kind == "missing-teeth" else "standard"
     path = tmp_path / "stop.yaml"

@@ -177,7 +177,7 @@ class Rig:
             dynamic_reduction: share taken off the dynamic brake, 0 to 1, one per wheelset. This and the next
                 two only with `contract=2`.
             sand_request: 0 or 1, one per wheelset, for the recording.
-            track_brake_request: 0 or 1, for the recording.
+            track_brake_request: 0 or 1; acts where the scenario's `brake.track` says `when: requested`.
 
         Raises:
             RuntimeError: before :meth:`reset`, or after the end of the stop.

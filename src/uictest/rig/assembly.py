@@ -23,6 +23,7 @@ from uictest.rig.model.rail import FACTORS, FRICTIONS, PLACES, ROWS, TIMES
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.rig.rail_friction import RAIL, friction_along_track, friction_factor_over_time
 from uictest.rig.single_stop import StopInputs, noise_keys
+from uictest.rig.track_brake_parameters import TRACK_BRAKE
 
 
 def assemble(case: Case) -> StopInputs:
@@ -139,6 +140,7 @@ ASSIGNMENTS: tuple[Assignment, ...] = (
     *FAULTS,
     *RAIL,
     *DYNAMIC_BRAKE,
+    *TRACK_BRAKE,
     Assignment(_set_controller, ("controller",)),
 )
 """What sets all parameters but `noise_key`."""

@@ -13,7 +13,8 @@ from uictest.core.physics import (
     relaxed_share,
 )
 from uictest.core.units import KINDS
-from uictest.plans.faults import MOST_FAULTS, SPEED_SENSOR, Effects
+from uictest.plans.fault_effects import Effects
+from uictest.plans.faults import MOST_FAULTS, SPEED_SENSOR
 from uictest.plans.scenario import DiscRing, Fault, PadLaw, Quantity, Scenario
 from uictest.rig.derived_parameters import Assignment
 from uictest.rig.model.parameters import Parameters

@@ -16,6 +16,7 @@ from uictest.rig.model.trace import (
     DYNAMIC_BRAKE_CHANNELS,
     FAULT_CHANNELS,
     REQUEST_CHANNELS,
+    TRACK_BRAKE_CHANNELS,
     WHEELSET_CHANNELS,
 )
 from uictest.rig.single_stop import FinishedStop, noise_key_text
@@ -101,6 +102,7 @@ def _recorded(
         *(() if speaks_version_2 else REQUEST_CHANNELS),
         *(() if case.scenario.brake.models_disc_temperature else DISC_CHANNELS),
         *(() if case.scenario.brake.dynamic else DYNAMIC_BRAKE_CHANNELS),
+        *(() if case.scenario.brake.track else TRACK_BRAKE_CHANNELS),
         *(() if case.scenario.faults else FAULT_CHANNELS),
     }
     return (

@@ -111,6 +111,7 @@ def _set_train(parameters: NDArray[Any], distances: NDArray[np.float64], couplin
     parameters["rail_points_per_metre"] = min(parameters["rail_points_per_metre"].min(), finest)
     delays = coupling.distance * np.arange(len(parameters)) / coupling.pipe_speed
     parameters["dead_time"] += delays
+    parameters["track_brake_first"] += delays
     for name in ("command_times", "command_given"):
         parameters[name] += delays[:, None]
     keys = parameters["noise_key"] ^ (np.arange(len(parameters)) * _KEY_STEP & 0xFFFFFFFF)

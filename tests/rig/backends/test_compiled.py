@@ -88,6 +88,13 @@ SETTINGS = {
         ),
         {**QUICK_BRAKE, "cycles": 90},
     ),
+    "magnets that come, clean and let go": (
+        (
+            "brake.track={attraction: 60 kN, when: always, delay: 50 ms, off_below: 13 km/h, cleaning: 50 %}",
+            *("rail.condition=wet-cleaning", "initial_speed=14 km/h", "simulation.time_step=1 ms"),
+        ),
+        {**QUICK_BRAKE, "cycles": 90},
+    ),
     "a brake that is released and applied again, until 12 km/h": (
         (
             "brake.command=[{at: 0 s, value: 60 %}, {at: 0.3 s, value: 0 %}, {at: 0.6 s, value: 100 %}]",
@@ -196,7 +203,7 @@ def test_plain_and_compiled_code_give_the_same_bits(rig, setting):
 def test_the_settings_reach_what_they_say(rig):
     """Standstill, venting and locks happen within the short stops that are compared."""
     ends = {name: rig.stop(*overrides, **fields) for name, (overrides, fields) in SETTINGS.items()}
-    standstill, slides, band, air, counted, fading, motors, reduced, again, *others = ends.values()
+    standstill, slides, band, air, counted, fading, motors, reduced, magnets, again, *others = ends.values()
     blocks, downhill, cleaned, varied, faulty = others
     assert standstill.measures.stopped == 1.0
     assert slides.wheelset_measures.valve_actuations.all()
@@ -213,6 +220,9 @@ def test_the_settings_reach_what_they_say(rig):
     assert (motors.wheelsets["dynamic_energy"] > 0.0).tolist() == [False, True, True, False]
     assert (motors.car.dynamic_dropped, reduced.car.dynamic_dropped) == (1.0, 0.0)
     assert reduced.wheelsets["dynamic_reduction"][1:3].max() > 0.0
+    assert magnets.measures.track_brake_energy > 0.0
+    assert magnets.car.magnet_share == 0.0
+    assert magnets.wheelsets["cleaned_share"][1] > magnets.wheelsets["cleaned_share"][0]
     assert again.car.command_place == 2
     assert again.car.stopped == 1.0
     assert again.measures.end_speed < 12.0 / 3.6

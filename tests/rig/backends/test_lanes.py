@@ -49,6 +49,8 @@ COURSE = (
 )
 MOTORS = "brake.dynamic={force: 60 kN, power: 1.6 MW, wheelsets: [1, 4]}"
 FAILING = "faults=[{at: 2 s, part: dynamic-brake, kind: failed}]"
+MAGNETS = "brake.track={attraction: 60 kN, when: always, delay: 0.3 s, cleaning: 10 %}"
+LETTING_GO = "faults=[{at: 1 s, part: track-brake, kind: failed}]"
 VARIANTS = (
     (),
     ("rig.compensation=none", *WET),
@@ -89,6 +91,8 @@ VARIANTS = (
     ("drag={speed: 8 km/h, duration: 0.7 s}", *WET),
     (COURSE, MOTORS, "until=4 km/h"),
     (MOTORS, FAILING, "rig.wsp=bypassed"),
+    (MAGNETS, *WET),
+    (MAGNETS, CLEANED, "rail.friction=0.05", LETTING_GO),
 )
 
 WITHOUT_COMPILER = """

@@ -30,6 +30,7 @@ LEAKS = (
     " {at: 1 s, wheelset: 3, part: vent-valve, kind: blocked, value: 60 %}]"
 )
 FAILING = "faults=[{at: 1 s, part: dynamic-brake, kind: failed}]"
+MAGNETS = "brake.track={attraction: 60 kN, when: always, delay: 0.3 s, cleaning: 10 %}"
 TRAINS = (
     (COUPLED, WET, [()]),
     (COUPLED, CLEANED, [(), ("brake.command=60 %",)]),
@@ -44,6 +45,7 @@ TRAINS = (
     (COUPLED, (*WET, "drag={speed: 8 km/h, duration: 0.7 s}"), [(), ()]),
     (COUPLED, (*WET, "until=6 km/h"), [("brake.command=50 %",), ()]),
     (COUPLED, CLEANED, [()]),
+    (PIPED, CLEANED, [(MAGNETS,), (MAGNETS, "brake.command=60 %")]),
 )
 ALL = range(2 * len(TRAINS))
 

@@ -62,6 +62,8 @@ class StopMeasures(Record):
     compensation_misfit: float  # differences from the rig it was identified for, over tolerances
     samples: float
     held_time: float  # for which traction has held the speed of a drag, s
+    track_brake_energy: float  # that the track brake turned into heat, where there is one, J
+    track_brake_time: float  # for which it acted, s
     fault_time: float  # first cycle with a fault while the train moves, s
     reference_excess: float  # largest, of the controller's estimate over the train's speed since then, m/s
 

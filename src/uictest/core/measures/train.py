@@ -33,6 +33,8 @@ def begin_train(
     measures.reservoir_minimum_pressure = reservoir_pressure
     measures.reservoir_margin = INFINITY
     measures.air_consumed = NAN
+    measures.track_brake_energy = NAN
+    measures.track_brake_time = NAN
     measures.energy_residual = NAN
     measures.air_residual = NAN
     measures.air_energy_residual = NAN

@@ -76,6 +76,7 @@ from .sensors import (
     time_since as time_since,
     uniform as uniform,
 )
+from .track_brake import track_brake_force as track_brake_force
 from .valves import (
     FILL as FILL,
     HOLD as HOLD,

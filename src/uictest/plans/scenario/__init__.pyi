@@ -95,6 +95,7 @@ from .parts.reading import (
     supposed_definition as supposed_definition,
 )
 from .parts.tail_requests import KDryRequest as KDryRequest, QuantileRequest as QuantileRequest
+from .parts.track_brake import EMERGENCY as EMERGENCY, TrackBrake as TrackBrake
 from .parts.vary import (
     Distribution as Distribution,
     Method as Method,

@@ -1,4 +1,4 @@
-"""What no stop can do: brakes without grip, stops without end, faults and pole wheels that cannot be.
+"""What no stop can do: brakes without grip, stops without end, pole wheels that cannot be.
 
 And the longest step with which the integration follows the car on its springs and the air behind its valves.
 """
@@ -12,12 +12,10 @@ from typing import Any, Final, NamedTuple
 from uictest.core import physics
 from uictest.core.physics import REFERENCE_DENSITY, orifice_law
 from uictest.core.units import STANDARD_GRAVITY
-from uictest.plans.faults import DYNAMIC_BRAKE
 from uictest.plans.scenario.files import Files
 from uictest.plans.scenario.parts.brake import BrakeSystem, Caliper, Disc
 from uictest.plans.scenario.parts.compensation import Compensation
 from uictest.plans.scenario.parts.criteria import Criteria
-from uictest.plans.scenario.parts.fault import SPEED
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, deciding_key, wheelset_value
 from uictest.plans.scenario.references import Parts
@@ -32,15 +30,23 @@ class BrakedWheelset(NamedTuple):
     wheel_radius: float
 
 
-def stopping_time_at_least(speed: float, friction: float, gradient: float, vehicle: Vehicle) -> float:
-    """Return the shortest time, s, of a stop from ``speed`` (m/s); infinite if the car never stops.
+def stopping_time_at_least(scenario: Any) -> float:
+    """Return the shortest time, s, of the stop of a scenario; infinite if its car never stops.
 
-    Friction, gradient and the running resistance at the initial speed act in full until the end.
+    The largest friction, the gradient, the running resistance at the initial speed, the largest force of a
+    track brake and a held speed act in full until the end.
     """
+    speed, rail, vehicle = scenario.initial_speed, scenario.rail, scenario.vehicle
     resistance = vehicle.running_resistance
     drag = resistance.constant + resistance.linear * speed + resistance.quadratic * speed**2
-    deceleration = STANDARD_GRAVITY * (friction + gradient) + drag / vehicle.total_mass
-    return speed / deceleration if deceleration > 0.0 else math.inf
+    if scenario.brake.track is not None:
+        drag += scenario.brake.track.largest_force
+    friction = rail.highest_friction_after_cleaning + rail.gradient
+    deceleration = STANDARD_GRAVITY * friction + drag / vehicle.total_mass
+    shortest = speed / deceleration if deceleration > 0.0 else math.inf
+    if scenario.until is not None:  # not slowed more than at the beginning, all the way
+        shortest *= 1.0 - scenario.until / speed
+    return shortest if scenario.drag is None else shortest + scenario.drag.duration
 
 
 def largest_clamping_force(caliper: Caliper, compensation: Compensation, pressure: float) -> float:
@@ -71,45 +77,6 @@ def rig_checks() -> Criteria:
     place = Place(Document(RIG_CHECKS, Path(), RIG_CHECKS))
     profile: Criteria = Parts(Files()).part(Scalar(RIG_CHECKS, RIG_CHECKS, place), Criteria, ()).part
     return profile
-
-
-def impossible_faults(scenario: Any) -> Iterator[Inconsistency]:
-    """Yield faults that do not fit the stop of a scenario."""
-    for place, fault in enumerate(scenario.faults):
-        if fault.at.unit == SPEED and fault.at > scenario.initial_speed:
-            yield Inconsistency(
-                ("faults", place, "at"),
-                f"the train never runs at {fault.at.text}: it begins to brake at"
-                f" {scenario.initial_speed.text}",
-                "write a lower speed, or `at: 0 s` for a fault throughout the stop",
-            )
-        if fault.part == DYNAMIC_BRAKE and scenario.brake.dynamic is None:
-            yield Inconsistency(
-                ("faults", place, "part"),
-                "this car has no dynamic brake",
-                "give it one: brake.dynamic: {force: 60 kN, power: 1.6 MW}",
-            )
-        if fault.wheelset is not None and fault.effects.lost_teeth > 0.0:
-            yield from _without_teeth(scenario, place, fault)
-
-
-def _without_teeth(scenario: Any, place: int, fault: Any) -> Iterator[Inconsistency]:
-    """Yield a pole wheel that loses teeth though none are counted, or more teeth than it has."""
-    method, teeth, missing = (
-        wheelset_value(scenario, fault.wheelset, f"sensors.speed.{name}")
-        for name in ("method", "teeth", "missing_teeth")
-    )
-    if method != "whole-teeth":
-        yield Inconsistency(
-            ("faults", place, "kind"),
-            f"the speed sensor of wheelset {fault.wheelset} counts no teeth",
-            "write `rig.sensors.speed.method: whole-teeth`",
-        )
-    elif missing + fault.effects.lost_teeth >= teeth:
-        yield Inconsistency(
-            ("faults", place, "value"),
-            f"{fault.value.text} and {missing.text} of {teeth.text} teeth: at least one must be left",
-        )
 
 
 def tank_leak(scenario: Any, number: int) -> float:

@@ -12,12 +12,12 @@ from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.faults import MOST_FAULTS
 from uictest.plans.scenario.compensation_fit import unresolved_air, unresolved_cylinder
 from uictest.plans.scenario.courses import impossible_courses
+from uictest.plans.scenario.fault_checks import impossible_faults
 from uictest.plans.scenario.feasibility import (
     RIG_CHECKS,
     BrakedWheelset,
     ValveConductances,
     braking_force,
-    impossible_faults,
     impossible_pole_wheels,
     largest_clamping_force,
     limit_of_air,
@@ -150,12 +150,7 @@ class Scenario(TestFile):
         yield from impossible_faults(self)
         yield from self._brake_too_strong()
         yield from impossible_courses(self)
-        shortest = stopping_time_at_least(
-            self.initial_speed, self.rail.highest_friction_after_cleaning, self.rail.gradient, self.vehicle
-        )
-        if self.until is not None:  # not slowed more than at the beginning, all the way
-            shortest *= 1.0 - self.until / self.initial_speed
-        shortest += 0.0 if self.drag is None else self.drag.duration
+        shortest = stopping_time_at_least(self)
         if shortest > self.simulation.maximum_duration:
             yield self._stop_without_end(shortest)
 

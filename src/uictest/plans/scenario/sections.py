@@ -20,6 +20,7 @@ from uictest.plans.scenario.parts.rail import (
     Variation,
     out_of_order,
 )
+from uictest.plans.scenario.parts.track_brake import EMERGENCY, TrackBrake
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import Sensors
 from uictest.plans.scenario.yaml import Inconsistency, Key, Model, PartReference, Quantity, quoted, suggestion
@@ -63,6 +64,7 @@ class Brake(Model):
     dynamic: DynamicBrake | None = optional(
         "The dynamic brake, blended with the friction brake; none if left out."
     )
+    track: TrackBrake | None = optional("The magnetic track brake of the car; none if left out.")
     disc_temperature: Literal["constant", "modelled"] | None = optional(
         "Whether the discs warm up; if left out, they do where the pad's friction depends on it."
     )
@@ -123,6 +125,12 @@ class Brake(Model):
             yield self._unknown_position(("position",), self.position)
         if isinstance(self.command, tuple):
             yield from self._course_problems(self.command)
+        if self.track is not None and self.track.when == EMERGENCY not in self.system.positions:
+            yield Inconsistency(
+                ("track",),
+                f"this brake has no position {quoted(EMERGENCY)}, in which alone the track brake acts",
+                "write when: always, or when: requested",
+            )
         if self.models_disc_temperature and self.system.disc.thermal is None:
             yield Inconsistency(
                 ("pad",) if self.disc_temperature is None else ("disc_temperature",),

@@ -46,6 +46,7 @@ PLOT_QUANTITIES = {
     "cylinder_pressure": PlotQuantity("cylinder", "bar", BAR, of_wheelsets=True, decimals=2),
     "clamping_force": PlotQuantity("clamping force", "kN", KILONEWTON, of_wheelsets=True, decimals=2),
     "dynamic_torque": PlotQuantity("dynamic brake", "N m", of_wheelsets=True, decimals=0),
+    "track_brake_force": PlotQuantity("track brake", "kN", KILONEWTON),
     "deceleration": PlotQuantity("deceleration", "g", decimals=3),
     "adhesion": PlotQuantity("adhesion", "1", of_wheelsets=True, decimals=3),
     "friction": PlotQuantity("friction", "1", of_wheelsets=True, decimals=3),
@@ -88,6 +89,7 @@ PANELS = (
     ),
     Panel("force", "Clamping force of one caliper", "kN", ("clamping_force",)),
     Panel("torque", "Torque of the dynamic brake on one wheelset", "N m", ("dynamic_torque",)),
+    Panel("track", "Force of the track brake", "kN", ("track_brake_force",)),
     Panel("deceleration", "Deceleration (bold) and adhesion", "g", ("adhesion", "deceleration"), 1.2),
     Panel("rail", "Friction met (cleaned share dotted)", "dimensionless", ("cleaned_share", "friction")),
     Panel(

@@ -33,6 +33,12 @@ from uictest.rig.model.stop_measures import (
     observe_cycle,
     observe_faults,
 )
+from uictest.rig.model.track_brake import (
+    account_for_magnets,
+    clean_by_magnets,
+    command_track_brake,
+    drag_magnets,
+)
 from uictest.rig.model.traction import hold_speed
 
 IDLE = -1
@@ -55,6 +61,7 @@ class Needs(NamedTuple):
     warms_discs: bool
     leaks: bool
     brakes_dynamically: bool
+    brakes_on_track: bool
 
 
 class Lanes(NamedTuple):
@@ -161,6 +168,7 @@ def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Need
     warms_discs = False
     leaks = False
     brakes_dynamically = False
+    brakes_on_track = False
     _update_faults(lanes, cases, running)
     read_sensors(car, wheelsets, settings)
     if _any_pole_wheel(cases, running):
@@ -172,6 +180,8 @@ def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Need
             start_cycle(lane(rig.car, k), lane(rig.wheelsets, k), p, cases.rail[case])
             if p.cleans_rail > 0.0:
                 clean_rail(lane(rig.car, k), lane(rig.wheelsets, k), p, memories[k])
+                if p.magnet_cleaning > 0.0:
+                    clean_by_magnets(lane(rig.car, k), lane(rig.wheelsets, k), p, memories[k])
             if p.fault_count > 0:
                 falsify_readings(lane(rig.car, k), lane(rig.wheelsets, k), p)
             decide(lane(rig.car, k), lane(rig.wheelsets, k), p)
@@ -181,16 +191,19 @@ def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Need
                 follow_commands(lane(rig.car, k), lane(lanes.measures, k), p)
             if p.drag_duration > 0.0:
                 hold_speed(lane(rig.car, k), p)
+            if p.has_track_brake > 0.0:
+                command_track_brake(lane(rig.car, k), p)
             steps = p.steps_per_cycle
             follows_air = follows_air or p.uses_module_air > 0.0
             warms_discs = warms_discs or p.models_disc_temperature > 0.0
             leaks = leaks or p.has_leaks > 0.0
             brakes_dynamically = brakes_dynamically or p.has_dynamic_brake > 0.0
+            brakes_on_track = brakes_on_track or p.has_track_brake > 0.0
     command_valves(car, wheelsets, settings)
     if brakes_dynamically:
         _demand_dynamic_brakes(lanes, cases, running)
     _limit_valves(lanes, cases, running)
-    return Needs(steps, follows_air, warms_discs, leaks, brakes_dynamically)
+    return Needs(steps, follows_air, warms_discs, leaks, brakes_dynamically, brakes_on_track)
 
 
 def advance(lanes: Lanes, needs: Needs) -> None:
@@ -204,7 +217,11 @@ def advance(lanes: Lanes, needs: Needs) -> None:
         let_air_leak(car, wheelsets, settings)
     if needs.brakes_dynamically:
         brake_dynamically(wheelsets, settings)
+    if needs.brakes_on_track:
+        drag_magnets(car, bogies, settings)
     step(car, bogies, wheelsets, settings)
+    if needs.brakes_on_track:
+        account_for_magnets(car, bogies, settings)
 
 
 def end_cycle(lanes: Lanes, needs: Needs) -> None:

@@ -123,7 +123,7 @@ def _start_next(
 
 def _run_cycle(lanes: Lanes, couplers: Any, trains: Trains, running: Any, memories: Any) -> None:
     """Step all lanes through a controller cycle."""
-    needs = Needs(0, False, False, False, False)
+    needs = Needs(0, False, False, False, False, False)
     for j in range(len(trains.parameters)):
         needs = _of_both(needs, begin_cycle(_lanes_of(lanes, j), _cases_of(trains, j), running, memories[j]))
         if j + 1 < len(trains.parameters):
@@ -141,6 +141,7 @@ def _of_both(one: Needs, other: Needs) -> Needs:
         one.warms_discs or other.warms_discs,
         one.leaks or other.leaks,
         one.brakes_dynamically or other.brakes_dynamically,
+        one.brakes_on_track or other.brakes_on_track,
     )
 
 

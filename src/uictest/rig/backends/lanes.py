@@ -30,6 +30,7 @@ from uictest.rig.model.rail import FRICTIONS, RAIL_MEMORY, ROWS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.step import step
 from uictest.rig.model.stop_measures import observe_cycle
+from uictest.rig.model.track_brake import account_for_magnets, drag_magnets
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
 RIG = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
@@ -210,6 +211,8 @@ def translated_for_lanes(run: Function, *without_branches: Function) -> Any:
         follow_module_air,
         let_air_leak,
         brake_dynamically,
+        drag_magnets,
+        account_for_magnets,
         step,
         warm_discs,
         observe_cycle,

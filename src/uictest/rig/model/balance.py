@@ -89,9 +89,10 @@ def energy_residual(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheel
     """Energy that is not accounted for, as a share of the energy at the start.
 
     kinetic + springs + height = initial + traction + work of the couplers - (disc heat + work of the dynamic
-    brake + contact loss + dampers + running resistance)
+    brake + contact loss + track brake + dampers + running resistance)
     """
     lost = car.damper_loss + car.resistance_loss - car.traction_work - car.coupler_work
+    lost += car.track_brake_energy
     for i in range(4):
         lost += wheelsets[i].brake_heat + wheelsets[i].contact_loss
         lost += wheelsets[i].dynamic_energy

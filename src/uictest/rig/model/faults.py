@@ -25,12 +25,14 @@ def update_faults(
     _decide_activity(car, p)
     car.line_leak = 0.0
     car.dynamic_failed = 0.0
+    car.track_brake_failed = 0.0
     for i in range(4):
         _make_sound(wheelsets[i], wheelset_parameters[i])
     for k in range(p.fault_count):
         if is_active(car, k):
             car.line_leak += p.fault_line_leak[k]
             car.dynamic_failed = maximum(car.dynamic_failed, p.fault_dynamic_failed[k])
+            car.track_brake_failed = maximum(car.track_brake_failed, p.fault_track_failed[k])
             _act(wheelsets[int(p.fault_wheelset[k])], p, k)
 
 
@@ -118,7 +120,7 @@ def _falsify(wheelset: Wheelset, car: Car, p: Parameters, k: int) -> None:
 def silence_controller(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """While no command reaches the valves, let them keep the last one, and fill once that lasts too long.
 
-    So it is with the reduction of the dynamic brake, which then comes back.
+    So it is with the reduction of the dynamic brake, which then comes back, and the request of a track brake.
     """
     silent = False
     released = False
@@ -135,6 +137,10 @@ def silence_controller(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -
         else:
             wheelset.kept_command = wheelset.valve_command
             wheelset.kept_reduction = wheelset.dynamic_reduction
+    if silent:
+        car.track_brake_request = 0 if released else car.kept_track_request
+    else:
+        car.kept_track_request = car.track_brake_request
 
 
 def limit_valves(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:

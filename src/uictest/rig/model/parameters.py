@@ -16,6 +16,7 @@ from uictest.core.rail_laws import MOST_NUMBERS
 from uictest.core.record import derived, from_scenario, layout_of
 from uictest.rig.model.command_tables import CommandTables
 from uictest.rig.model.fault_tables import FaultTables
+from uictest.rig.model.track_brake_numbers import TrackBrakeNumbers
 
 PadTable = Annotated[MutableSequence[float], MOST_PAD_POINTS]
 MotorTable = Annotated[MutableSequence[float], 4]
@@ -32,7 +33,7 @@ def of_both_sides(value: float) -> float:
     return 2.0 * value
 
 
-class Parameters(ControllerCycle, MeasureDefinition, FaultTables, CommandTables):
+class Parameters(ControllerCycle, MeasureDefinition, FaultTables, CommandTables, TrackBrakeNumbers):
     """What a case fixes for all wheelsets, but for the parameters of its controller."""
 
     # time

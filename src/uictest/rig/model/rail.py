@@ -55,6 +55,8 @@ class RailMemory(Record):
     cleaned: Annotated[MutableSequence[float], _WHEELSETS]  # share that each wheelset itself has cleaned
     left: Annotated[MutableSequence[float], _WHEELSETS]  # share behind each wheelset then
     passed_left: float  # share behind the last wheelset at ``passed``
+    magnet_work: float  # of the magnets of the car until ``position``, J
+    magnet_cleaned: float  # share that the magnets of a bogie clean there
     points: Annotated[MutableSequence[float], _RINGS]  # cleaned share before each wheelset, in rings
 
 
@@ -65,6 +67,8 @@ RAIL_MEMORY = layout_of(RailMemory)
 def forget_rail(memory: RailMemory, p: Parameters) -> None:
     """Set the memory to a rail that only earlier stops have cleaned, at the instant of the brake command."""
     memory.position = 0.0
+    memory.magnet_work = 0.0
+    memory.magnet_cleaned = 0.0
     for i in range(_WHEELSETS):
         memory.loss[i] = 0.0
         memory.cleaned[i] = 0.0
@@ -147,6 +151,17 @@ def write_passed(
     for point in range(int(floor(start)) + 1, int(floor(end)) + 1):
         part = (point - start) / (end - start)
         memory.points[_in_ring(point, ring)] = share_before + part * (share - share_before)
+
+
+def clean_passed(
+    memory: RailMemory, ring: int, start: float, end: float, share_before: float, share: float
+) -> None:
+    """Add at the points that magnets have passed what they clean, linear between both shares."""
+    for point in range(int(floor(start)) + 1, int(floor(end)) + 1):
+        part = (point - start) / (end - start)
+        own = share_before + part * (share - share_before)
+        place = _in_ring(point, ring)
+        memory.points[place] = share_left_behind(own, memory.points[place], 1.0)
 
 
 def _in_ring(point: int, ring: int) -> int:

@@ -28,10 +28,17 @@ LOWEST_LOAD = 0.2
 
 
 def clear_forces(frame: Frame) -> None:
-    """Clear the forces on a bogie or the car body before they are summed anew."""
+    """Clear the forces on the car body before they are summed anew."""
     frame.longitudinal_force = 0.0
     frame.vertical_force = 0.0
     frame.moment = 0.0
+
+
+def begin_forces(bogie: Bogie) -> None:
+    """Begin the sums on a bogie with the force of its magnets: zero but for :mod:`.track_brake`."""
+    bogie.longitudinal_force = bogie.magnet_force
+    bogie.vertical_force = 0.0
+    bogie.moment = bogie.magnet_moment
 
 
 def couple_body(car: Car, bogie: Bogie, p: Parameters) -> None:

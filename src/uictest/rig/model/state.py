@@ -52,6 +52,15 @@ class Car(Frame, BrakedTrain):
     dynamic_dropped: float  # 1 once a controller that cannot reduce it has acted
     dynamic_failed: float  # 1 while it has a fault
     line_saturated_steps: float  # in which its sensor was read and limited by its range
+    # track brake: rig.model.track_brake
+    track_brake_asked: float  # 1 while it is commanded or requested
+    track_brake_due: float  # when the magnets are drawn to the rail then, s
+    track_brake_failed: float  # 1 while it has a fault
+    kept_track_request: int  # the last that reached it
+    magnet_share: float  # of the whole attraction at present
+    track_brake_force: float  # of all magnets against the motion, N
+    track_brake_energy: float  # that it has turned into heat, J
+    track_brake_time: float  # for which it has acted, s
     # ledgers
     compressor_air: float  # delivered, kg
     consumed_air: float  # taken from the reservoir, kg
@@ -93,6 +102,9 @@ class Bogie(Frame):
     """State of one bogie frame; two of them."""
 
     ahead: float  # of the car body's centre, m
+    magnet_force: float  # of its magnets, along the motion, N
+    magnet_moment: float  # N m
+    magnet_speed: float  # of where they drag it, at the beginning of the step, m/s
 
 
 class Wheelset(BrakedWheelset, WheelsetParameters):

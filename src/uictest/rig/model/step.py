@@ -7,6 +7,7 @@ from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.pneumatics import step_air
 from uictest.rig.model.running_gear import (
     account_for_brakes,
+    begin_forces,
     clear_forces,
     couple_body,
     couple_wheelset,
@@ -39,8 +40,8 @@ def _step_vehicle(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelse
     leading = bogies[0]
     trailing = bogies[1]
     clear_forces(car)
-    clear_forces(leading)
-    clear_forces(trailing)
+    begin_forces(leading)
+    begin_forces(trailing)
     couple_body(car, leading, p)
     couple_body(car, trailing, p)
     thrust_0 = couple_wheelset(wheelsets[0], leading, car, p)

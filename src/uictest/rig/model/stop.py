@@ -32,6 +32,12 @@ from uictest.rig.model.stop_measures import (
     observe_faults,
 )
 from uictest.rig.model.trace import Trace, sample
+from uictest.rig.model.track_brake import (
+    account_for_magnets,
+    clean_by_magnets,
+    command_track_brake,
+    drag_magnets,
+)
 from uictest.rig.model.traction import hold_speed
 from uictest.rig.model.wheelset_parameters import WheelsetParameters
 
@@ -107,6 +113,8 @@ def begin_cycle(
     start_cycle(car, wheelsets, p, rail)
     if p.cleans_rail > 0.0:
         clean_rail(car, wheelsets, p, memory)
+        if p.magnet_cleaning > 0.0:
+            clean_by_magnets(car, wheelsets, p, memory)
     if p.fault_count > 0:
         falsify_readings(car, wheelsets, p)
 
@@ -149,6 +157,8 @@ def act(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, measures: StopMe
         hold_speed(car, p)
     if p.has_dynamic_brake > 0.0:
         demand_dynamic_brake(car, wheelsets, p)
+    if p.has_track_brake > 0.0:
+        command_track_brake(car, p)
     if p.fault_count > 0:
         limit_valves(car, wheelsets, p)
 
@@ -161,7 +171,11 @@ def advance(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p:
         let_air_leak(car, wheelsets, p)
     if p.has_dynamic_brake > 0.0:
         brake_dynamically(wheelsets, p)
+    if p.has_track_brake > 0.0:
+        drag_magnets(car, bogies, p)
     step(car, bogies, wheelsets, p)
+    if p.has_track_brake > 0.0:
+        account_for_magnets(car, bogies, p)
 
 
 def end_cycle(

@@ -222,6 +222,8 @@ def close_stop_measures(
     close_contacts(measures, wheelset_measures, p.total_mass)
     measures.air_consumed = car.consumed_air
     measures.held_time = car.held_time
+    measures.track_brake_energy = car.track_brake_energy if p.has_track_brake > 0.0 else NAN
+    measures.track_brake_time = car.track_brake_time if p.has_track_brake > 0.0 else NAN
     measures.energy_residual = energy_residual(car, bogies, wheelsets, p)
     measures.air_residual = air_residual(car, wheelsets)
     measures.air_energy_residual = air_energy_residual(car, wheelsets, p)

@@ -17,6 +17,7 @@ class TrainSample(Record):
     speed: float = channel("m/s")
     reference_speed: float = channel("m/s")
     diagnosis: float = channel("1")  # 32 bits of a controller from outside, as a number
+    track_brake_force: float = channel("N")  # of the magnets against the motion
     track_brake_request: float = channel("1")  # 1 while the controller asks for the track brake
     active_faults: float = channel("1")  # one bit for each fault of the list, as a number
     demanded_pressure: float = channel("Pa")
@@ -61,6 +62,8 @@ DISC_CHANNELS = ("disc_temperature", "disc_surface_temperature")
 """Channels of each wheelset that mean something only where the temperature of the discs is modelled."""
 DYNAMIC_BRAKE_CHANNELS = ("dynamic_torque", "dynamic_reduction")
 """Channels of each wheelset that mean something only where the car has a dynamic brake."""
+TRACK_BRAKE_CHANNELS = ("track_brake_force",)
+"""Channels of the train that mean something only where the car has a track brake."""
 CONTROLLER_CHANNELS = ("diagnosis",)
 """Channels of the train that mean something only where the controller comes from outside."""
 REQUEST_CHANNELS = ("track_brake_request", "sand_request")
@@ -97,6 +100,7 @@ def _sample_train(row: TrainSample, car: Car, p: Parameters) -> None:
     row.speed = car.speed
     row.reference_speed = car.reference_speed
     row.diagnosis = car.diagnosis
+    row.track_brake_force = car.track_brake_force
     row.track_brake_request = car.track_brake_request
     row.active_faults = car.active_faults
     row.demanded_pressure = car.demanded_pressure

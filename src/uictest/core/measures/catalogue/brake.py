@@ -17,6 +17,7 @@ from uictest.core.measures.measure import (
     unavailable,
     value_per_wheelset,
 )
+from uictest.core.measures.records import StopMeasures
 from uictest.core.units import normal_volume
 
 _FLOW_OF_AIR = RecordedData(("flow of air",), when="never")
@@ -35,6 +36,14 @@ def _dynamic_energies(wheelsets: Wheelsets) -> MeasureValue:
         return unavailable("the car has no dynamic brake: brake.dynamic")
     return MeasureValue(energies)
 
+
+def _of_track_brake(stop: StopMeasures, value: float) -> MeasureValue:
+    if math.isnan(stop.track_brake_energy):
+        return unavailable("the car has no track brake: brake.track")
+    return one_value(value)
+
+
+_TRACK_BRAKE = RecordedData(("force of the track brake",), when="never")
 
 MEASURES = (
     Measure(
@@ -98,6 +107,30 @@ MEASURES = (
         of_wheelsets=True,
         recorded=RecordedData(("torque of the motors",), when="never"),
         column=WheelsetColumn("dynamic_energy_kj", "kJ", read=lambda wheelset: wheelset.dynamic_energy),
+    ),
+    Measure(
+        name="track_brake_energy",
+        kind="energy",
+        unit="kJ",
+        course="grows",
+        meaning="energy that the track brake turned into heat, where there is one",
+        read=lambda stop, wheelsets, definition: _of_track_brake(stop, stop.track_brake_energy),
+        decided=ShownWhen(how="end", plot="track"),
+        recorded=_TRACK_BRAKE,
+        column=StopColumn(
+            "track_brake_energy_kj", "kJ", read=lambda stop, definition: stop.track_brake_energy
+        ),
+    ),
+    Measure(
+        name="track_brake_time",
+        kind="time",
+        unit="s",
+        course="grows",
+        meaning="time for which the track brake acted, where there is one",
+        read=lambda stop, wheelsets, definition: _of_track_brake(stop, stop.track_brake_time),
+        decided=ShownWhen(how="end", plot="track"),
+        recorded=_TRACK_BRAKE,
+        column=StopColumn("track_brake_time_s", "s", read=lambda stop, definition: stop.track_brake_time),
     ),
     Measure(
         name="reservoir_minimum_pressure",
