@@ -66,6 +66,42 @@ def proportion_interval(successes: int, trials: int, confidence: float = 0.95) -
     return float(low), float(high)
 
 
+def difference_interval(
+    first: Sequence[float], second: Sequence[float], confidence: float = 0.95
+) -> tuple[float, float]:
+    """Return the interval of the mean of the second sample less that of the first, by Welch (1947).
+
+    The variances need not be equal. NaN at both ends where a sample has one value, or both have no spread: t
+    would feign certainty.
+    """
+    from scipy.special import stdtrit
+
+    shares = [_of_sample(sample, confidence)[1] / len(sample) for sample in (first, second)]
+    total = sum(shares)
+    if not total > 0.0:
+        return math.nan, math.nan
+    degrees = total**2 / sum(
+        share**2 / (len(sample) - 1) for share, sample in zip(shares, (first, second), strict=True)
+    )
+    half = float(stdtrit(degrees, 0.5 + confidence / 2.0)) * math.sqrt(total)
+    difference = math.fsum(second) / len(second) - math.fsum(first) / len(first)
+    return difference - half, difference + half
+
+
+def share_difference_interval(
+    first: tuple[int, int], second: tuple[int, int], confidence: float = 0.95
+) -> tuple[float, float]:
+    """Return the interval of the second probability less the first; each side is (successes, trials).
+
+    From the limits of each by Clopper and Pearson, put together as by Zou and Donner (Statist. Med. 27 (2008)
+    1693): the lower end is d - sqrt((p2 - l2)^2 + (u1 - p1)^2). Raises ValueError for counts that cannot be.
+    """
+    (p1, l1, u1), (p2, l2, u2) = (
+        (each[0] / max(each[1], 1), *proportion_interval(*each, confidence)) for each in (first, second)
+    )
+    return p2 - p1 - math.hypot(p2 - l2, u1 - p1), p2 - p1 + math.hypot(u2 - p2, p1 - l1)
+
+
 def trials_needed(probability: float, confidence: float = 0.95) -> int | None:
     """Return the fewest trials whose interval lies at or above `probability` if all of them succeed.
 

@@ -11,9 +11,11 @@ from pydantic import ConfigDict, TypeAdapter
 
 from uictest.core.document import Cell, Column, Data, Lines, Table
 from uictest.judging import evaluation
+from uictest.report.verdict_sentences import number
 
 Place = Literal["first", "map", "detail"]
 """Where a table stands: first, before the stops; as a map behind that; behind the stops."""
+Digits = int | Literal["significant"] | None
 STOPS: Final = "stops"
 """Key of the column that names stops, separated by commas."""
 _MOST: Final = 30
@@ -23,12 +25,13 @@ _MOST: Final = 30
 class CampaignColumn(NamedTuple):
     """A column: its key for programs, its heading for people, and how many digits of its numbers they see.
 
-    `digits` is None for a column of texts; long ones wrap.
+    `digits` is None for a column of texts, of which long ones may wrap; `significant` where the rows have
+    numbers of different size.
     """
 
     key: str
     heading: str
-    digits: int | None = None
+    digits: Digits = None
     wraps: bool = False
 
 
@@ -60,27 +63,27 @@ class CampaignTable:
 
     def document(self) -> Table:
         """Return the table for people."""
-        columns = [_column(each, number) for number, each in enumerate(self.columns)]
+        columns = [_column(each, place) for place, each in enumerate(self.columns)]
         more = f"more rows are in `{file_name(self)}.csv`."
         return Table(columns, self.rows, self.title, self.basis, more, most=_MOST)
 
 
-def _column(column: CampaignColumn, number: int) -> Column[Sequence[Cell]]:
+def _column(column: CampaignColumn, place: int) -> Column[Sequence[Cell]]:
     return Column(
         heading=column.heading,
-        text=_text_of(number, column.digits),
-        rank=number,
+        text=_text_of(place, column.digits),
+        rank=place,
         right=column.digits is not None,
         wraps=column.wraps,
     )
 
 
-def _text_of(number: int, digits: int | None) -> Callable[[Sequence[Cell]], str]:
+def _text_of(place: int, digits: Digits) -> Callable[[Sequence[Cell]], str]:
     def text(row: Sequence[Cell]) -> str:
-        cell = row[number]
+        cell = row[place]
         if cell is None or digits is None or isinstance(cell, str):
             return "" if cell is None else str(cell)
-        return f"{cell:.{digits}f}"
+        return number(cell) if digits == "significant" else f"{cell:.{digits}f}"
 
     return text
 

@@ -188,14 +188,14 @@ def named(stops: Sequence[str]) -> str:
 _COMPARED: Final = (
     report.CampaignColumn("measure", "number"),
     report.CampaignColumn("wheelset", "wheelset", 0),
-    report.CampaignColumn("own", "it", 3),
-    report.CampaignColumn("neighbours", "neighbours", 3),
+    report.CampaignColumn("own", "it", "significant"),
+    report.CampaignColumn("neighbours", "neighbours", "significant"),
     report.CampaignColumn("unit", "unit"),
-    report.CampaignColumn("difference", "difference", 3),
-    report.CampaignColumn("low", "from", 3),
-    report.CampaignColumn("high", "to", 3),
+    report.CampaignColumn("difference", "difference", "significant"),
+    report.CampaignColumn("low", "from", "significant"),
+    report.CampaignColumn("high", "to", "significant"),
     report.CampaignColumn("difference_unit", "of it"),
-    report.CampaignColumn("limit", "limit", 3),
+    report.CampaignColumn("limit", "limit", "significant"),
     report.CampaignColumn("stops_compared", "stops", 0),
 )
 

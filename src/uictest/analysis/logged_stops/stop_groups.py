@@ -177,9 +177,9 @@ def _planned(stop: LoggedStop) -> series_plans.PlannedStop:
 _SERIES: Final = (
     report.CampaignColumn("speed_kmh", "from, km/h", 0),
     report.CampaignColumn("measure", "measure"),
-    report.CampaignColumn("value", "value", 3),
-    report.CampaignColumn("low", "95 % interval\nfrom", 3),
-    report.CampaignColumn("high", "to", 3),
+    report.CampaignColumn("value", "value", "significant"),
+    report.CampaignColumn("low", "95 % interval\nfrom", "significant"),
+    report.CampaignColumn("high", "to", "significant"),
     report.CampaignColumn("unit", "unit"),
     report.CampaignColumn("dry_stops", "dry stops\ncounted", 0),
     report.CampaignColumn("wet_stops", "wet stops\ncounted", 0),

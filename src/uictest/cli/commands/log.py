@@ -94,7 +94,7 @@ def log(
     published = run_display.publish_and_show(batch, output, ("html",), junit, display)
     if published is None:
         return ExitCode.INTERRUPTED
-    file_system.write(published.place, "stops.csv", _table(found))
+    file_system.write(published.place, runs.STOPS_OF_LOG, _table(found))
     if shown is options.Format.TEXT and not quiet:
         _show_together(published.content.campaign)
     return of_run(published)

@@ -1,0 +1,157 @@
+"""Two logs group by group: their stops do not pair, so means are compared with Welch's interval.
+
+95 % holds for all rows together (Bonferroni). The rails are not the same on both sides: what a row shows is
+the difference of the stops, and of the software alone only where nothing else differs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+from uictest import report
+from uictest.analysis.logged_stops.stop_groups import LoggedStop
+from uictest.core import document
+from uictest.core.document import Cell
+from uictest.core.measures import column_unit
+from uictest.core.series_measures import CountedStop, Figure, largest_of_wheelsets, of_stop
+from uictest.core.statistics import difference_interval, share_difference_interval
+from uictest.core.units import in_unit
+
+_LEFT_OUT: Final = ("error", "skipped", "invalid")
+"""Outcomes of stops that say nothing of the WSP."""
+_FEWEST: Final = 3
+"""Stops of each side below which no mean is compared; chosen."""
+_DISTANCE: Final = "braking_distance_m"
+_FIGURES: Final[Mapping[str, Figure]] = {
+    _DISTANCE: of_stop(_DISTANCE),
+    "initial_adhesion_g": of_stop("initial_adhesion_g"),
+    **{
+        f"largest_{name}": largest_of_wheelsets(name)
+        for name in ("slid_distance_m", "locked_time_s", "contact_energy_kj", "valve_actuations")
+    },
+    "friction": of_stop("friction"),
+}
+"""What is compared, and how it is read from a stop; the distance is brought to the nominal speed."""
+Group = tuple[str, float]
+"""Rail and nominal speed, km/h."""
+Stops = Sequence[CountedStop]
+
+
+def compare_logs(first: report.RunContent, second: report.RunContent) -> report.CampaignTable:
+    """Return by how much the stops of the second log differ from those of the first, group by group."""
+    one, other = _groups(first), _groups(second)
+    common = [group for group in one if group in other]
+    known = [
+        (group, name) for group in common for name in _FIGURES if _enough(one[group], other[group], name)
+    ]
+    confidence = 1.0 - 0.05 / max(len(known) + len(common), 1)
+    rows: list[tuple[Cell, ...]] = []
+    for group in common:
+        rows.append(_shares(group, one[group], other[group], confidence))
+        names = [name for of, name in known if of == group]
+        rows += [_means(group, name, one[group], other[group], confidence) for name in names]
+    alone = ", ".join(_group_text(each) for each in (*one, *other) if each not in common)
+    return report.CampaignTable(
+        "unpaired",
+        "Stops of two logs, unpaired",
+        "B - A: means with Welch's interval, shares by Clopper and Pearson's limits of both (Zou and Donner"
+        " 2008); 95 % for all rows together. Rails differ: look at the friction."
+        + (f" On one side only: {alone}." if alone else ""),
+        "first",
+        _COLUMNS,
+        tuple(rows),
+    )
+
+
+_COLUMNS: Final = (
+    report.CampaignColumn("rail", "rail"),
+    report.CampaignColumn("speed_kmh", "from\nkm/h", 0),
+    report.CampaignColumn("quantity", "quantity"),
+    report.CampaignColumn("first_stops", "stops\nA", 0),
+    report.CampaignColumn("second_stops", "stops\nB", 0),
+    report.CampaignColumn("first", "A", "significant"),
+    report.CampaignColumn("second", "B", "significant"),
+    report.CampaignColumn("difference", "B - A", "significant"),
+    report.CampaignColumn("low", "interval\nfrom", "significant"),
+    report.CampaignColumn("high", "to", "significant"),
+    report.CampaignColumn("unit", "unit"),
+    report.CampaignColumn("finding", "finding"),
+)
+
+
+def _groups(content: report.RunContent) -> dict[Group, list[CountedStop]]:
+    """Return the stops of a log that count, by rail and nominal speed."""
+    frictions = _frictions(content)
+    groups: dict[Group, list[CountedStop]] = {}
+    for result in content.results:
+        measures = dict(result.measures or {})
+        squared = 2.0 * measures.get("mean_deceleration_mps2", math.nan) * measures.get(_DISTANCE, math.nan)
+        if result.outcome in _LEFT_OUT or not squared > 0.0:
+            continue
+        rail = content.subject(result.id).settings.get("rail", "")
+        stop = LoggedStop(result, in_unit(math.sqrt(squared), "km/h"), rail == "dry")
+        if stop.nominal is not None:
+            own = measures | {_DISTANCE: stop.distance, "friction": frictions.get(result.id, math.nan)}
+            counted = CountedStop(own, result.wheelsets, result.outcome == "pass")
+            groups.setdefault((rail, stop.nominal), []).append(counted)
+    return dict(sorted(groups.items()))
+
+
+def _frictions(content: report.RunContent) -> dict[str, float]:
+    tables = content.campaign.tables if content.campaign else ()
+    rows = [row for table in tables if table.name == "friction" for row in table.data.rows]
+    return {str(row[report.STOPS]): float(row["friction"] or 0) for row in rows if row["standing"] == "found"}
+
+
+def _values(stops: Stops, name: str) -> list[float]:
+    return [value for value in map(_FIGURES[name], stops) if math.isfinite(value)]
+
+
+def _enough(first: Stops, second: Stops, name: str) -> bool:
+    return min(len(_values(first, name)), len(_values(second, name))) >= _FEWEST
+
+
+def _means(group: Group, name: str, first: Stops, second: Stops, confidence: float) -> tuple[Cell, ...]:
+    one, other = _values(first, name), _values(second, name)
+    means = [math.fsum(side) / len(side) for side in (one, other)]
+    low, high = difference_interval(one, other, confidence)
+    unit = "" if name == "friction" else column_unit(name.removeprefix("largest_"))
+    return (*group, name, len(one), len(other), *_compared(means, low, high), unit, _finding(low, high))
+
+
+def _shares(group: Group, first: Stops, second: Stops, confidence: float) -> tuple[Cell, ...]:
+    one, other = ((sum(stop.passed for stop in side), len(side)) for side in (first, second))
+    low, high = (100.0 * end for end in share_difference_interval(one, other, confidence))
+    shares = [100.0 * passed / stops for passed, stops in (one, other)]
+    return (
+        *group,
+        "stops that pass",
+        one[1],
+        other[1],
+        *_compared(shares, low, high),
+        "%",
+        _finding(low, high),
+    )
+
+
+def _compared(values: Sequence[float], low: float, high: float) -> tuple[Cell, ...]:
+    ends = report.number_cell(low), report.number_cell(high)
+    return values[0], values[1], values[1] - values[0], *ends
+
+
+def _finding(low: float, high: float) -> str:
+    if low > 0.0:
+        return "B larger"
+    return "B smaller" if high < 0.0 else "not told apart"
+
+
+def _group_text(group: Group) -> str:
+    return f"{group[0]} from {group[1]:g} km/h"
+
+
+def logs_form(first: str, second: str, table: report.CampaignTable) -> dict[str, Any]:
+    """Return the comparison of two logs as a JSON document."""
+    head = document.head(document.RESULT, "unpaired")
+    return {**head, "first": first, "second": second, "basis": table.basis, "rows": list(table.data.rows)}

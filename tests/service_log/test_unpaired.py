@@ -1,0 +1,110 @@
+"""Two logs compared group by group."""
+
+import json
+import math
+import random
+
+import numpy as np
+import pytest
+from hypothesis import given, strategies as st
+from scipy import stats
+
+from tests.service_log import logs
+from uictest.cli.entry import execute
+from uictest.core.statistics import difference_interval, share_difference_interval
+
+samples = st.lists(st.floats(-100.0, 100.0), min_size=2, max_size=9)
+
+
+@given(samples, samples)
+def test_the_interval_of_a_difference_is_that_of_welch(first, second):
+    if min(np.ptp(first), np.ptp(second)) < 1e-3:
+        return
+    expected = stats.ttest_ind(second, first, equal_var=False).confidence_interval(0.9)
+    assert difference_interval(first, second, 0.9) == pytest.approx(tuple(expected), rel=1e-6, abs=1e-6)
+
+
+def test_samples_without_spread_have_no_interval():
+    assert all(map(math.isnan, difference_interval([1.0, 1.0], [2.0, 2.0])))
+
+
+@pytest.mark.parametrize(("p1", "p2"), [(0.5, 0.5), (0.9, 0.6), (0.97, 0.97), (0.1, 0.8)])
+def test_the_interval_of_a_difference_of_shares_holds_it_often_enough(p1, p2):
+    """The chance of every outcome of 12 and 9 stops is known: no sampling."""
+    covered = 0.0
+    for x in range(13):
+        for y in range(10):
+            low, high = share_difference_interval((x, 12), (y, 9))
+            if low <= p2 - p1 <= high:
+                covered += stats.binom.pmf(x, 12, p1) * stats.binom.pmf(y, 9, p2)
+    assert covered >= 0.95
+
+
+def judged(folder, name, seed, controller):
+    draw = random.Random(seed)
+    stops = [
+        logs.simulated(
+            logs.wet(draw.uniform(0.08, 0.11)), 80.0, draw.randrange(10**6), {"controller": controller}
+        )
+        for _ in range(7)
+    ]
+    logs.write_log(stops, folder / f"{name}.parquet")
+    execute(
+        [
+            "log",
+            f"{name}.parquet",
+            "--scenario",
+            "night.yaml",
+            "-q",
+            "-o",
+            name,
+            "--recordings",
+            f"{name}-stops",
+        ]
+    )
+
+
+@pytest.fixture(name="nights", scope="module")
+def _nights(tmp_path_factory):
+    """Logs of one controller in two nights, and of another."""
+    folder = tmp_path_factory.mktemp("nights")
+    (folder / "night.yaml").write_text(logs.CONDITIONS, "utf-8")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        judged(folder, "a", 1, "threshold")
+        judged(folder, "again", 2, "threshold")
+        judged(folder, "b", 3, "slip-band")
+    return folder
+
+
+def compared(nights, first, second, capsys):
+    code = execute(
+        ["compare", str(nights / first / "latest"), str(nights / second / "latest"), "--format", "json"]
+    )
+    document = json.loads(capsys.readouterr().out)
+    assert code == 0
+    return {row["quantity"]: row for row in document["rows"]}
+
+
+def test_another_controller_is_told_apart(nights, capsys):
+    rows = compared(nights, "a", "b", capsys)
+    assert rows["braking_distance_m"]["finding"] == "B larger"
+    assert rows["friction"]["finding"] == "not told apart"
+    assert rows["braking_distance_m"]["first_stops"] == rows["braking_distance_m"]["second_stops"] == 7
+
+
+def test_the_same_controller_in_another_night_is_not(nights, capsys):
+    assert {row["finding"] for row in compared(nights, "a", "again", capsys).values()} == {"not told apart"}
+
+
+def test_the_other_way_round_every_difference_changes_its_sign(nights, capsys):
+    there, back = (compared(nights, *pair, capsys) for pair in (("a", "b"), ("b", "a")))
+    for name, row in there.items():
+        assert back[name]["difference"] == pytest.approx(-row["difference"], abs=1e-12)
+        assert back[name]["low"] == pytest.approx(-row["high"], abs=1e-9)
+
+
+def test_logs_have_no_tolerance(nights, capsys):
+    place = str(nights / "a" / "latest")
+    assert execute(["compare", place, place, "--tolerance", "braking_distance_m=1 m"]) == 4
+    assert "no pairs" in capsys.readouterr().err
