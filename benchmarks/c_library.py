@@ -222,6 +222,7 @@ MISSING = {
     "command_times": "commands that change: it cannot run a course of brake.command",
     "end_speed": "end above standstill: it cannot run until",
     "drag_duration": "traction: it cannot run drag",
+    "has_sanders": "sanders: it cannot run sanders",
     "has_dynamic_brake": "motors: it cannot run brake.dynamic",
     "has_track_brake": "magnets on the rail: it cannot run brake.track",
     "fault_count": "faults: it cannot run a scenario with any",

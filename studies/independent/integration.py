@@ -95,6 +95,7 @@ def _refuse_unknown(scenario: Any) -> None:
         "until": scenario.until is not None,
         "drag": scenario.drag is not None,
         "faults": bool(scenario.faults),
+        "sanders": bool(scenario.sanders),
         "rail.variation": scenario.rail.variation_in_force is not None,
     }
     unknown = [name for name, found in present.items() if found]

@@ -56,6 +56,9 @@ WHEELSET = [
     "maximum_clamping_force_n",
     "maximum_disc_temperature_degc",
     "dynamic_energy_kj",
+    "sand_laid_kg",
+    "sand_in_30_s_kg",
+    "longest_sanding_s",
     "air_vented_nl",
 ]
 

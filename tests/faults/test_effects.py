@@ -30,6 +30,7 @@ NOTHING = {
     "release_time": math.inf,
     "dynamic_failed": 0.0,
     "track_failed": 0.0,
+    "sander_blocked": 0.0,
 }
 """Sensors that read true, valves that open and close as commanded, no leak, a controller that is heard."""
 NO_VALUE = ""
@@ -65,6 +66,7 @@ FAULTS = [
     ("controller", "silent", NO_VALUE, {"silent": 1.0}),
     ("dynamic-brake", "failed", NO_VALUE, {"dynamic_failed": 1.0}),
     ("track-brake", "failed", NO_VALUE, {"track_failed": 1.0}),
+    ("sander", "blocked", NO_VALUE, {"sander_blocked": 1.0}),
 ]
 
 

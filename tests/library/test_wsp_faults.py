@@ -54,6 +54,7 @@ def judged(tmp_path, part, kind, controller="threshold"):
     """The stop from 80 km/h on a slippery rail with a fault of wheelset 2 from 3 s on."""
     own = "" if part in ("brake-line", "controller", *OPTIONAL) else ", wheelset: 2"
     brake = f"brake: {OPTIONAL[part]}\n" if part in OPTIONAL else ""
+    brake += "sanders: [{wheelset: 2, density: 7.5 g/m}]\n" if part == "sander" else ""
     value = f", value: {VALUES[part, kind]}" if (part, kind) in VALUES else ""
     sensors = "{speed: {method: whole-teeth}, extends: standard}" if kind == "missing-teeth" else "standard"
     path = tmp_path / "stop.yaml"

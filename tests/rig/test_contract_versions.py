@@ -151,6 +151,18 @@ def test_requests_are_recorded_of_version_2_alone(stop_of, python):
     assert recording.channels.keys() - old.channels.keys() == added
 
 
+def test_a_sander_lays_sand_when_the_controller_of_a_car_asks_for_it(stop_of, python):
+    sander = "sanders: [{wheelset: 3, rate: 2 kg/min, when: requested, delay: 0 s, off_below: 0 km/h}]\n"
+    asking = "answer.sand_request = [1, 0, late, 0]"
+    stop = run_in_process(assemble(stop_of(python(asking), sander)), 20)
+    time, sanding = stop.trace.train["time"], stop.trace.wheelsets["sanding"]
+    assert np.array_equal(sanding[:, 2], (time > 6.0 + 1e-9).astype(float))
+    assert not sanding[:, [0, 1, 3]].any()
+    assert stop.wheelset_measures.sand_laid[2] == pytest.approx(
+        (stop.measures.end_time - 6.0) / 30.0, abs=0.02 / 30.0
+    )
+
+
 def test_a_library_gives_the_bits_of_the_class_alone_and_in_lanes(stop_of, python, library):
     case = stop_of(python(), SLIPPERY)
     expected = run_in_process(assemble(case))

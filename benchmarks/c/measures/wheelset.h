@@ -18,6 +18,7 @@ static inline void begin_wheelset(WheelsetMeasures *m)
     m->valve_actuations = m->venting = m->maximum_clamping_force = 0.0;
     m->pressure_saturation = m->loadcell_saturation = 0.0;
     m->air_vented = m->dynamic_energy = m->maximum_disc_temperature = NAN;
+    m->sand_laid = m->sand_in_30_s = m->longest_sanding = NAN;
     m->faulty = m->release = 0.0;
     m->longest_release = NAN;
 }

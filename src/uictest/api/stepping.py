@@ -176,7 +176,7 @@ class Rig:
             diagnosis: 32 bits for the recording.
             dynamic_reduction: share taken off the dynamic brake, 0 to 1, one per wheelset. This and the next
                 two only with `contract=2`.
-            sand_request: 0 or 1, one per wheelset, for the recording.
+            sand_request: 0 or 1, one per wheelset, for sanders with `when: requested`.
             track_brake_request: 0 or 1; acts where the scenario's `brake.track` says `when: requested`.
 
         Raises:

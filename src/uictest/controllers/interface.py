@@ -82,7 +82,7 @@ class Outputs:
         diagnosis: 32 bits of the controller's own, recorded with the stop.
         dynamic_reduction: share that is taken off the dynamic brake, 0 to 1, one per wheelset. This and the
             next two belong to version 2 of the contract; None: nothing.
-        sand_request: whether sand is asked for, one per wheelset; only recorded.
+        sand_request: whether sand is asked for, one per wheelset; obeyed by sanders with `when: requested`.
         track_brake_request: whether the track brake is asked for; it acts where the scenario's `brake.track`
             says `when: requested`, and is only recorded elsewhere.
     """

@@ -65,7 +65,7 @@ typedef struct {
     uint32_t diagnosis;                         /* any bits; recorded with the stop */
 #if UICTEST_ABI_VERSION >= 2
     double dynamic_reduction[UICTEST_WHEELSETS];/* share that is taken off the dynamic brake, 0 to 1 */
-    int32_t sand_request[UICTEST_WHEELSETS];    /* 0 or 1; only recorded */
+    int32_t sand_request[UICTEST_WHEELSETS];    /* 0 or 1; obeyed by sanders with `when: requested` */
     int32_t track_brake_request;                /* 0 or 1; acts where the scenario has `when: requested` */
 #endif
 } uictest_outputs;

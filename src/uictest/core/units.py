@@ -174,6 +174,13 @@ _KINDS = (
         _unit("NL/min", Fraction(str(NORMAL_DENSITY)) / 1000 / 60),
         _unit("kg/s", 1),
     ),
+    _kind(
+        "sand rate",
+        "kg/s",
+        _unit("kg/min", Fraction(1, 60)),
+        _unit("g/s", "0.001"),
+    ),
+    _kind("line density", "kg/m", _unit("g/m", "0.001"), _unit("kg/m", 1, recorded_only=True)),
     _kind("frequency", "Hz", _unit("Hz", 1)),
     _kind("inverse speed", "s/m", _unit("s/m", 1)),
     _kind("energy", "J", _unit("kJ", 1000), _unit("J", 1), _unit("MJ", 1_000_000)),
@@ -211,7 +218,7 @@ KILONEWTON_PER_BAR: Final = SIZES["kN/bar"]
 PERCENT: Final = SIZES["%"]
 
 _KINDS_IN_RECORDINGS: Final = frozenset(
-    {"time", "length", "speed", "pressure", "force", "torque", "share", "temperature"}
+    {"time", "length", "speed", "pressure", "force", "torque", "share", "temperature", "line density"}
 )
 
 

@@ -26,6 +26,7 @@ class Effects(NamedTuple):
         release_time: silence after which they fill, s.
         dynamic_failed: 1 where the dynamic brake of the car gives nothing.
         track_failed: 1 where the rail does not attract the magnets of the track brake.
+        sander_blocked: 1 where the sander of the wheelset lays nothing.
     """
 
     speed_valid: float = 1.0
@@ -49,3 +50,4 @@ class Effects(NamedTuple):
     release_time: float = math.inf
     dynamic_failed: float = 0.0
     track_failed: float = 0.0
+    sander_blocked: float = 0.0

@@ -19,6 +19,8 @@ SPEED_SENSOR: Final = "speed-sensor"
 DYNAMIC_BRAKE: Final = "dynamic-brake"
 TRACK_BRAKE: Final = "track-brake"
 """The parts that a car need not have."""
+SANDER: Final = "sander"
+"""A part that a wheelset need not have."""
 
 
 class FaultValue(NamedTuple):
@@ -252,6 +254,7 @@ _ROWS: Final = (
         _always(Effects(track_failed=1.0)),
         of_wheelset=False,
     ),
+    FaultKind(SANDER, "blocked", "No sand leaves it.", _always(Effects(sander_blocked=1.0))),
 )
 
 FAULT_KINDS: Final = MappingProxyType({(row.part, row.name): row for row in _ROWS})

@@ -22,6 +22,7 @@ from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.rail import FACTORS, FRICTIONS, PLACES, ROWS, TIMES
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.rig.rail_friction import RAIL, friction_along_track, friction_factor_over_time
+from uictest.rig.sand_parameters import SANDERS
 from uictest.rig.single_stop import StopInputs, noise_keys
 from uictest.rig.track_brake_parameters import TRACK_BRAKE
 
@@ -141,6 +142,7 @@ ASSIGNMENTS: tuple[Assignment, ...] = (
     *RAIL,
     *DYNAMIC_BRAKE,
     *TRACK_BRAKE,
+    *SANDERS,
     Assignment(_set_controller, ("controller",)),
 )
 """What sets all parameters but `noise_key`."""

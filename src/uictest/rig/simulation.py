@@ -16,6 +16,7 @@ from uictest.rig.model.trace import (
     DYNAMIC_BRAKE_CHANNELS,
     FAULT_CHANNELS,
     REQUEST_CHANNELS,
+    SAND_CHANNELS,
     TRACK_BRAKE_CHANNELS,
     WHEELSET_CHANNELS,
 )
@@ -103,6 +104,7 @@ def _recorded(
         *(() if case.scenario.brake.models_disc_temperature else DISC_CHANNELS),
         *(() if case.scenario.brake.dynamic else DYNAMIC_BRAKE_CHANNELS),
         *(() if case.scenario.brake.track else TRACK_BRAKE_CHANNELS),
+        *(() if case.scenario.sanders else SAND_CHANNELS),
         *(() if case.scenario.faults else FAULT_CHANNELS),
     }
     return (

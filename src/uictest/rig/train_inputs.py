@@ -11,6 +11,7 @@ from uictest.plans.scenario import Case
 from uictest.rig.assembly import assemble
 from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.rail import MARGIN, POINTS
+from uictest.rig.sand_parameters import sand_grid
 from uictest.rig.single_stop import StopInputs
 
 _SHARED: Final = ("step", "steps_per_cycle", "initial_speed", "seed", "cycles")
@@ -109,6 +110,8 @@ def _set_train(parameters: NDArray[Any], distances: NDArray[np.float64], couplin
     )
     finest = (POINTS - 2 * MARGIN) / between.max(initial=0.0) if between.size else np.inf
     parameters["rail_points_per_metre"] = min(parameters["rail_points_per_metre"].min(), finest)
+    if parameters["has_sanders"].any():
+        _set_sand(parameters, between.max(initial=0.0))
     delays = coupling.distance * np.arange(len(parameters)) / coupling.pipe_speed
     parameters["dead_time"] += delays
     parameters["track_brake_first"] += delays
@@ -116,3 +119,15 @@ def _set_train(parameters: NDArray[Any], distances: NDArray[np.float64], couplin
         parameters[name] += delays[:, None]
     keys = parameters["noise_key"] ^ (np.arange(len(parameters)) * _KEY_STEP & 0xFFFFFFFF)
     parameters["noise_key"] = keys
+
+
+def _set_sand(parameters: NDArray[Any], largest_gap: float) -> None:
+    """Let every car keep the sand that any of them lays, on one grid."""
+    lays = parameters["has_sanders"] > 0.0
+    for name in ("sand_points", "sand_densities", "sand_shares", "sand_friction", "sand_kept"):
+        parameters[name] = parameters[name][lays][0]
+    first = parameters[0]
+    of_train = sand_grid(largest_gap, float(first["initial_speed"]), float(first["cycle_time"]))
+    finest = parameters["sand_points_per_metre"][lays].min()
+    parameters["sand_points_per_metre"] = min(finest, of_train)
+    parameters["has_sanders"] = 1.0

@@ -41,7 +41,10 @@ def faulty_stop():
     """A stop on a slippery rail in which a speed sensor fails, sampled in every cycle."""
     path = Path(__file__).parents[3] / "examples" / "faults" / "slip-120-with-fault.yaml"
     motors = "brake.dynamic={force: 60 kN, power: 1.6 MW}"
-    (case,) = load([path], overrides=["brake.pad=disc-pad", motors, "controller=slip-band"])
+    sanders = ", ".join(f"{{wheelset: {n}, rate: {n} kg/min, sliding_time: {n} s}}" for n in (1, 2, 3, 4))
+    without_effect = [f"sanders=[{sanders}]", "rail.sand.friction=0.001"]
+    changes = ["brake.pad=disc-pad", motors, "controller=slip-band", *without_effect]
+    (case,) = load([path], overrides=changes)
     return simulate(case, record_every=0.01)
 
 

@@ -3,7 +3,9 @@ import pytest
 from uictest.core.units import SIZES
 from uictest.report.traces.quantities import PLOT_QUANTITIES, channel_names, channel_title, shown_unit
 
-SI = {"km/h": "m/s", "bar": "Pa", "kN": "N", "N m": "N m", "degC": "K", "%": "1", "m": "m", "1": "1"}
+SI = {"km/h": "m/s", "bar": "Pa", "kN": "N", "N m": "N m", "degC": "K", "%": "1", "m": "m", "1": "1"} | {
+    "g/m": "kg/m"
+}
 
 
 @pytest.mark.parametrize("key", [key for key in PLOT_QUANTITIES if key != "deceleration"])

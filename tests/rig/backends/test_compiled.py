@@ -122,6 +122,16 @@ SETTINGS = {
         ),
         {**QUICK_BRAKE, "cycles": 40},
     ),
+    "sanders on a rail that is cleaned": (
+        (
+            *("initial_speed=120 km/h", "rail.condition=wet-cleaning", "rail.friction=0.005"),
+            (
+                "sanders=[{wheelset: 1, rate: 2 kg/min, when: always, delay: 50 ms},"
+                " {wheelset: 3, density: 7.5 g/m, delay: 20 ms, sliding_time: 50 ms}]"
+            ),
+        ),
+        {**QUICK_BRAKE, "valve_delay_cycles": 0, "cycles": 60},
+    ),
     "faults of every part, each for a while": (
         (
             *("rig.sensors=pole-wheel", "rail.condition=wet", "rail.friction=0.04", "initial_speed=30 km/h"),
@@ -204,7 +214,7 @@ def test_the_settings_reach_what_they_say(rig):
     """Standstill, venting and locks happen within the short stops that are compared."""
     ends = {name: rig.stop(*overrides, **fields) for name, (overrides, fields) in SETTINGS.items()}
     standstill, slides, band, air, counted, fading, motors, reduced, magnets, again, *others = ends.values()
-    blocks, downhill, cleaned, varied, faulty = others
+    blocks, downhill, cleaned, varied, sanded, faulty = others
     assert standstill.measures.stopped == 1.0
     assert slides.wheelset_measures.valve_actuations.all()
     assert slides.wheelset_measures.locked_time.any()
@@ -229,6 +239,8 @@ def test_the_settings_reach_what_they_say(rig):
     assert downhill.measures.end_speed > 0.0
     assert cleaned.wheelsets["cleaned_share"].min() > 0.01
     assert cleaned.car.position > 4.0 * rig.parameters()[0].half_wheelbase
+    assert (sanded.wheelset_measures.sand_laid[::2] > 0.0).all()
+    assert (sanded.wheelsets["sand_density"] > 0.0).all()
     assert len({*varied.wheelsets["rail_factor"]}) == 4
     assert faulty.car.begun_faults == 0b1111_1111
     assert faulty.car.ended_faults == 0b1101_0001

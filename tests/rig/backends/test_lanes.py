@@ -51,6 +51,11 @@ MOTORS = "brake.dynamic={force: 60 kN, power: 1.6 MW, wheelsets: [1, 4]}"
 FAILING = "faults=[{at: 2 s, part: dynamic-brake, kind: failed}]"
 MAGNETS = "brake.track={attraction: 60 kN, when: always, delay: 0.3 s, cleaning: 10 %}"
 LETTING_GO = "faults=[{at: 1 s, part: track-brake, kind: failed}]"
+SANDERS = (
+    "sanders=[{wheelset: 2, density: 7.5 g/m, when: always, off_below: 5 km/h, delay: 0.1 s},"
+    " {wheelset: 4, rate: 2 kg/min, off_below: 0 km/h, delay: 0 s}]"
+)
+BLOCKED = "faults=[{at: 1.5 s, wheelset: 2, part: sander, kind: blocked}]"
 VARIANTS = (
     (),
     ("rig.compensation=none", *WET),
@@ -93,6 +98,8 @@ VARIANTS = (
     (MOTORS, FAILING, "rig.wsp=bypassed"),
     (MAGNETS, *WET),
     (MAGNETS, CLEANED, "rail.friction=0.05", LETTING_GO),
+    (SANDERS, *WET),
+    (SANDERS, BLOCKED, CLEANED, "rail.friction=0.05"),
 )
 
 WITHOUT_COMPILER = """

@@ -31,6 +31,8 @@ LEAKS = (
 )
 FAILING = "faults=[{at: 1 s, part: dynamic-brake, kind: failed}]"
 MAGNETS = "brake.track={attraction: 60 kN, when: always, delay: 0.3 s, cleaning: 10 %}"
+SANDER = "sanders=[{wheelset: 3, density: 7.5 g/m, when: always, off_below: 3 km/h, delay: 0.1 s}]"
+OTHER = "sanders=[{wheelset: 1, rate: 2 kg/min, delay: 0 s, off_below: 0 km/h}]"
 TRAINS = (
     (COUPLED, WET, [()]),
     (COUPLED, CLEANED, [(), ("brake.command=60 %",)]),
@@ -44,6 +46,8 @@ TRAINS = (
     (COUPLED, (*WET, "simulation.time_step=0.25 ms"), [(), ("brake.command=50 %",)]),
     (COUPLED, (*WET, "drag={speed: 8 km/h, duration: 0.7 s}"), [(), ()]),
     (COUPLED, (*WET, "until=6 km/h"), [("brake.command=50 %",), ()]),
+    (COUPLED, WET, [(SANDER,), (), ("brake.command=60 %",), (OTHER,)]),
+    (PIPED, CLEANED, [(), (SANDER,)]),
     (COUPLED, CLEANED, [()]),
     (PIPED, CLEANED, [(MAGNETS,), (MAGNETS, "brake.command=60 %")]),
 )

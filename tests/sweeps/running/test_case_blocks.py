@@ -49,6 +49,16 @@ matrix:
       - {at: 2 m, part: controller, kind: silent}
   simulation.time_step: [0.5 ms, 0.25 ms]
 """,
+    "sand": """\
+matrix:
+  sanders:
+    - []
+    - [{wheelset: 2, density: 7.5 g/m}]
+    - [{wheelset: 2, rate: 2 kg/min, when: always}, {wheelset: 4, density: 5 g/m, delay: 1 s}]
+  rail.sand.kept: [0.7, 0.9]
+  initial_speed: [40 km/h, 80 km/h]
+  vehicle: [intercity-180, crh380a]
+""",
     "sample": """\
 matrix: {rig.compensation: [none, full]}
 sample:

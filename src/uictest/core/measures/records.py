@@ -94,6 +94,9 @@ class WheelsetMeasures(Record):
     maximum_clamping_force: float  # of one caliper, N
     air_vented: float  # kg
     dynamic_energy: float  # taken by the dynamic brake, where there is one, J
+    sand_laid: float  # by its sander, where the car has any, kg
+    sand_in_30_s: float  # most that it laid within 30 s, kg
+    longest_sanding: float  # time for which it laid sand without a break, s
     pressure_saturation: float  # time for which its pressure sensor is limited by its range, s
     loadcell_saturation: float  # the same of the loadcells of its caliper, s
     maximum_disc_temperature: float  # of the friction surface, where modelled, K

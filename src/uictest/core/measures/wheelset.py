@@ -44,6 +44,9 @@ def begin_wheelset(measures: WheelsetMeasures) -> None:
     measures.loadcell_saturation = 0.0
     measures.maximum_disc_temperature = NAN
     measures.dynamic_energy = NAN
+    measures.sand_laid = NAN
+    measures.sand_in_30_s = NAN
+    measures.longest_sanding = NAN
     measures.faulty = 0.0
     measures.release = 0.0
     measures.longest_release = NAN

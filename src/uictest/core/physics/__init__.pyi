@@ -57,6 +57,7 @@ from .polach import (
     stress_gradient as stress_gradient,
 )
 from .rail import (
+    MOST_SAND_POINTS as MOST_SAND_POINTS,
     cleaned_friction as cleaned_friction,
     cleaned_share as cleaned_share,
     interpolated as interpolated,

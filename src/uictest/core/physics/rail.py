@@ -15,8 +15,12 @@ form of the equations is ours.
 """
 
 from collections.abc import Sequence
+from typing import Final
 
 from uictest.core.physics.arithmetic import exp, maximum, minimum
+
+MOST_SAND_POINTS: Final = 16
+"""Points that a table of what sand does may have."""
 
 
 def interpolated(at: float, places: Sequence[float], values: Sequence[float], count: int) -> float:

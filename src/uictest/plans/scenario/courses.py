@@ -1,10 +1,12 @@
 """Courses of a stop that cannot be: an end that is never reached, a speed that is never held."""
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
+from uictest.plans.scenario.feasibility import highest_friction, stopping_time_at_least
 from uictest.plans.scenario.parts.fault import SPEED
-from uictest.plans.scenario.yaml import Inconsistency
+from uictest.plans.scenario.yaml import DEFAULT_SOURCE, Inconsistency
 
 
 def impossible_courses(scenario: Any) -> Iterator[Inconsistency]:
@@ -54,3 +56,18 @@ def _never_reached(scenario: Any) -> Iterator[Inconsistency]:
                 f"the stop ends at {until.text}, before {fault.at.text} is reached",
                 "write a higher speed",
             )
+
+
+def endless_stop(scenario: Any) -> Iterator[Inconsistency]:
+    """Yield a stop that no brake can end within the longest duration that is simulated."""
+    limit, shortest = scenario.simulation.maximum_duration, stopping_time_at_least(scenario)
+    if shortest <= limit:
+        return
+    least = (
+        "this car never stops" if shortest == math.inf else f"no brake stops this car within {shortest:.0f} s"
+    )
+    yield Inconsistency(
+        ("initial_speed",) if limit.source == DEFAULT_SOURCE else ("simulation", "maximum_duration"),
+        f"a stop from {scenario.initial_speed.text} cannot end within maximum_duration ({limit.text})",
+        f"{least} with friction {highest_friction(scenario):g} and this gradient",
+    )

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any, Final
 
-from uictest.plans.faults import DYNAMIC_BRAKE, TRACK_BRAKE
+from uictest.plans.faults import DYNAMIC_BRAKE, SANDER, TRACK_BRAKE
 from uictest.plans.scenario.parts.fault import SPEED
 from uictest.plans.scenario.parts.wheelsets import wheelset_value
 from uictest.plans.scenario.yaml import Inconsistency
@@ -31,6 +31,12 @@ def impossible_faults(scenario: Any) -> Iterator[Inconsistency]:
                 ("faults", place, "part"),
                 f"this car has no {fault.part.replace('-', ' ')}",
                 f"give it one: brake.{key}: {example}",
+            )
+        if fault.part == SANDER and all(fault.wheelset != sander.wheelset for sander in scenario.sanders):
+            yield Inconsistency(
+                ("faults", place, "wheelset"),
+                f"wheelset {fault.wheelset} has no sander",
+                f"give it one: sanders: [{{wheelset: {fault.wheelset}, density: 7.5 g/m}}]",
             )
         if fault.wheelset is not None and fault.effects.lost_teeth > 0.0:
             yield from _without_teeth(scenario, place, fault)

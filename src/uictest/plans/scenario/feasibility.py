@@ -36,17 +36,24 @@ def stopping_time_at_least(scenario: Any) -> float:
     The largest friction, the gradient, the running resistance at the initial speed, the largest force of a
     track brake and a held speed act in full until the end.
     """
-    speed, rail, vehicle = scenario.initial_speed, scenario.rail, scenario.vehicle
+    speed, vehicle = scenario.initial_speed, scenario.vehicle
     resistance = vehicle.running_resistance
     drag = resistance.constant + resistance.linear * speed + resistance.quadratic * speed**2
     if scenario.brake.track is not None:
         drag += scenario.brake.track.largest_force
-    friction = rail.highest_friction_after_cleaning + rail.gradient
+    friction = highest_friction(scenario) + scenario.rail.gradient
     deceleration = STANDARD_GRAVITY * friction + drag / vehicle.total_mass
     shortest = speed / deceleration if deceleration > 0.0 else math.inf
     if scenario.until is not None:  # not slowed more than at the beginning, all the way
         shortest *= 1.0 - scenario.until / speed
     return shortest if scenario.drag is None else shortest + scenario.drag.duration
+
+
+def highest_friction(scenario: Any) -> float:
+    """Return the highest friction coefficient that a wheelset can meet."""
+    rail = scenario.rail
+    found: float = rail.highest_friction_after_cleaning
+    return max(found, rail.sand.friction) if scenario.sanders else found
 
 
 def largest_clamping_force(caliper: Caliper, compensation: Compensation, pressure: float) -> float:

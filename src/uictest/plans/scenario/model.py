@@ -11,7 +11,7 @@ from uictest.core.physics import LONGEST_DELAY_CYCLES
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.faults import MOST_FAULTS
 from uictest.plans.scenario.compensation_fit import unresolved_air, unresolved_cylinder
-from uictest.plans.scenario.courses import impossible_courses
+from uictest.plans.scenario.courses import endless_stop, impossible_courses
 from uictest.plans.scenario.fault_checks import impossible_faults
 from uictest.plans.scenario.feasibility import (
     RIG_CHECKS,
@@ -24,7 +24,6 @@ from uictest.plans.scenario.feasibility import (
     limit_of_vehicle,
     line_leak,
     rig_checks,
-    stopping_time_at_least,
     tank_leak,
 )
 from uictest.plans.scenario.parts.compensation import COMPENSATION_SETTINGS
@@ -33,6 +32,7 @@ from uictest.plans.scenario.parts.criteria import Criteria
 from uictest.plans.scenario.parts.fault import Fault
 from uictest.plans.scenario.parts.measures import MeasureDefinitions
 from uictest.plans.scenario.parts.named_file import OutcomeOfRepeats, Repeat, TestFile, seeds_too_large
+from uictest.plans.scenario.parts.sand import Sander, impossible_sanders
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, distinct_values, wheelset_value
 from uictest.plans.scenario.sections import Brake, Drag, Rail, Rig, Simulation, load_share
@@ -73,6 +73,7 @@ class Scenario(TestFile):
     drag: Drag | None = optional("Drag braking: a speed that traction holds for a time; none if left out.")
     rail: Rail = field("Rail condition, friction and gradient.")
     rig: Rig = field("Topology of the rig, compensation, WSP.")
+    sanders: tuple[Sander, ...] = field("The sanders of the car.", default=(), max_length=4)
     controller: Annotated[Controller, PartReference(Controller, DEFAULT_CONTROLLER)] = field(
         "The WSP controller under test: a library name, a relative path or an inline mapping."
     )
@@ -150,9 +151,8 @@ class Scenario(TestFile):
         yield from impossible_faults(self)
         yield from self._brake_too_strong()
         yield from impossible_courses(self)
-        shortest = stopping_time_at_least(self)
-        if shortest > self.simulation.maximum_duration:
-            yield self._stop_without_end(shortest)
+        yield from impossible_sanders(self)
+        yield from endless_stop(self)
 
     def _delay_too_long(self) -> Iterator[Inconsistency]:
         """Yield a switching delay of the valve that is longer than the rig remembers commands."""
@@ -242,19 +242,6 @@ class Scenario(TestFile):
                     f"wheelset {number} has no caliper in the rig with one caliper: its module is a tank",
                     "write `rig.topology: four-caliper`, or leave it out",
                 )
-
-    def _stop_without_end(self, shortest: float) -> Inconsistency:
-        limit = self.simulation.maximum_duration
-        least = (
-            "this car never stops"
-            if shortest == math.inf
-            else f"no brake stops this car within {shortest:.0f} s"
-        )
-        return Inconsistency(
-            ("initial_speed",) if limit.source == DEFAULT_SOURCE else ("simulation", "maximum_duration"),
-            f"a stop from {self.initial_speed.text} cannot end within maximum_duration ({limit.text})",
-            f"{least} with friction {self.rail.highest_friction_after_cleaning:g} and this gradient",
-        )
 
     @property
     def developed_pressure(self) -> float:

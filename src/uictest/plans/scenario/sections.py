@@ -20,6 +20,7 @@ from uictest.plans.scenario.parts.rail import (
     Variation,
     out_of_order,
 )
+from uictest.plans.scenario.parts.sand import Sand
 from uictest.plans.scenario.parts.track_brake import EMERGENCY, TrackBrake
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import Sensors
@@ -174,6 +175,7 @@ class Rail(Model):
     variation: Variation | None = optional(
         "How friction varies at random along the track; as the condition says if left out."
     )
+    sand: Sand = field("What sand does on the rail; nothing without sanders.", default=Sand())
     gradient: Quantity = quantity(
         "Gradient of the track, positive uphill.",
         "gradient",

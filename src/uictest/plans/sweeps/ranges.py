@@ -162,6 +162,8 @@ def _is_used(scenario: Scenario, key: Key) -> bool:
     match key:
         case ("rail", "condition", ("friction" | "cleaning" | "variation") as name, *_):
             return getattr(scenario.rail, name) is None
+        case ("rail", "sand", *_):
+            return bool(scenario.sanders)
         case ("brake", "system", "positions", position, *_):
             return any(position == used for _, _, used in scenario.brake.commands)
         case ("brake", "system", "disc", "thermal", *_):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
-from uictest.core.units import BAR, CELSIUS_ZERO, KILOMETRE_PER_HOUR, KILONEWTON, KINDS, PERCENT
+from uictest.core.units import BAR, CELSIUS_ZERO, KILOMETRE_PER_HOUR, KILONEWTON, KINDS, PERCENT, SIZES
 
 WHEELSETS = (1, 2, 3, 4)
 ORDINARY_CREEP = 10.0
@@ -51,6 +51,7 @@ PLOT_QUANTITIES = {
     "adhesion": PlotQuantity("adhesion", "1", of_wheelsets=True, decimals=3),
     "friction": PlotQuantity("friction", "1", of_wheelsets=True, decimals=3),
     "cleaned_share": PlotQuantity("cleaned share", "1", of_wheelsets=True, decimals=2),
+    "sand_density": PlotQuantity("sand met", "g/m", SIZES["g/m"], of_wheelsets=True, decimals=2),
     "disc_temperature": PlotQuantity("disc", "degC", of_wheelsets=True, zero=CELSIUS_ZERO, decimals=0),
     "disc_surface_temperature": PlotQuantity(
         "disc surface", "degC", of_wheelsets=True, zero=CELSIUS_ZERO, decimals=0
@@ -92,6 +93,7 @@ PANELS = (
     Panel("track", "Force of the track brake", "kN", ("track_brake_force",)),
     Panel("deceleration", "Deceleration (bold) and adhesion", "g", ("adhesion", "deceleration"), 1.2),
     Panel("rail", "Friction met (cleaned share dotted)", "dimensionless", ("cleaned_share", "friction")),
+    Panel("sand", "Sand before each wheelset", "g/m", ("sand_density",)),
     Panel(
         "temperature",
         "Temperature of the discs: surface (bulk dotted)",

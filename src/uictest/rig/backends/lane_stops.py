@@ -22,6 +22,7 @@ from uictest.rig.model.faults import (
 )
 from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.rail import clean_rail, forget_rail
+from uictest.rig.model.sand import command_sanders, forget_sand, spread_sand
 from uictest.rig.model.start import start
 from uictest.rig.model.step import step
 from uictest.rig.model.stop import is_running
@@ -135,6 +136,8 @@ def begin_case(lanes: Lanes, blank: RigRecords, cases: Cases, case: int, memorie
     begin_tables(cases.measures[case], cases.wheelset_measures[case])
     if cases.parameters[case].cleans_rail > 0.0:
         forget_rail(memories[k], cases.parameters[case])
+    if cases.parameters[case].has_sanders > 0.0:
+        forget_sand(memories[k])
 
 
 def set_to_start(lanes: Lanes, blank: RigRecords, cases: Cases, case: int, k: int) -> None:
@@ -182,6 +185,8 @@ def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Need
                 clean_rail(lane(rig.car, k), lane(rig.wheelsets, k), p, memories[k])
                 if p.magnet_cleaning > 0.0:
                     clean_by_magnets(lane(rig.car, k), lane(rig.wheelsets, k), p, memories[k])
+            if p.has_sanders > 0.0:
+                spread_sand(lane(rig.car, k), lane(rig.wheelsets, k), p, memories[k])
             if p.fault_count > 0:
                 falsify_readings(lane(rig.car, k), lane(rig.wheelsets, k), p)
             decide(lane(rig.car, k), lane(rig.wheelsets, k), p)
@@ -200,9 +205,7 @@ def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Need
             brakes_dynamically = brakes_dynamically or p.has_dynamic_brake > 0.0
             brakes_on_track = brakes_on_track or p.has_track_brake > 0.0
     command_valves(car, wheelsets, settings)
-    if brakes_dynamically:
-        _demand_dynamic_brakes(lanes, cases, running)
-    _limit_valves(lanes, cases, running)
+    _follow_commands_of_valves(lanes, cases, running)
     return Needs(steps, follows_air, warms_discs, leaks, brakes_dynamically, brakes_on_track)
 
 
@@ -241,21 +244,18 @@ def _update_faults(lanes: Lanes, cases: Cases, running: Any) -> None:
             update_faults(car, wheelsets, cases.parameters[case], cases.wheelset_parameters[case])
 
 
-def _demand_dynamic_brakes(lanes: Lanes, cases: Cases, running: Any) -> None:
-    """Divide lane by lane the force between both brakes."""
+def _follow_commands_of_valves(lanes: Lanes, cases: Cases, running: Any) -> None:
+    """Divide lane by lane the force between the brakes, command the sanders, limit faulty valves."""
     for k in range(running.size):
         case = running[k]
-        if case != IDLE and cases.parameters[case].has_dynamic_brake > 0.0:
-            car, wheelsets = lane(lanes.rig.car, k), lane(lanes.rig.wheelsets, k)
-            demand_dynamic_brake(car, wheelsets, cases.parameters[case])
-
-
-def _limit_valves(lanes: Lanes, cases: Cases, running: Any) -> None:
-    """Limit lane by lane the valves that are faulty."""
-    for k in range(running.size):
-        case = running[k]
-        if case != IDLE and cases.parameters[case].fault_count > 0:
-            limit_valves(lane(lanes.rig.car, k), lane(lanes.rig.wheelsets, k), cases.parameters[case])
+        if case != IDLE:
+            p, car, wheelsets = cases.parameters[case], lane(lanes.rig.car, k), lane(lanes.rig.wheelsets, k)
+            if p.has_dynamic_brake > 0.0:
+                demand_dynamic_brake(car, wheelsets, p)
+            if p.has_sanders > 0.0:
+                command_sanders(car, wheelsets, p)
+            if p.fault_count > 0:
+                limit_valves(car, wheelsets, p)
 
 
 def _any_pole_wheel(cases: Cases, running: Any) -> bool:

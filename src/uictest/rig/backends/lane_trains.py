@@ -23,6 +23,7 @@ from uictest.rig.backends.lane_stops import (
 )
 from uictest.rig.model.couplers import account_for_coupler, pull_cars, release_couplers
 from uictest.rig.model.rail import hand_rail_on
+from uictest.rig.model.sand import hand_sand_on
 
 
 class Trains(NamedTuple):
@@ -148,8 +149,12 @@ def _of_both(one: Needs, other: Needs) -> Needs:
 def _hand_rail_on(lanes: Lanes, parameters: Any, running: Any, memories: Any, behind: Any) -> None:
     """Leave to the next car, lane by lane, the rail that the last wheelset of this one has passed."""
     for k in range(running.size):
-        if running[k] != IDLE and parameters[running[k]].cleans_rail > 0.0:
-            hand_rail_on(lane(lanes.rig.wheelsets, k)[3], parameters[running[k]], memories[k], behind[k])
+        if running[k] != IDLE:
+            last, p = lane(lanes.rig.wheelsets, k)[3], parameters[running[k]]
+            if p.cleans_rail > 0.0:
+                hand_rail_on(last, p, memories[k], behind[k])
+            if p.has_sanders > 0.0:
+                hand_sand_on(last, p, memories[k], behind[k])
 
 
 def _advance(lanes: Lanes, couplers: Any, needs: Needs) -> None:

@@ -50,4 +50,5 @@ class FaultTables(Record):
     fault_silent: FaultTable = derived()
     fault_dynamic_failed: FaultTable = derived()  # 0 or 1
     fault_track_failed: FaultTable = derived()  # 0 or 1
+    fault_sander_blocked: FaultTable = derived()  # 0 or 1
     fault_release_cycles: FaultTable = derived()  # controller cycles of silence after which the valves fill

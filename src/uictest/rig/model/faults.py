@@ -66,6 +66,7 @@ def _make_sound(wheelset: Wheelset, own: WheelsetParameters) -> None:
     wheelset.pressure_held = 0.0
     wheelset.speed_sensor_faulty = 0.0
     wheelset.tank_leak = 0.0
+    wheelset.sander_blocked = 0.0
     wheelset.missing_teeth = own.missing_teeth
     wheelset.valve_travel_per_step = own.valve_travel_per_step
 
@@ -79,6 +80,7 @@ def _act(wheelset: Wheelset, p: Parameters, k: int) -> None:
     wheelset.speed_sensor_faulty = maximum(wheelset.speed_sensor_faulty, p.fault_of_speed_sensor[k])
     wheelset.faulty = maximum(wheelset.faulty, p.fault_of_wheelset[k])
     wheelset.tank_leak += p.fault_tank_leak[k]
+    wheelset.sander_blocked = maximum(wheelset.sander_blocked, p.fault_sander_blocked[k])
     wheelset.missing_teeth += p.fault_lost_teeth[k]
     wheelset.valve_travel_per_step = minimum(wheelset.valve_travel_per_step, p.fault_travel_per_step[k])
 
@@ -120,7 +122,8 @@ def _falsify(wheelset: Wheelset, car: Car, p: Parameters, k: int) -> None:
 def silence_controller(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """While no command reaches the valves, let them keep the last one, and fill once that lasts too long.
 
-    So it is with the reduction of the dynamic brake, which then comes back, and the request of a track brake.
+    So it is with the reduction of the dynamic brake, which then comes back, and with requests for sand and
+    the track brake.
     """
     silent = False
     released = False
@@ -134,9 +137,11 @@ def silence_controller(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -
         if silent:
             wheelset.valve_command = FILL if released else wheelset.kept_command
             wheelset.dynamic_reduction = 0.0 if released else wheelset.kept_reduction
+            wheelset.sand_request = 0 if released else wheelset.kept_request
         else:
             wheelset.kept_command = wheelset.valve_command
             wheelset.kept_reduction = wheelset.dynamic_reduction
+            wheelset.kept_request = wheelset.sand_request
     if silent:
         car.track_brake_request = 0 if released else car.kept_track_request
     else:

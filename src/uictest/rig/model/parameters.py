@@ -16,6 +16,7 @@ from uictest.core.rail_laws import MOST_NUMBERS
 from uictest.core.record import derived, from_scenario, layout_of
 from uictest.rig.model.command_tables import CommandTables
 from uictest.rig.model.fault_tables import FaultTables
+from uictest.rig.model.sand_tables import SandTables
 from uictest.rig.model.track_brake_numbers import TrackBrakeNumbers
 
 PadTable = Annotated[MutableSequence[float], MOST_PAD_POINTS]
@@ -33,7 +34,9 @@ def of_both_sides(value: float) -> float:
     return 2.0 * value
 
 
-class Parameters(ControllerCycle, MeasureDefinition, FaultTables, CommandTables, TrackBrakeNumbers):
+class Parameters(
+    ControllerCycle, MeasureDefinition, FaultTables, CommandTables, TrackBrakeNumbers, SandTables
+):
     """What a case fixes for all wheelsets, but for the parameters of its controller."""
 
     # time
@@ -52,9 +55,7 @@ class Parameters(ControllerCycle, MeasureDefinition, FaultTables, CommandTables,
     wsp_active: int = derived()  # 0: the valves always fill
     demand_per_pressure: float = derived()  # share of full service per demanded pressure, 1/Pa
     controller: int = derived()  # number of rig.model.controller.CHOICES
-    controller_contract: int = (
-        derived()
-    )  # version that the controller keeps; from outside: said where it is opened
+    controller_contract: int = derived()  # version that it keeps; from outside: said where it is opened
     # a controller from outside: addresses, set where it is opened
     controller_step: int = derived()
     controller_handle: int = derived()

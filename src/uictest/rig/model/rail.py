@@ -41,6 +41,8 @@ POINTS: Final = 256
 """Points of the grid behind one wheelset; chosen: 6 cm apart under the default car."""
 MARGIN: Final = 2
 """Points that a ring holds beyond the largest distance between two neighbours."""
+SAND_SLOTS: Final = 120
+"""Slots of time for which it is kept how much each sander had laid."""
 _WHEELSETS: Final = 4
 _RINGS: Final = _WHEELSETS * POINTS
 _WHEELS = 2.0
@@ -58,6 +60,12 @@ class RailMemory(Record):
     magnet_work: float  # of the magnets of the car until ``position``, J
     magnet_cleaned: float  # share that the magnets of a bogie clean there
     points: Annotated[MutableSequence[float], _RINGS]  # cleaned share before each wheelset, in rings
+    # sand: rig.model.sand
+    sand_position: float  # of the car when sand was last laid, m
+    sand_passed: float  # of the car when it was laid before that, m
+    sand: Annotated[MutableSequence[float], _RINGS]  # before each wheelset, in rings, kg/m
+    sand_slot: int  # of time, the present one
+    sand_before: Annotated[MutableSequence[float], _WHEELSETS * SAND_SLOTS]  # laid when each slot began, kg
 
 
 RAIL_MEMORY = layout_of(RailMemory)
@@ -140,8 +148,8 @@ def _slide_on(wheelset: Wheelset, distance: float, p: Parameters, memory: RailMe
 def share_at(place: float, memory: RailMemory, ring: int) -> float:
     """Return what the wheelset before has left at a place, in units of the grid; linear between points."""
     point = floor(place)
-    here = memory.points[_in_ring(int(point), ring)]
-    return here + (place - point) * (memory.points[_in_ring(int(point) + 1, ring)] - here)
+    here = memory.points[in_ring(int(point), ring)]
+    return here + (place - point) * (memory.points[in_ring(int(point) + 1, ring)] - here)
 
 
 def write_passed(
@@ -150,7 +158,7 @@ def write_passed(
     """Write the points that a wheelset has passed since the last cycle, linear between both shares."""
     for point in range(int(floor(start)) + 1, int(floor(end)) + 1):
         part = (point - start) / (end - start)
-        memory.points[_in_ring(point, ring)] = share_before + part * (share - share_before)
+        memory.points[in_ring(point, ring)] = share_before + part * (share - share_before)
 
 
 def clean_passed(
@@ -160,11 +168,11 @@ def clean_passed(
     for point in range(int(floor(start)) + 1, int(floor(end)) + 1):
         part = (point - start) / (end - start)
         own = share_before + part * (share - share_before)
-        place = _in_ring(point, ring)
+        place = in_ring(point, ring)
         memory.points[place] = share_left_behind(own, memory.points[place], 1.0)
 
 
-def _in_ring(point: int, ring: int) -> int:
+def in_ring(point: int, ring: int) -> int:
     """Return where a point of the track, counted from the brake command, lies among all points."""
     return ring * POINTS + point % POINTS
 

@@ -81,6 +81,9 @@ class Car(Frame, BrakedTrain):
     active_faults: int
     silent_cycles: int  # for which no command of the controller has reached the valves
     line_leak: float  # conductance of the leaks of the brake line, m3/(s Pa)
+    # sanders: rig.model.sand
+    wsp_acting_cycles: int  # for which it has held or vented a wheelset of the car without a break
+    wsp_resting_cycles: int  # since it last did
     # drag braking: rig.model.traction
     drag_phase: int
     drag_ends: float  # s
@@ -169,6 +172,7 @@ class Wheelset(BrakedWheelset, WheelsetParameters):
     shown_pressure: float  # to the controller, gauge, Pa
     kept_command: int  # the last that reached the valve
     kept_reduction: float  # the last that reached the motor
+    kept_request: int  # the last that reached the sander
     tank_leak: float  # conductance of its leaks, m3/(s Pa)
     leaked_air: float  # kg
     leaked_enthalpy: float  # J
@@ -199,6 +203,16 @@ class Wheelset(BrakedWheelset, WheelsetParameters):
     reduction_adhesion: float
     reduction_slip: float
     cleaned_share: float  # of the rail under the wheelset and behind it
+    # sander, and sand on the rail: rig.model.sand
+    slides_by_wsp: float  # 1 while the WSP says so to the sander
+    sander_open: float  # 1 while it is to lay sand
+    sander_lag: int  # controller cycles for which the demand has been another
+    sander_blocked: float  # 1 while it has that fault
+    sand_density: float  # on the rail before the wheelset, kg/m
+    sand_laid: float  # kg
+    sand_in_window: float  # most in any time of sand.SAND_WINDOW, kg
+    sanding_time: float  # for which it lays sand without a break at present, s
+    longest_sanding: float  # s
     wheel_load: float
     contact_stiffness: float
     creep_force: float  # of both wheels, against the motion

@@ -20,6 +20,7 @@ from uictest.rig.model.faults import (
 from uictest.rig.model.module_air import follow_module_air
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail import RailMemory, clean_rail, forget_rail
+from uictest.rig.model.sand import command_sanders, forget_sand, spread_sand
 from uictest.rig.model.start import start
 from uictest.rig.model.state import Bogie, Car, Wheelset
 from uictest.rig.model.step import step
@@ -94,6 +95,8 @@ def begin_stop(
     begin_tables(measures, wheelset_measures)
     if p.cleans_rail > 0.0:
         forget_rail(memory, p)
+    if p.has_sanders > 0.0:
+        forget_sand(memory)
 
 
 def begin_cycle(
@@ -104,7 +107,7 @@ def begin_cycle(
     rail: Any,
     memory: RailMemory,
 ) -> None:
-    """Do what comes before the controller decides: read the sensors, look up friction, clean the rail."""
+    """Do what comes before the controller decides: read the sensors, find the friction of the rail."""
     if p.fault_count > 0:
         update_faults(car, wheelsets, p, wheelset_parameters)
     read_sensors(car, wheelsets, p)
@@ -115,6 +118,8 @@ def begin_cycle(
         clean_rail(car, wheelsets, p, memory)
         if p.magnet_cleaning > 0.0:
             clean_by_magnets(car, wheelsets, p, memory)
+    if p.has_sanders > 0.0:
+        spread_sand(car, wheelsets, p, memory)
     if p.fault_count > 0:
         falsify_readings(car, wheelsets, p)
 
@@ -159,6 +164,8 @@ def act(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, measures: StopMe
         demand_dynamic_brake(car, wheelsets, p)
     if p.has_track_brake > 0.0:
         command_track_brake(car, p)
+    if p.has_sanders > 0.0:
+        command_sanders(car, wheelsets, p)
     if p.fault_count > 0:
         limit_valves(car, wheelsets, p)
 

@@ -231,5 +231,14 @@ def close_stop_measures(
         wheelset_measures[i].air_vented = wheelsets[i].vented_air
         motored = p.has_dynamic_brake > 0.0
         wheelset_measures[i].dynamic_energy = wheelsets[i].dynamic_energy if motored else NAN
+        if p.has_sanders > 0.0:
+            _note_sand(wheelset_measures[i], wheelsets[i])
         if p.models_disc_temperature == 0.0:
             wheelset_measures[i].maximum_disc_temperature = NAN
+
+
+def _note_sand(measures: WheelsetMeasures, wheelset: Wheelset) -> None:
+    """Note what the sander of a wheelset has laid: nothing, where it has none."""
+    measures.sand_laid = wheelset.sand_laid
+    measures.sand_in_30_s = wheelset.sand_in_window
+    measures.longest_sanding = wheelset.longest_sanding

@@ -35,6 +35,8 @@ class WheelsetSample(Record):
     adhesion: float = channel("1")
     friction: float = channel("1")  # initial friction coefficient under the wheelset
     cleaned_share: float = channel("1")  # of the rail under the wheelset and behind it
+    sand_density: float = channel("kg/m")  # on the rail before the wheelset
+    sanding: float = channel("1")  # 1 while its sander lays sand
     wheel_load: float = channel("N")  # of one wheel
     valve_command: float = channel("1")  # 0 fill, 1 hold, 2 vent
     hold_magnet: float = channel("1")  # 1 while the valve is commanded to hold or to vent
@@ -69,6 +71,8 @@ CONTROLLER_CHANNELS = ("diagnosis",)
 REQUEST_CHANNELS = ("track_brake_request", "sand_request")
 """Channels of the train and of each wheelset that mean something only where a controller from outside is of
 contract version 2."""
+SAND_CHANNELS = ("sand_density", "sanding")
+"""Channels of each wheelset that mean something only where the car has sanders."""
 FAULT_CHANNELS = ("active_faults", "speed_valid")
 """Channels of the train and of each wheelset that mean something only in stops with faults."""
 TRAIN_SAMPLE = layout_of(TrainSample)
@@ -117,6 +121,8 @@ def _sample_wheelset(row: WheelsetSample, wheelset: Wheelset, car: Car, p: Param
     row.adhesion = 0.5 * wheelset.creep_force / wheelset.wheel_load
     row.friction = wheelset.friction
     row.cleaned_share = wheelset.cleaned_share
+    row.sand_density = wheelset.sand_density
+    row.sanding = wheelset.sander_open * (1.0 - wheelset.sander_blocked)
     row.wheel_load = wheelset.wheel_load
     row.valve_command = wheelset.valve_command
     row.hold_magnet = 0.0 if wheelset.valve_command == FILL else 1.0

@@ -13,6 +13,7 @@ from uictest.rig.model.couplers import Coupler, account_for_coupler, pull_cars, 
 from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail import RailMemory, hand_rail_on
+from uictest.rig.model.sand import hand_sand_on
 from uictest.rig.model.state import Bogie, Car, Wheelset
 from uictest.rig.model.stop import act, advance, begin_cycle, begin_stop, end_cycle, is_running
 from uictest.rig.model.stop_measures import close_stop_measures
@@ -100,6 +101,8 @@ def _begin_cycle(
     begin_cycle(cars[j], own, parameters[j], wheelset_parameters[4 * j : 4 * j + 4], rail, memories[j])
     if parameters[j].cleans_rail > 0.0 and j + 1 < len(cars):
         hand_rail_on(own[3], parameters[j], memories[j], memories[j + 1])
+    if parameters[j].has_sanders > 0.0 and j + 1 < len(cars):
+        hand_sand_on(own[3], parameters[j], memories[j], memories[j + 1])
 
 
 def _step_cycle(

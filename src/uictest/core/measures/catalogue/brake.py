@@ -1,8 +1,9 @@
-"""What valves, calipers and discs do, the air that they take and vent, and what the reservoir keeps."""
+"""What valves, calipers, discs and sanders do; air taken and vented, and what the reservoir keeps."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 from uictest.core.measures.measure import (
     Measure,
@@ -44,6 +45,16 @@ def _of_track_brake(stop: StopMeasures, value: float) -> MeasureValue:
 
 
 _TRACK_BRAKE = RecordedData(("force of the track brake",), when="never")
+
+
+def _of_sanders(numbers: Iterable[float]) -> MeasureValue:
+    values = tuple(map(float, numbers))
+    if all(map(math.isnan, values)):
+        return unavailable("the car has no sanders: sanders")
+    return MeasureValue(values)
+
+
+_SAND = RecordedData(("flow of sand",), when="never")
 
 MEASURES = (
     Measure(
@@ -131,6 +142,42 @@ MEASURES = (
         decided=ShownWhen(how="end", plot="track"),
         recorded=_TRACK_BRAKE,
         column=StopColumn("track_brake_time_s", "s", read=lambda stop, definition: stop.track_brake_time),
+    ),
+    Measure(
+        name="sand_laid",
+        kind="mass",
+        unit="kg",
+        course="grows",
+        meaning="sand that the sander of a wheelset laid on one rail",
+        read=lambda stop, wheelsets, definition: _of_sanders(w.sand_laid for w in wheelsets),
+        decided=ShownWhen(how="end", plot="sand"),
+        of_wheelsets=True,
+        recorded=_SAND,
+        column=WheelsetColumn("sand_laid_kg", "kg", read=lambda wheelset: wheelset.sand_laid),
+    ),
+    Measure(
+        name="sand_in_30_s",
+        kind="mass",
+        unit="kg",
+        course="grows",
+        meaning="most sand that the sander of a wheelset laid on one rail within 30 s",
+        read=lambda stop, wheelsets, definition: _of_sanders(w.sand_in_30_s for w in wheelsets),
+        decided=ShownWhen(how="end", plot="sand"),
+        of_wheelsets=True,
+        recorded=_SAND,
+        column=WheelsetColumn("sand_in_30_s_kg", "kg", read=lambda wheelset: wheelset.sand_in_30_s),
+    ),
+    Measure(
+        name="longest_sanding",
+        kind="time",
+        unit="s",
+        course="grows",
+        meaning="longest time for which the sander of a wheelset laid sand without a break",
+        read=lambda stop, wheelsets, definition: _of_sanders(w.longest_sanding for w in wheelsets),
+        decided=ShownWhen(how="end", plot="sand"),
+        of_wheelsets=True,
+        recorded=_SAND,
+        column=WheelsetColumn("longest_sanding_s", "s", read=lambda wheelset: wheelset.longest_sanding),
     ),
     Measure(
         name="reservoir_minimum_pressure",

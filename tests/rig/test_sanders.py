@@ -1,0 +1,207 @@
+"""Sanders: balance of the sand on the rail, what decides when they lay it, and what it does."""
+
+import numpy as np
+import pytest
+
+from uictest.plans.scenario.yaml import ScenarioErrors
+from uictest.rig.coupled_cars import Coupling, run_coupled
+
+WET = ("initial_speed=80 km/h", "rail.condition=wet", "rail.friction=0.05")
+ALWAYS = "when: always, off_below: 0 km/h, delay: 0 s"
+FIXED = f"sanders=[{{wheelset: 1, rate: 2 kg/min, {ALWAYS}}}]"
+VARIABLE = f"sanders=[{{wheelset: 1, density: 7.5 g/m, rate: 60 kg/min, {ALWAYS}}}]"
+TABLE = (0, 1, 2, 3, 4, 6, 8), (0, 0.112, 0.211, 0.299, 0.378, 0.509, 0.613)
+"""g/m and the share of the way that they go."""
+COUPLED = Coupling(distance=26.4)
+
+
+def bits(stop):
+    return stop.measures.tobytes() + stop.wheelset_measures.tobytes()
+
+
+def rolling(columns):
+    """Samples after the last wheelset has reached what the nozzle has laid, until the train crawls."""
+    return (columns["distance"] > 25.0) & (columns["speed"] > 3.0)
+
+
+def test_a_fixed_sander_lays_its_rate_for_the_time_of_the_stop(rig):
+    stop = rig.stop(*WET, FIXED)
+    laid, within = (stop.wheelset_measures[name] for name in ("sand_laid", "sand_in_30_s"))
+    time = stop.measures.end_time
+    assert laid[0] == pytest.approx(2.0 / 60.0 * time, abs=2.0 / 60.0 * 0.02)
+    assert stop.wheelset_measures.longest_sanding[0] == pytest.approx(time, abs=0.02)
+    assert time < 30.0
+    assert within[0] == laid[0]
+    assert laid[1:].tolist() == [0.0, 0.0, 0.0]
+    assert np.isnan(rig.stop(*WET).wheelset_measures.sand_laid).all()
+
+
+def test_the_window_of_30_s_holds_30_s(rig):
+    stop = rig.stop("initial_speed=120 km/h", "rail.condition=wet", "rail.friction=0.02", FIXED)
+    assert stop.measures.end_time > 35.0
+    assert stop.wheelset_measures.sand_in_30_s[0] == pytest.approx(1.0, rel=0.01)
+    assert stop.wheelset_measures.sand_in_30_s[0] <= 1.0 + 2.0 / 60.0 * 0.0101
+
+
+def test_a_variable_sander_lays_its_density_for_the_distance_of_the_stop(rig):
+    stop = rig.stop(*WET, VARIABLE)
+    assert stop.wheelset_measures.sand_laid[0] == pytest.approx(
+        0.0075 * stop.measures.end_distance, abs=0.002
+    )
+
+
+def test_density_behind_a_nozzle_is_rate_over_speed_and_each_wheelset_leaves_its_share(rig):
+    columns = rig.columns(*WET, FIXED)
+    distance, speed, met = columns["distance"], columns["speed"], columns["sand_density"]
+    behind = np.array([0.0, 2.5, *(rig.parameters()[0].half_pivot_distance * 2.0 + np.array([0.0, 2.5]))])
+    at = rolling(columns)
+    for i in range(4):
+        # The nozzle stood 0.3 m ahead of the first wheelset when it was over this place.
+        then = np.interp(distance[at] - behind[i] - 0.3, distance, speed)
+        expected = 0.8**i * 2.0 / 60.0 / then
+        np.testing.assert_allclose(met[at, i], expected, rtol=0.02)
+
+
+@pytest.mark.parametrize("kept", [0.0, 0.5, 1.0])
+def test_a_variable_sander_gives_all_wheelsets_a_constant_density(rig, kept):
+    columns = rig.columns(*WET, VARIABLE, f"rail.sand.kept={kept}")
+    at = rolling(columns)
+    for i in range(4):
+        np.testing.assert_allclose(columns["sand_density"][at, i], 0.0075 * kept**i, rtol=1e-9, atol=1e-15)
+
+
+def test_nozzles_add_to_what_lies_before_them(rig):
+    one, other = (f"{{wheelset: {n}, density: 5 g/m, rate: 60 kg/min, {ALWAYS}}}" for n in (1, 3))
+    columns = rig.columns(*WET, f"sanders=[{one}, {other}]")
+    met = columns["sand_density"][rolling(columns)]
+    np.testing.assert_allclose(met, np.array([1.0, 0.8, 1.64, 1.312]) * np.full(met.shape, 0.005), rtol=1e-9)
+
+
+def test_a_variable_sander_reaches_its_density_only_where_its_rate_suffices(rig):
+    columns = rig.columns(*WET, f"sanders=[{{wheelset: 1, density: 7.5 g/m, rate: 4 kg/min, {ALWAYS}}}]")
+    met, speed = columns["sand_density"][:, 0], columns["speed"]
+    fast = rolling(columns) & (speed > 10.0)
+    np.testing.assert_allclose(met[fast], 4.0 / 60.0 / speed[fast], rtol=0.02)
+    slow = rolling(columns) & (speed < 8.5)
+    np.testing.assert_allclose(met[slow], 0.0075, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "rail",
+    [(), ("rail.cleaning={energy: 5300 J/m, recovered_friction: 0.28, reach: 0.5 m, carry_over: 0.5}",)],
+)
+def test_friction_goes_a_share_of_the_way_from_what_is_cleaned(rig, rail):
+    columns = rig.columns(*WET, VARIABLE, *rail)
+    cleaned = 0.05 + columns["cleaned_share"] * (0.28 - 0.05)
+    density = 1e3 * columns["sand_density"]
+    share = np.interp(density, *TABLE)
+    np.testing.assert_allclose(
+        columns["friction"], cleaned + share * np.maximum(0.3 - cleaned, 0.0), rtol=1e-9
+    )
+
+
+def test_locked_wheels_on_sand_decelerate_by_the_mean_friction_of_the_wheelsets(rig):
+    """m a = m g mean(mu0), where friction does not fall with slip; the same resistance is in both."""
+    locked = ("rig.wsp=bypassed", "rail.condition.friction_decay=0 s/m", "rail.sand.friction=0.1")
+    slowing = []
+    for extra in ((), (VARIABLE,)):
+        columns = rig.columns(*WET, *locked, *extra)
+        at = (columns["speed"] > 10.0) & (columns["speed"] < 13.0)
+        assert columns["wheel_speed"][at].max() < 1e-6
+        slowing.append(-np.polyfit(columns["time"][at], columns["speed"][at], 1)[0])
+    share = np.interp(7.5 * 0.8 ** np.arange(4), *TABLE)
+    gained = 9.80665 * (share * (0.1 - 0.05)).mean()
+    assert slowing[1] - slowing[0] == pytest.approx(gained, rel=0.01)
+
+
+@pytest.mark.parametrize("rail", ["rail.friction=0.05", "rail.condition=wet-cleaning"])
+def test_sand_that_does_nothing_keeps_every_bit_of_the_stop(rig, rail):
+    names = [name for name in rig.stop().wheelset_measures.dtype.names if "sand" not in name]
+    without, sanded = rig.stop(*WET, rail), rig.stop(*WET, rail, VARIABLE, "rail.sand.friction=0.001")
+    assert without.measures.tobytes() == sanded.measures.tobytes()
+    for name in names:
+        assert without.wheelset_measures[name].tobytes() == sanded.wheelset_measures[name].tobytes()
+
+
+def test_sand_hardly_shortens_a_stop_on_a_dry_rail(rig):
+    dry = ("initial_speed=80 km/h", "rail.condition=dry")
+    distance = rig.stop(*dry).measures.end_distance
+    assert rig.stop(*dry, VARIABLE).measures.end_distance == pytest.approx(distance, rel=0.002)
+
+
+def test_more_sand_shortens_a_slippery_stop(rig):
+    distances = [
+        rig.stop(
+            *WET, f"sanders=[{{wheelset: 1, density: {d} g/m, rate: 60 kg/min, {ALWAYS}}}]"
+        ).measures.end_distance
+        for d in (1, 4, 16)
+    ]
+    assert rig.stop(*WET).measures.end_distance > distances[0] > distances[1] > distances[2]
+
+
+def test_a_blocked_sander_is_none_from_when_it_is_blocked(rig):
+    fault = "faults=[{at: %s, wheelset: 1, part: sander, kind: blocked}]"
+    blocked = rig.stop(*WET, VARIABLE, fault % "0 s")
+    assert blocked.wheelset_measures.sand_laid[0] == 0.0
+    assert blocked.measures.end_distance == rig.stop(*WET).measures.end_distance
+    late = rig.columns(*WET, VARIABLE, fault % "5 s")
+    assert late["sanding"][:, 0].tolist() == (late["time"] < 5.005).astype(float).tolist()
+
+
+def test_a_demand_reaches_the_rail_after_the_delay_and_ends_below_a_speed(rig):
+    columns = rig.columns(
+        *WET, "sanders=[{wheelset: 2, rate: 2 kg/min, when: always, delay: 0.7 s, off_below: 20 km/h}]"
+    )
+    begins = columns["time"][np.argmax(columns["sanding"][:, 1] > 0.0)]
+    assert begins == pytest.approx(0.71, abs=0.011)
+    below = columns["time"][np.argmax(columns["speed"] < 20.0 / 3.6)]
+    ends = columns["time"][columns["sanding"][:, 1] > 0.0][-1]
+    assert ends == pytest.approx(below + 0.7, abs=0.03)
+
+
+def test_wheels_that_do_not_slide_demand_no_sand(rig):
+    sliding = "sanders=[{wheelset: 1, density: 7.5 g/m}]"
+    dry = rig.stop("initial_speed=80 km/h", "rail.condition=dry", sliding)
+    assert dry.wheelset_measures.sand_laid[0] == 0.0
+    columns = rig.columns(*WET, sliding, every=1)
+    acts = columns["valve_command"].max(axis=1) > 0.0
+    first = columns["time"][np.argmax(acts)]
+    begins = columns["time"][np.argmax(columns["sanding"][:, 0] > 0.0)]
+    assert begins - first >= 0.2 + 0.5 - 0.011
+
+
+def test_sand_of_one_car_is_met_by_the_next(rig):
+    cases = [rig.case(*WET, VARIABLE), rig.case(*WET)]
+    train = run_coupled(cases, COUPLED, steps_per_sample=20)
+    met = train.cars[1].trace.wheelsets["sand_density"]
+    at = (train.cars[1].trace.train["distance"] > 50.0) & (train.cars[1].trace.train["speed"] > 3.0)
+    np.testing.assert_allclose(met[at], np.full((at.sum(), 4), 0.0075) * 0.8 ** np.arange(4, 8), rtol=1e-9)
+    plain = run_coupled([rig.case(*WET)] * 2, COUPLED)
+    assert train.cars[1].measures.end_distance < plain.cars[1].measures.end_distance
+
+
+def test_a_sanded_train_of_one_car_has_the_bits_of_a_car_alone(rig):
+    overrides = (*WET, "sanders=[{wheelset: 2, density: 7.5 g/m}]", "rail.condition=wet-cleaning")
+    assert bits(run_coupled([rig.case(*overrides)], COUPLED).cars[0]) == bits(rig.stop(*overrides))
+
+
+@pytest.mark.parametrize(
+    ("sanders", "told"),
+    [
+        ("[{wheelset: 1}]", "lays nothing"),
+        ("[{wheelset: 1, rate: 2 kg/min}, {wheelset: 1, rate: 1 kg/min}]", "wheelset 1 has two sanders"),
+        ("[{wheelset: 5, rate: 2 kg/min}]", "it must be at most 4"),
+        ("[{wheelset: 1, rate: 2 kg/min, when: requested}]", "no controller that is built in asks for sand"),
+        ("[{wheelset: 1, density: 7.5}]", "g/m"),
+    ],
+)
+def test_sanders_that_cannot_be_are_refused(rig, sanders, told):
+    with pytest.raises(ScenarioErrors, match=told):
+        rig.case(f"sanders={sanders}")
+
+
+def test_a_fault_needs_a_sander_and_sliding_a_wsp(rig):
+    with pytest.raises(ScenarioErrors, match="wheelset 2 has no sander"):
+        rig.case(FIXED, "faults=[{at: 0 s, wheelset: 2, part: sander, kind: blocked}]")
+    with pytest.raises(ScenarioErrors, match="bypassed WSP never acts"):
+        rig.case("rig.wsp=bypassed", "sanders=[{wheelset: 2, rate: 1 kg/min}]")
