@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from uictest.core.measures.catalogue.deceleration import initial_adhesion
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.lanes import run_in_lanes
@@ -174,6 +175,13 @@ def test_a_failed_one_does_not_come_and_one_that_fails_lets_go(rig):
     later = rig.columns(*overrides, "faults=[{at: 90 km/h, part: track-brake, kind: failed}]")
     at_90, _ = when_at(later, 90 * KMH)
     assert np.all(later["track_brake_force"][later["time"] > at_90 + 0.25] == 0.0)
+
+
+def test_what_the_magnets_slow_is_no_adhesion_of_wheels(rig):
+    overrides = (*SLIPPERY, "initial_speed=120 km/h", TO_REST)
+    stops = [rig.stop(*overrides, position).measures for position in ("brake.position=R", EMERGENCY)]
+    assert initial_adhesion(stops[0], 3.0).unavailable_reason == ""
+    assert "track brake acted" in initial_adhesion(stops[1], 3.0).unavailable_reason
 
 
 def test_stops_without_one_have_neither_energy_nor_time(rig):

@@ -211,3 +211,13 @@ def test_what_belongs_to_no_contract_is_refused(write_scenario):
         old.step(sand_request=[0, 0, 0, 0])
     with pytest.raises(ValueError, match="contract is 3, expected 1 or 2"):
         uictest.Rig(write_scenario(), contract=3)
+
+
+def test_a_request_of_version_2_brings_the_track_brake_where_the_scenario_says_so(write_scenario):
+    track = "brake: {track: {attraction: 100 kN, when: requested, delay: 0 s}}\n"
+    rig = uictest.Rig(write_scenario(track), record=100, contract=2)
+    rig.reset()
+    while not rig.stopped:
+        rig.step(track_brake_request=1)
+    assert rig.recording()["track_brake_force"].max() > 40e3
+    assert rig.result().measures["track_brake_energy_kj"] > 0.0

@@ -172,6 +172,8 @@ def _headline(result: evaluation.CaseResult) -> Iterator[HeadlineMeasure]:
         yield "valve actuations", f"{vents:g}" if vents == vents else "-", ""
     if measures is not None:
         yield "air consumed", _number(measures["air_consumed_nl"]), "NL"
+        if measures.get("track_brake_time_s", 0.0) > 0.0:
+            yield "heat of the track brake", _number(measures["track_brake_energy_kj"]), "kJ"
 
 
 def plots_json() -> str:
