@@ -40,10 +40,10 @@ def measures_table() -> str:
 def faults_table() -> str:
     """Return every kind of fault that a scenario can inject."""
     rows = [
-        (f"`{kind.part}`", f"`{kind.name}`", _value_of(kind), kind.description)
+        (f"`{kind.part}`", f"`{kind.name}`", _value_of(kind), kind.description, kind.report)
         for kind in FAULT_KINDS.values()
     ]
-    return table(("part", "kind", "value", "what it does"), rows)
+    return table(("part", "kind", "value", "what it does", "report"), rows)
 
 
 def _value_of(kind: FaultKind) -> str:

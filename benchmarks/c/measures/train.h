@@ -26,6 +26,7 @@ static inline void begin_measures(Measures *m, double time, double distance, dou
     m->saturation_time = NAN;
     m->samples = 1.0;
     m->fault_time = m->reference_excess = m->track_brake_energy = m->track_brake_time = NAN;
+    m->has_diagnosis = 0.0;
 }
 
 static inline void observe_deceleration(Measures *m, const Parameters *p, double time, double speed)

@@ -21,6 +21,9 @@ static inline void begin_wheelset(WheelsetMeasures *m)
     m->sand_laid = m->sand_in_30_s = m->longest_sanding = NAN;
     m->faulty = m->release = 0.0;
     m->longest_release = NAN;
+    m->deviation = m->deviation_reported = m->unfilled = m->falsely_reported = 0.0;
+    m->fault_reported = m->required_reported = 0.0;
+    m->longest_deviation = m->longest_unfilled = m->report_delay = m->required_delay = NAN;
 }
 
 static inline void observe_slide(WheelsetMeasures *m, Measures *train, const Parameters *p, int place, double time,

@@ -79,7 +79,8 @@ class Outputs:
         vent: whether the venting magnet is energised, one per wheelset. Neither fills the cylinder, hold
             alone holds its pressure, both vent it; vent without hold is forbidden and ends the stop.
         reference_speed: estimated speed of the train, m/s; NaN: none.
-        diagnosis: 32 bits of the controller's own, recorded with the stop.
+        diagnosis: 32 bits, recorded with the stop. Each of the bits i, 8 + i, 16 + i and 24 + i reports
+            wheelset i (0 to 3), all others what the controller likes.
         dynamic_reduction: share that is taken off the dynamic brake, 0 to 1, one per wheelset. This and the
             next two belong to version 2 of the contract; None: nothing.
         sand_request: whether sand is asked for, one per wheelset; obeyed by sanders with `when: requested`.

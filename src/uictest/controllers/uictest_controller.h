@@ -62,7 +62,7 @@ typedef struct {
     double reference_speed;                     /* estimated speed of the train, m/s; NaN: none */
     int32_t hold[UICTEST_WHEELSETS];            /* 0 or 1 */
     int32_t vent[UICTEST_WHEELSETS];            /* 0 or 1 */
-    uint32_t diagnosis;                         /* any bits; recorded with the stop */
+    uint32_t diagnosis;                         /* any bits; i, 8 + i, 16 + i, 24 + i report wheelset i (0 to 3) */
 #if UICTEST_ABI_VERSION >= 2
     double dynamic_reduction[UICTEST_WHEELSETS];/* share that is taken off the dynamic brake, 0 to 1 */
     int32_t sand_request[UICTEST_WHEELSETS];    /* 0 or 1; obeyed by sanders with `when: requested` */

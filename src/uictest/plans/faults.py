@@ -8,7 +8,7 @@ equations of the rig.
 
 from collections.abc import Callable
 from types import MappingProxyType
-from typing import Final, NamedTuple
+from typing import Final, Literal, NamedTuple
 
 from uictest.plans.fault_effects import Effects
 
@@ -21,6 +21,14 @@ TRACK_BRAKE: Final = "track-brake"
 """The parts that a car need not have."""
 SANDER: Final = "sander"
 """A part that a wheelset need not have."""
+
+Report = Literal["required", "by rotation", "none"]
+"""What a controller is to report of a fault: that it is there; the wheelset, if its speed deviates from the
+train's; nothing, as the fault takes brake force and lets the wheelset turn, or shows in no input.
+
+Only the second is in a rule (TB/T 3009-2019, 4.2.5, second-hand); which kind is which is chosen. A report of
+a wheelset that has a fault is never false.
+"""
 
 
 class FaultValue(NamedTuple):
@@ -48,6 +56,7 @@ class FaultKind(NamedTuple):
         effects: returns what it changes, from its value in SI units or None without one.
         value: the value that it takes; None where it takes none.
         of_wheelset: whether each wheelset has such a part.
+        report: what the controller is to report of it.
     """
 
     part: str
@@ -56,6 +65,7 @@ class FaultKind(NamedTuple):
     effects: Callable[[float | None], Effects]
     value: FaultValue | None = None
     of_wheelset: bool = True
+    report: Report = "by rotation"
 
 
 _ANY_SPEED = "600 km/h"
@@ -86,6 +96,7 @@ _ROWS: Final = (
             Effects(speed_valid=0.0, speed_factor=0.0),
         ),
         FaultValue("speed", "0 km/h", _ANY_SPEED, without="it reads 0"),
+        report="required",
     ),
     FaultKind(
         SPEED_SENSOR,
@@ -140,6 +151,7 @@ _ROWS: Final = (
         "shorted",
         "It always acts: the tank is never filled.",
         _always(Effects(fill_at_most=0.0)),
+        report="none",
     ),
     FaultKind(
         "vent-magnet",
@@ -152,6 +164,7 @@ _ROWS: Final = (
         "shorted",
         "It always acts: the tank is vented, also while it is filled.",
         _always(Effects(vent_at_least=1.0)),
+        report="none",
     ),
     FaultKind(
         "fill-valve",
@@ -164,6 +177,7 @@ _ROWS: Final = (
         "stuck-closed",
         "The way from the brake line to the tank never opens.",
         _always(Effects(fill_at_most=0.0)),
+        report="none",
     ),
     FaultKind(
         "fill-valve",
@@ -171,8 +185,15 @@ _ROWS: Final = (
         "A share of `value` of the way from the brake line to the tank is blocked.",
         _valued(lambda value: Effects(fill_at_most=1.0 - value)),
         _SHARE_OF_AREA,
+        report="none",
     ),
-    FaultKind("vent-valve", "stuck-open", "The exhaust never closes.", _always(Effects(vent_at_least=1.0))),
+    FaultKind(
+        "vent-valve",
+        "stuck-open",
+        "The exhaust never closes.",
+        _always(Effects(vent_at_least=1.0)),
+        report="none",
+    ),
     FaultKind("vent-valve", "stuck-closed", "The exhaust never opens.", _always(Effects(vent_at_most=0.0))),
     FaultKind(
         "vent-valve",
@@ -194,6 +215,7 @@ _ROWS: Final = (
         "Air leaks from the tank through an orifice of the sonic conductance `value`.",
         _valued(lambda value: Effects(tank_leak=value)),
         _LEAK,
+        report="none",
     ),
     FaultKind(
         "brake-line",
@@ -202,6 +224,7 @@ _ROWS: Final = (
         _valued(lambda value: Effects(line_leak=value)),
         _LEAK,
         of_wheelset=False,
+        report="none",
     ),
     FaultKind(
         "pressure-sensor",
@@ -209,6 +232,7 @@ _ROWS: Final = (
         "The controller is given the cylinder pressure and `value`, no less than 0.",
         _valued(lambda value: Effects(pressure_offset=value)),
         FaultValue("pressure", "-10 bar", "10 bar"),
+        report="none",
     ),
     FaultKind(
         "pressure-sensor",
@@ -216,6 +240,7 @@ _ROWS: Final = (
         "The controller is given `value` of the cylinder pressure.",
         _valued(lambda value: Effects(pressure_factor=value)),
         _FACTOR,
+        report="none",
     ),
     FaultKind(
         "pressure-sensor",
@@ -225,12 +250,14 @@ _ROWS: Final = (
             lambda value: Effects(pressure_factor=0.0, pressure_offset=value), Effects(pressure_held=1.0)
         ),
         FaultValue("pressure", "0 bar", "10 bar", without="the pressure when the fault began"),
+        report="none",
     ),
     FaultKind(
         "brake",
         "cut-out",
         "Its tank is shut off from the brake line and vented.",
         _always(Effects(fill_at_most=0.0, vent_at_least=1.0)),
+        report="none",
     ),
     FaultKind(
         "controller",
@@ -246,6 +273,7 @@ _ROWS: Final = (
         "The motors of the car stop braking at once; the friction brake takes over.",
         _always(Effects(dynamic_failed=1.0)),
         of_wheelset=False,
+        report="none",
     ),
     FaultKind(
         TRACK_BRAKE,
@@ -253,8 +281,9 @@ _ROWS: Final = (
         "The rail does not attract the magnets of the car: they do not come, or let go at once.",
         _always(Effects(track_failed=1.0)),
         of_wheelset=False,
+        report="none",
     ),
-    FaultKind(SANDER, "blocked", "No sand leaves it.", _always(Effects(sander_blocked=1.0))),
+    FaultKind(SANDER, "blocked", "No sand leaves it.", _always(Effects(sander_blocked=1.0)), report="none"),
 )
 
 FAULT_KINDS: Final = MappingProxyType({(row.part, row.name): row for row in _ROWS})

@@ -14,7 +14,7 @@ from uictest.core.physics import (
 )
 from uictest.core.units import KINDS
 from uictest.plans.fault_effects import Effects
-from uictest.plans.faults import MOST_FAULTS, SPEED_SENSOR
+from uictest.plans.faults import FAULT_KINDS, MOST_FAULTS, SPEED_SENSOR
 from uictest.plans.scenario import DiscRing, Fault, PadLaw, Quantity, Scenario
 from uictest.rig.derived_parameters import Assignment
 from uictest.rig.model.parameters import Parameters
@@ -136,6 +136,8 @@ def _set_owners(p: Parameters, faults: tuple[Fault, ...]) -> None:
     p.fault_wheelset = [*(float((fault.wheelset or 1) - 1) for fault in faults), *none]
     p.fault_of_wheelset = [*(float(fault.wheelset is not None) for fault in faults), *none]
     p.fault_of_speed_sensor = [*(float(fault.part == SPEED_SENSOR) for fault in faults), *none]
+    kinds = [FAULT_KINDS[fault.part, fault.kind] for fault in faults]
+    p.fault_report_required = [*(float(kind.report == "required") for kind in kinds), *none]
 
 
 FAULTS: tuple[Assignment, ...] = (

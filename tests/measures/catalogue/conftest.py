@@ -63,6 +63,7 @@ def _sliding_stop(deceleration=0.07 * G, share=0.75, **changes):
         "sliding_time": 1.0,
         "speed_after_sliding": speed,
         "adhesion_utilisation": 0.8,
+        "has_diagnosis": 1.0,
     }
     return _stop(**{**slid, **changes})
 

@@ -17,6 +17,7 @@ from .measure import (
     WheelsetColumn as WheelsetColumn,
     Wheelsets as Wheelsets,
 )
+from .monitoring import observe_monitoring as observe_monitoring, reports_wheelset as reports_wheelset
 from .noted_samples import note_samples as note_samples
 from .records import (
     END_SPEEDS as END_SPEEDS,

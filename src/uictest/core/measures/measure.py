@@ -27,12 +27,14 @@ class MeasureValue(NamedTuple):
     """SI values of a measure, one for the stop or one per wheelset, as far as the stop was observed.
 
     `unavailable_reason` says why there is no value; empty where there is one. `whatever_follows`: there will
-    be none however the stop goes on.
+    be none however the stop goes on. `open_reason` says what the end of the stop cut short, so that the
+    values might have changed after it; empty where nothing was.
     """
 
     values: tuple[float, ...] = ()
     unavailable_reason: str = ""
     whatever_follows: bool = False
+    open_reason: str = ""
 
 
 Reader = Callable[[StopMeasures, Wheelsets, DefinitionValues], MeasureValue]

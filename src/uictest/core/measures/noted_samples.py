@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.core.measures.contact import observe_contact
+from uictest.core.measures.monitoring import observe_monitoring, reports_wheelset
 from uictest.core.measures.records import MeasureDefinition, StopMeasures, WheelsetMeasures
 from uictest.core.measures.train import (
     keep_window,
@@ -73,6 +74,11 @@ def note_samples(
             _observe_faults(
                 measures, wheelset_measures, definition, samples[k, 6], wheelset_samples[k], faults[k]
             )
+        bits = 0 if samples[k, 7] != samples[k, 7] else int(samples[k, 7])
+        for i in range(4):
+            wheelset, own = wheelset_measures[i], wheelset_samples[k, i]
+            reported = reports_wheelset(bits, i)
+            observe_monitoring(wheelset, measures, definition, reported, wheelset.faulty, 0.0, own[8], own[9])
         for j in range(len(places)):
             noted[k - 1, j] = numbers[places[j]]
     return len(samples)

@@ -66,6 +66,7 @@ class StopMeasures(Record):
     track_brake_time: float  # for which it acted, s
     fault_time: float  # first cycle with a fault while the train moves, s
     reference_excess: float  # largest, of the controller's estimate over the train's speed since then, m/s
+    has_diagnosis: float  # 1 where the controller can report something, else 0; NaN where that is not known
 
 
 class WheelsetMeasures(Record):
@@ -103,6 +104,17 @@ class WheelsetMeasures(Record):
     faulty: float  # 1 once one of its parts has had a fault
     release: float  # time without brake force that lasts at present, s
     longest_release: float  # while its speed sensor was faulty, s
+    # core.measures.monitoring
+    deviation: float  # time for which its shown speed deviates at present without a report, s
+    deviation_reported: float  # 1 once that deviation is reported
+    longest_deviation: float  # without a report, s
+    unfilled: float  # time without a command to fill that lasts at present, s
+    longest_unfilled: float  # s
+    falsely_reported: float  # 1 once it is reported without a fault, a lock or a deviation
+    report_delay: float  # from its first fault to its report, or the last sample, s
+    fault_reported: float  # 1 once it is reported since then
+    required_delay: float  # the same since its first fault of a kind that is to be reported, s
+    required_reported: float
 
 
 class MeasureDefinition(Record):
@@ -127,3 +139,7 @@ class MeasureDefinition(Record):
     reduced_share: float = from_scenario("measures.reduced_share")
     # Share of the largest clamping force below which a wheelset counts as without brake force.
     released_share: float = from_scenario("measures.released_share")
+    # Difference between the speeds of a wheelset and the train beyond which it deviates: m/s, and share of
+    # the train's speed.
+    monitored_speed: float = from_scenario("measures.monitored_speed")
+    monitored_share: float = from_scenario("measures.monitored_share")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import inf, isnan
+from math import inf, isnan, nan
 from types import SimpleNamespace
 from typing import Any, Final, NamedTuple
 
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.core.measures.contact import begin_contact, begin_utilisation, observe_contact
+from uictest.core.measures.monitoring import observe_monitoring, reports_wheelset
 from uictest.core.measures.records import END_SPEEDS, SLOW_TIMES, SPEED_CLASSES, WINDOW_SECONDS
 from uictest.core.measures.train import (
     begin_build_up,
@@ -33,7 +34,7 @@ from uictest.core.measures.wheelset import (
     observe_reference,
     observe_wheelset,
 )
-from uictest.core.physics import VENT
+from uictest.core.physics import FILL, VENT
 
 Array = NDArray[np.float64]
 Channels = Mapping[str, Array]
@@ -52,11 +53,12 @@ class Samples(NamedTuple):
     """Samples of a recording; NaN where nothing was recorded.
 
     Args:
-        train: time, distance, speed, pressures of reservoir and brake line, highest of the cylinder pressures
-            and the reference speed; shape (n, 7).
+        train: time, distance, speed, pressures of reservoir and brake line, highest of the cylinder
+            pressures, reference speed and diagnosis; shape (n, 8).
         wheelsets: of each one the speed, whether its valve is commanded to vent, clamping force, temperature
             of the disc surface, pressure of the tank, work of the rail, energy that the contacts turned into
-            heat, and the highest force that they could transmit; shape (n, 4, 8).
+            heat, the highest force that they could transmit, the speed that its sensor shows, and whether its
+            valve is commanded to fill; shape (n, 4, 10).
         faults: whether any has begun, then what else :data:`Faults` hold, for one wheelset after the other;
             shape (n, 9), or (0, 9) where none were recorded.
 
@@ -84,20 +86,24 @@ def samples_of(
     def of_wheelsets(name: str) -> Array:
         return np.stack([of_train(f"{name}_{n}") for n in _WHEELSETS], axis=1)
 
-    wheel_speed = of_wheelsets("wheel_speed")
+    wheel_speed, command = of_wheelsets("wheel_speed"), _last_known(of_wheelsets("valve_command"))
+    shown_speed = of_wheelsets("measured_speed") if "measured_speed_1" in channels else wheel_speed
     force = _WHEELS * of_wheelsets("adhesion") * of_wheelsets("wheel_load")
     train = [
         *map(of_train, ("time", "distance", "speed", "reservoir_pressure", "brake_line_pressure")),
         np.fmax.reduce(of_wheelsets("cylinder_pressure"), axis=1),
         of_train("reference_speed"),
+        of_train("diagnosis"),
     ]
     wheelsets = [
         wheel_speed,
-        _venting(of_wheelsets("valve_command")),
+        np.where(command == VENT, 1.0, 0.0),
         *map(of_wheelsets, ("clamping_force", "disc_surface_temperature", "tank_pressure")),
         _integrated(force * speed[:, None], time),
         _integrated(force * (speed[:, None] - wheel_speed), time),
         np.full_like(force, np.nan) if highest_force is None else highest_force,
+        shown_speed,
+        np.where(command == FILL, 1.0, 0.0),
     ]
     return Samples(
         np.stack(train, axis=1),
@@ -111,11 +117,10 @@ def _integrated(power: Array, time: Array) -> Array:
     return np.concatenate((np.zeros((1, power.shape[1])), np.cumsum(np.nan_to_num(steps), axis=0)))
 
 
-def _venting(command: Array) -> Array:
-    """Return 1 while the valve is commanded to vent. A gap keeps the state before it: one vent is not two."""
+def _last_known(command: Array) -> Array:
+    """Return commands in which a gap keeps the state before it: one vent is not two."""
     known = np.where(np.isnan(command), 0, np.arange(len(command))[:, None])
-    last_known = np.take_along_axis(command, np.maximum.accumulate(known, axis=0), axis=0)
-    return np.where(last_known == VENT, 1.0, 0.0)
+    return np.take_along_axis(command, np.maximum.accumulate(known, axis=0), axis=0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +156,7 @@ class Replay:
     def __post_init__(self) -> None:
         time, distance, speed, reservoir, line, *_ = self.samples.train[0].tolist()
         begin_train(self.train, time, distance, speed, reservoir)
+        self.train.has_diagnosis = 1.0 if np.isfinite(self.samples.train[:, 7]).any() else nan
         begin_build_up(self.train, self.commanded_pressure, line)
         begin_utilisation(self.train)
         begin_window(self.train)
@@ -166,18 +172,18 @@ class Replay:
         Only `fields` need to hold their numbers afterwards; None: all of them.
         """
         train, definition = self.train, self.definition
-        contacts, slides, pressures, tables = (
+        contacts, slides, pressures, tables, reports = (
             fields is None or not own.isdisjoint(fields)
-            for own in (_OF_CONTACTS, _OF_SLIDES, _OF_PRESSURES, _TABLES)
+            for own in (_OF_CONTACTS, _OF_SLIDES, _OF_PRESSURES, _TABLES, _OF_REPORTS)
         )
         faults = self.samples.faults[1:].tolist()
         samples = zip(self.samples.train[1:].tolist(), self.samples.wheelsets[1:].tolist(), strict=True)
         for k, (sample, own_samples) in enumerate(samples):
-            time, distance, speed, reservoir, line, cylinder, reference_speed = sample
+            time, distance, speed, reservoir, line, cylinder, reference_speed, diagnosis = sample
             if time >= end:
                 break
             for n, wheelset, own in zip(_WHEELSETS, self.wheelsets, own_samples, strict=True):
-                wheel_speed, venting, force, temperature, tank, rail_work, loss, highest = own
+                wheel_speed, venting, force, temperature, tank, rail_work, loss, highest, *_ = own
                 observe_wheelset(
                     wheelset, train, definition, n, time, speed, wheel_speed, venting, force, temperature
                 )
@@ -198,6 +204,8 @@ class Replay:
                 self._keep_tables()
             if faults:
                 self._observe_faults(faults[k], [own[2] for own in own_samples], reference_speed)
+            if reports:
+                self._observe_reports(diagnosis, own_samples)
             yield time
 
     def numbers(self, cells: Sequence[Cell]) -> list[float]:
@@ -239,9 +247,18 @@ class Replay:
             own = of_wheelsets[i], of_wheelsets[len(forces) + i], forces[i]
             observe_reaction(wheelset, train, definition, *own, largest)
 
+    def _observe_reports(self, diagnosis: float, samples: list[list[float]]) -> None:
+        bits = 0 if isnan(diagnosis) else int(diagnosis)
+        for i, wheelset in enumerate(self.wheelsets):
+            reported, (*_, shown_speed, fills) = reports_wheelset(bits, i), samples[i]
+            observe_monitoring(
+                wheelset, self.train, self.definition, reported, wheelset.faulty, 0.0, shown_speed, fills
+            )
+
 
 _OF_CONTACTS: Final = frozenset({"slid_distance", "contact_energy", "exploited_work", "available_work"})
 _OF_SLIDES: Final = frozenset({"maximum_slide_above"})
 _OF_PRESSURES: Final = frozenset({"reservoir_margin", "rise_time", "build_up_time"})
+_OF_REPORTS: Final = frozenset({"deviation", "unfilled"})
 _TABLES: Final = frozenset({"speed_after_sliding", "reached_time", "half_slow_time", "slow_time"})
 """Fields whose accumulators are left out where nobody asks for them: they take half of the time."""

@@ -45,6 +45,7 @@ def begin_train(
     measures.samples = 1.0
     measures.fault_time = NAN
     measures.reference_excess = NAN
+    measures.has_diagnosis = NAN
 
 
 def begin_window(measures: StopMeasures) -> None:

@@ -8,6 +8,7 @@ that row and all above. A row has one time per share of `SLOW_SHARES`.
 
 from collections.abc import Sequence
 
+from uictest.core.measures.monitoring import begin_monitoring
 from uictest.core.measures.records import (
     END_SPEEDS,
     SLOW_SHARES,
@@ -50,6 +51,7 @@ def begin_wheelset(measures: WheelsetMeasures) -> None:
     measures.faulty = 0.0
     measures.release = 0.0
     measures.longest_release = NAN
+    begin_monitoring(measures)
 
 
 def begin_slides(measures: WheelsetMeasures) -> None:

@@ -45,6 +45,8 @@ def decide(
     values = [in_unit(number, unit) for number in observed.values]
     settled = course == "settles" and not observed.unavailable_reason
     missing = stop.missing(criterion.measure, len(values) or 1, settled=settled)
+    if observed.open_reason and not missing:
+        missing = (MissingData(observed.open_reason),) * len(values)
     if observed.unavailable_reason:
         starts_late = stop.coverage is not None and stop.coverage.no_initial_speed
         final = observed.whatever_follows and not starts_late

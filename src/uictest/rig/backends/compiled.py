@@ -32,7 +32,10 @@ _SOURCES = (
         "plans/faults.py",
         "rig",
     ),
-    *(f"core/measures/{name}.py" for name in ("records", "layouts", "train", "wheelset", "contact")),
+    *(
+        f"core/measures/{name}.py"
+        for name in ("records", "layouts", "train", "wheelset", "monitoring", "contact")
+    ),
     "core/measures/noted_samples.py",
 )
 """Files and rooms of the package that compiled code is made from."""

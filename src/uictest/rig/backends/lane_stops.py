@@ -33,6 +33,7 @@ from uictest.rig.model.stop_measures import (
     keep_tables,
     observe_cycle,
     observe_faults,
+    observe_reports,
 )
 from uictest.rig.model.track_brake import (
     account_for_magnets,
@@ -275,6 +276,7 @@ def finish_if_stopped(lanes: Lanes, cases: Cases, case: int, k: int) -> bool:
     samples, wheelset_samples = lane(lanes.measures, k), lane(lanes.wheelset_measures, k)
     if p.fault_count > 0:
         observe_faults(car, wheelsets, samples, wheelset_samples, p)
+    observe_reports(car, wheelsets, samples, wheelset_samples, p)
     keep_tables(measures, wheelset_measures, samples, wheelset_samples, p)
     if is_running(car, p):
         return False

@@ -29,6 +29,7 @@ class FaultTables(Record):
     fault_wheelset: FaultTable = derived()  # 0 to 3
     fault_of_wheelset: FaultTable = derived()  # 0 where it is one of the train
     fault_of_speed_sensor: FaultTable = derived()  # 0 or 1
+    fault_report_required: FaultTable = derived()  # 0 or 1
     # what it changes
     fault_speed_valid: FaultTable = derived()
     fault_speed_held: FaultTable = derived()

@@ -79,6 +79,7 @@ def _act(wheelset: Wheelset, p: Parameters, k: int) -> None:
     wheelset.pressure_held = maximum(wheelset.pressure_held, p.fault_pressure_held[k])
     wheelset.speed_sensor_faulty = maximum(wheelset.speed_sensor_faulty, p.fault_of_speed_sensor[k])
     wheelset.faulty = maximum(wheelset.faulty, p.fault_of_wheelset[k])
+    wheelset.report_required = maximum(wheelset.report_required, p.fault_report_required[k])
     wheelset.tank_leak += p.fault_tank_leak[k]
     wheelset.sander_blocked = maximum(wheelset.sander_blocked, p.fault_sander_blocked[k])
     wheelset.missing_teeth += p.fault_lost_teeth[k]

@@ -164,6 +164,7 @@ class Wheelset(BrakedWheelset, WheelsetParameters):
     tooth_speed: float  # of the last whole teeth, m/s
     # faults: rig.model.faults
     faulty: float  # 1 once one of its parts has had a fault
+    report_required: float  # 1 once it has had one of a kind that is to be reported
     speed_sensor_faulty: float  # 1 while its speed sensor has one
     speed_held: float  # 1 while that is stuck
     held_speed: float  # its last reading, m/s

@@ -31,6 +31,7 @@ from uictest.rig.model.stop_measures import (
     keep_tables,
     observe_cycle,
     observe_faults,
+    observe_reports,
 )
 from uictest.rig.model.trace import Trace, sample
 from uictest.rig.model.track_brake import (
@@ -198,6 +199,7 @@ def end_cycle(
     observe_cycle(car, wheelsets, measures, wheelset_measures, p)
     if p.fault_count > 0:
         observe_faults(car, wheelsets, measures, wheelset_measures, p)
+    observe_reports(car, wheelsets, measures, wheelset_measures, p)
     keep_tables(measures, wheelset_measures, measures, wheelset_measures, p)
 
 

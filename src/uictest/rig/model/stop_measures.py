@@ -20,14 +20,17 @@ from uictest.core.measures import (
     note_standstill,
     observe_build_up,
     observe_contact,
+    observe_monitoring,
     observe_reaction,
     observe_reference,
     observe_reservoir_margin,
     observe_train,
     observe_wheelset,
+    reports_wheelset,
 )
-from uictest.core.physics import highest_creep_force, maximum, select
+from uictest.core.physics import FILL, highest_creep_force, maximum, select
 from uictest.rig.model.balance import air_energy_residual, air_residual, energy_residual, rail_work
+from uictest.rig.model.controller import FROM_OUTSIDE
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Bogie, Car, Wheelset
 
@@ -43,6 +46,7 @@ def begin_stop_measures(
     begin_build_up(measures, developed, car.line_pressure - p.atmospheric_pressure)
     begin_utilisation(measures)
     measures.compensation_misfit = p.compensation_misfit
+    measures.has_diagnosis = select(p.controller == FROM_OUTSIDE, 1.0, 0.0)
     for i in range(4):
         begin_wheelset(wheelset_measures[i])
         begin_contact(wheelset_measures[i])
@@ -149,6 +153,33 @@ def observe_faults(
             wheelsets[i].speed_sensor_faulty,
             wheelsets[i].clamping_force,
             largest,
+        )
+
+
+def observe_reports(
+    car: Car,
+    wheelsets: Sequence[Wheelset],
+    measures: StopMeasures,
+    wheelset_measures: Sequence[WheelsetMeasures],
+    p: Parameters,
+) -> None:
+    """Feed the measures of what the controller reports, after the others of the same cycle; scalar code.
+
+    Nothing, where there is no fault to report and no controller that can: built in, they have no diagnosis.
+    """
+    if p.fault_count == 0 and p.controller != FROM_OUTSIDE:
+        return
+    for i in range(4):
+        wheelset = wheelsets[i]
+        observe_monitoring(
+            wheelset_measures[i],
+            measures,
+            p,
+            reports_wheelset(car.diagnosis, i),
+            wheelset.faulty,
+            wheelset.report_required,
+            wheelset.measured_speed,
+            1.0 if wheelset.valve_command == FILL else 0.0,
         )
 
 

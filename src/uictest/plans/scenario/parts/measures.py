@@ -57,6 +57,18 @@ class MeasureDefinitions(Part):
         "0 % .. 100 %",
         default="20 %",
     )
+    monitored_speed: Quantity = quantity(
+        "A of A + B v: difference from the train's speed v beyond which a wheelset must be reported.",
+        "speed",
+        "0 km/h .. 300 km/h",
+        default="50 km/h",
+    )
+    monitored_share: Quantity = quantity(
+        "B of A + B v.",
+        "share",
+        "0 % .. 100 %",
+        default="30 %",
+    )
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield a brake that is built up before its pressure rises."""
