@@ -15,6 +15,7 @@ import numpy as np
 
 from studies.drawing import BLUE, INK, MUTED, ORANGE, WIDTH
 from studies.quantity import NOT_ASKED, OwnBand, SourceBand, StudyQuantity, StudyValue
+from studies.sanded_rig import rig_notes, rig_quantities, rig_table, stops_on_rig
 from studies.sanded_train import SandedStop, Sander, SandLaw, bisect, stop
 from studies.stop_runner import StopRunner
 from studies.study import Study, StudyFindings, Table
@@ -172,18 +173,22 @@ def _quantities() -> Iterator[StudyQuantity]:
             status="selected",
             digits=0,
         )
+    yield from rig_quantities(PUBLISHED, UNTREATED_BOUND)
 
 
-def run(_: StopRunner) -> StudyFindings:
-    """Fit the law under the choices and at the ends of their ranges."""
+def run(stop_runner: StopRunner) -> StudyFindings:
+    """Fit the law under the choices and at the ends of their ranges; repeat the nominal stops on the rig."""
     nominal = Choices()
     fits = [fitted(nominal), *(fitted(replace(nominal, **change)) for change in VARIED)]  # type: ignore[arg-type]
     untreated = stop(SPEED, DEMAND, fits[0].law).distance
+    on_rig = stops_on_rig(stop_runner, SPEED, fits[0].law, nominal.kept, arrangements(nominal))
+    of_points = {"untreated": untreated, **{name: each.distance for name, each in fits[0].stops.items()}}
+    of_rig = {f"rig_{curve}_{name}": on_rig.value(curve, name) for curve, name in on_rig.distances}
     return StudyFindings(
-        {"untreated": StudyValue(untreated), **dict(_values(fits))},
-        tables={"fits": _table(fits)},
+        {"untreated": StudyValue(untreated), **dict(_values(fits)), **of_rig},
+        tables={"fits": _table(fits), "rig": rig_table(on_rig, of_points)},
         drawings={"sand": partial(draw, fits)},
-        notes=tuple(_notes(fits)),
+        notes=(*_notes(fits), *rig_notes(on_rig, PUBLISHED)),
     )
 
 
@@ -203,7 +208,7 @@ def _over(values: Sequence[float]) -> StudyValue:
 def _notes(fits: Sequence[Fitted]) -> Iterator[str]:
     first = fits[0]
     yield (
-        f"A train of point axles, not the rig: no wheel dynamics, WSP or build-up; cleaning is off. Chosen: "
+        "A train of point axles: no wheel dynamics, WSP or build-up; cleaning is off. Chosen: "
         f"kappa {first.choices.kept:g} (0.6 to 0.95), cap {first.choices.cap:g} kg/min (4 to 8), second "
         f"sander at axle {first.choices.second_axle} (5 to 11), fixed rate 2 kg/min. Ranges: one of the "
         "first three at an end, and the law fitted anew."

@@ -4,7 +4,7 @@ from functools import cache
 
 import pytest
 
-from studies import slip_brake_tests
+from studies import sanded_rig, slip_brake_tests
 from studies.comparison import band_text, ours_text
 from studies.experiments import cylinder_dynamics, dry_distance, rail_laws, sand, train_on_one_rail
 from studies.slip_brake_tests import CLEANED
@@ -30,7 +30,7 @@ FEWER = {
     "rail-cleaning": [(slip_brake_tests, {"ENERGIES": ("none", CLEANED), "SEEDS": range(1)})],
     "cylinder-dynamics": [(cylinder_dynamics, {"SEEDS": range(2)})],
     "train": [(train_on_one_rail, {"SEEDS": range(2)})],
-    "sand": [(sand, {"VARIED": ()})],
+    "sand": [(sand, {"VARIED": ()}), (sanded_rig, {"SEEDS": range(1)})],
     "rail-laws": [(rail_laws, {"SEEDS": range(1), "SPEEDS": (60,), "FRICTIONS": (0.10,)})],
 }
 """Studies that are judged here on fewer of their stops; `./reproduce` judges all of them."""
