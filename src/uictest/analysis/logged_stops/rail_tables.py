@@ -64,6 +64,10 @@ class _Bins:
         )
         return [part for part in parts if len(part)]
 
+    @property
+    def basis(self) -> str:
+        return "" if self.name == "speed" else "Place: from the brake command. "
+
     def range_text(self, number: int) -> str:
         return f"{self.edges[number]:g} to {self.edges[number + 1]:g}"
 
@@ -77,12 +81,12 @@ class _Bins:
             parts = [self.adhesion(uses, number, n) for n in wheelsets]
             middles = [float(np.median(np.concatenate(part))) if part else _NOT_SEEN for part in parts]
             rows.append((self.range_text(number), *middles))
-        where = "over speed" if self.name == "speed" else "over the place behind the brake command"
+        where = "over speed" if self.name == "speed" else "over place"
         return report.CampaignTable(
             f"adhesion_over_{self.name}",
-            f"Adhesion that the rail gave, {where}",
+            f"Adhesion given, {where}",
             f"Median where the wheelset slides; {_NOT_SEEN}: the brake never reached the limit of the rail."
-            f" By {'; '.join(dict.fromkeys(use.known_by for use in uses if use.known_by))}.",
+            f" {self.basis}By {'; '.join(dict.fromkeys(use.known_by for use in uses if use.known_by))}.",
             "map",
             tuple(columns),
             tuple(rows if self.name == "speed" else rows[::-1]),
@@ -160,7 +164,7 @@ def _outcome_map(uses: Uses, results: Sequence[CaseResult], speeds: dict[str, fl
         rows.append((f"{row * _SPEED_BIN:g} to {(row + 1) * _SPEED_BIN:g}", *cells, unseen))
     return report.CampaignTable(
         "outcomes_over_speed_and_friction",
-        "Stops by initial speed and friction of the rail",
+        "Stops by speed and friction",
         "Friction as fitted to each stop (initial coefficient of the creep law); not seen: no wheelset slid"
         " long enough.",
         "map",

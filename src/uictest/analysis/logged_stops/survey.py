@@ -10,6 +10,7 @@ from uictest import report
 from uictest.analysis.logged_stops.drift import drift_table, drifts
 from uictest.analysis.logged_stops.neighbours import (
     FEWEST,
+    NeighbourDifference,
     compared_table,
     findings_table,
     neighbour_differences,
@@ -67,7 +68,7 @@ class LogSurvey:
         drifting = drift_table(drifts(self._stops, friction))
         speeds = {stop.result.id: stop.speed for stop in self._stops}
         return report.Campaign(
-            tuple(self._sentences(findings, series, drifting)),
+            tuple(self._sentences(findings, differences, series, drifting)),
             (
                 findings,
                 dry_table(self._stops),
@@ -82,18 +83,18 @@ class LogSurvey:
     def _sentences(
         self,
         findings: report.CampaignTable,
+        differences: Sequence[NeighbourDifference],
         series: SeriesResult | None,
         drifting: report.CampaignTable,
     ) -> Iterator[str]:
-        found = len(findings.rows)
-        yield (
-            f"{report.counted(found, 'finding')} on wheelsets"
-            if found
-            else "no wheelset stands out from its neighbours"
-        )
-        if len(self._signs) < FEWEST:
-            counted = report.counted(len(self._signs), "stop")
-            yield f"wheelsets are compared over {counted}: {FEWEST} are needed for an interval"
+        compared = max((each.difference.stops for each in differences), default=0)
+        if findings.rows:
+            yield f"{report.counted(len(findings.rows), 'finding')} on wheelsets"
+        elif compared >= FEWEST:
+            yield "no wheelset stands out from its neighbours"
+        if compared < FEWEST:
+            counted = report.counted(compared, "stop")
+            yield f"wheelsets are not told apart: {counted} to compare them in, {FEWEST} are needed"
         yield from self._group_sentences(series)
         yield self._rail_sentence()
         for row in drifting.data.rows:
@@ -113,7 +114,8 @@ class LogSurvey:
         for speed in series.speeds:
             value = speed.measures["k_wet"].estimate
             if value is not None:
-                interval = f" ({value.low:.3f} to {value.high:.3f})" if value.stops > 1 else ""
+                known = math.isfinite(value.low)
+                interval = f" ({value.low:.3f} to {value.high:.3f})" if known else ", no interval"
                 wet = report.counted(speed.wet.counted, "wet stop")
                 yield f"K_wet from {speed.speed_kmh:g} km/h: {value.value:.3f}{interval}, {wet}"
 
@@ -122,8 +124,6 @@ class LogSurvey:
             return "the rail is not examined: state vehicle and brake with --scenario"
         found = [use.friction for use in self._uses if use.standing == "found"]
         seen = f"friction found in {len(found)} of {report.counted(len(self._uses), 'stop')}"
-        return (
-            f"{seen}: {min(found):.3f} to {max(found):.3f}"
-            if found
-            else f"{seen}: no wheelset slid long enough"
-        )
+        if found:
+            return f"{seen}: {min(found):.3f} to {max(found):.3f}"
+        return f"{seen}: {'; '.join(dict.fromkeys(use.remark for use in self._uses))}"

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest import report
-from uictest.core.recording import TIME, Recording
+from uictest.core.recording import TIME
 from uictest.core.units import BAR, KILOMETRE_PER_HOUR
 from uictest.judging.evaluation import CaseResult
 from uictest.plans.scenario import Scenario
@@ -26,6 +26,8 @@ _TELLING_DROP = 0.1 * BAR
 """Pa by which a pressure must fall, or rise, for its valve to have answered; chosen."""
 _LEAST_PRESSURE = 1.0 * BAR
 """Pa from which a vent must show in the pressure; chosen."""
+_COARSEST = 0.021
+"""s between samples of valve and pressure that tell when it answers; chosen, below the limit of that."""
 _LONG_VENT = 0.1
 """s: a vent as long as this must show in the pressure; chosen, longer than valves take to switch."""
 _SETTLED = 5.0
@@ -122,7 +124,7 @@ class WheelsetSigns(NamedTuple):
 
 def wheelset_signs(stop: RecordedStop, result: CaseResult, judged_under: Scenario) -> WheelsetSigns:
     """Return what the wheelsets of a judged stop did; `judged_under` says when one slides."""
-    course = _Course(stop.recording, judged_under)
+    course = _Course(stop, judged_under)
     cycles = [course.vents(n) for n in WHEELSETS]
     numbers = {
         "slid_distance": _slid_shares(result),
@@ -156,8 +158,9 @@ class _Vent(NamedTuple):
 class _Course:
     """The course of a stop, and where all wheelsets roll."""
 
-    def __init__(self, recording: Recording, judged_under: Scenario) -> None:
-        self.channels, definition = recording.channels, judged_under.measures
+    def __init__(self, stop: RecordedStop, judged_under: Scenario) -> None:
+        recording, definition = stop.recording, judged_under.measures
+        self.channels, self.intervals = recording.channels, stop.intervals
         self.time = np.asarray(recording[TIME])
         self.speed = np.asarray(recording["speed"])
         self.step = float(self.time[1] - self.time[0]) if len(self.time) > 1 else 1.0
@@ -173,6 +176,10 @@ class _Course:
         """Return a channel of all wheelsets, (4, n); NaN where it is missing."""
         unknown = np.full(len(self.time), np.nan)
         return np.stack([np.asarray(self.channels.get(name, unknown)) for name in of_wheelsets(kind)])
+
+    def _is_fine(self, *names: str) -> bool:
+        """Return whether channels are recorded often enough to tell when a valve answers."""
+        return all(self.intervals.get(name, math.inf) <= _COARSEST for name in names)
 
     def rolling_speeds(self) -> list[float]:
         """Return by how much each wheel reads faster than the train, %."""
@@ -206,10 +213,10 @@ class _Course:
 
     def vents(self, n: int) -> list[_Vent]:
         """Return the vents of a wheelset, from the commands to its valve and its pressure."""
-        pressure = self.channels.get(f"cylinder_pressure_{n}")
-        if pressure is None or f"valve_command_{n}" not in self.channels:
+        names = f"valve_command_{n}", f"cylinder_pressure_{n}"
+        if not self._is_fine(*names):
             return []
-        series = {f"valve_command_{n}": self.channels[f"valve_command_{n}"]}
+        pressure, series = self.channels[names[1]], {names[0]: self.channels[names[0]]}
         return [self._vent(np.asarray(pressure), cycle) for cycle in report.vent_cycles(self.time, series)]
 
     def _vent(self, pressure: Array, cycle: report.VentCycle) -> _Vent:
@@ -229,12 +236,10 @@ class _Course:
 
     def fill_rates(self, n: int) -> Iterator[float]:
         """Yield how fast the pressure of a wheelset rises after each vent, as a share of what is missing."""
-        pressure, valve = (
-            self.channels.get(f"{kind}_{n}") for kind in ("cylinder_pressure", "valve_command")
-        )
-        line = self.channels.get("brake_line_pressure")
-        if pressure is None or valve is None or line is None:
+        names = f"valve_command_{n}", f"cylinder_pressure_{n}", "brake_line_pressure"
+        if not self._is_fine(*names):
             return
+        valve, pressure, line = (self.channels[name] for name in names)
         fills = np.flatnonzero((valve[1:] == _FILL) & (valve[:-1] != _FILL)) + 1
         reach = round(2.0 * _LONG_VENT / self.step)
         for first in map(int, fills):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from uictest.core.document import Cell
 from uictest.report.campaign import CampaignTable
 
-_LIGHTEST, _DARKEST = 6.0, 46.0
+_LIGHTEST, _DARKEST = 6.0, 85.0
 """% of the colour of a shaded cell; chosen so that its text keeps its contrast."""
 _WORST_FIRST = ("error", "fail", "inconclusive", "invalid", "skipped", "pass")
 
