@@ -8,8 +8,8 @@ import pytest
 from uictest.analysis import comparison
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import RepeatedStop, Repeats
-from uictest.report import RunContent, RunManifest
-from uictest.report.page import sweep_page_html
+from uictest.report import Campaign, CampaignColumn, CampaignTable, RunContent, RunManifest
+from uictest.report.page import page_html, sweep_page_html
 from uictest.report.sweep.folder import SweepContent
 from uictest.report.traces.trace import trace_of
 
@@ -62,6 +62,31 @@ def test_the_page_of_a_run(browser, page, scheme, width):
     shown(browser, page, scheme, width)
     run(browser, "document.querySelectorAll('input.compare').forEach((box, k) => k < 2 && box.click())")
     wait(browser, COMPARED)
+    run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
+    wait(browser, _ALL_PLOTTED)
+    assert_fit_for_all(browser)
+
+
+@appearances
+def test_the_page_of_a_log(browser, tmp_path, scheme, width):
+    """With a table at each place, maps of outcomes and of numbers, and every fold open."""
+    word, figure = CampaignColumn("what", "what"), CampaignColumn("number", "number\nm", 2)
+    stops, long = CampaignColumn("stops", "stops"), CampaignColumn("why", "why", wraps=True)
+    rows = ("vents late", 0.5, "stop-0001, stop-0002 and 9 more", "a long reason " * 9), ("late", 0.1, "", "")
+    maps = ("0 to 20", 0.08, "not seen", "1 fail, 2 pass"), ("20 to 40", 0.12, 0.1, "3 pass")
+    tables = (
+        CampaignTable("findings", "Findings", "By chance.", "first", (word, figure, stops, long), rows),
+        CampaignTable("map", "Map", "By chance.", "map", (word, figure, figure, word), maps),
+        CampaignTable("more", "More", "By chance.", "detail", (word, figure, stops, long), rows),
+    )
+    result = make_result(id="stop-0001", outcome="fail")
+    traces = {result.id: trace_of(make_recording())}
+    together = Campaign(("1 finding on wheelsets",), tables)
+    page = tmp_path / "index.html"
+    page.write_text(
+        page_html(RunContent("log", [result], traces=traces, campaign=together)), encoding="utf-8"
+    )
+    shown(browser, page, scheme, width)
     run(browser, "document.querySelectorAll('details').forEach((each) => { each.open = true; })")
     wait(browser, _ALL_PLOTTED)
     assert_fit_for_all(browser)

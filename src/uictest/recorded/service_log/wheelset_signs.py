@@ -81,11 +81,11 @@ SIGNS: Final = MappingProxyType(
         ),
         "pressure": SignKind(
             "cylinder pressure with all valves filling",
-            "bar", 0.08, True, "holds a higher pressure", "holds a lower pressure", 2,
+            "bar", 0.05, True, "holds a higher pressure", "holds a lower pressure", 2,
         ),
         "brake_force": SignKind(
             "clamping force with all valves filling",
-            "kN", 0.08, True, "brakes with more force", "brakes weakly", 2,
+            "kN", 0.06, True, "brakes with more force", "brakes weakly", 2,
         ),
         "vent_delay": SignKind(
             "time from the command to vent to a pressure lower by 0.1 bar",
