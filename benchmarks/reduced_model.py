@@ -78,7 +78,7 @@ def right_hand_side(x: NDArray[np.float64], p: Any, friction: float) -> list[flo
         )
         creep = 2.0 * force if slip > 0.0 else -2.0 * force
         rates += [*_tank_rates(tank, temperature, p), (tank - cylinder) / _CYLINDER_LAG]
-        rates += [(p.wheel_radius * creep - _brake(cylinder, p)) / p.wheelset_inertia]
+        rates += [(p.wheel_radius * creep - _brake(cylinder, p)) / p.rotational_inertia]
         braking += creep
     rates[0] = -braking / (8.0 * p.static_wheel_load / p.gravity)
     return rates

@@ -5,6 +5,10 @@ import pytest
 
 MOTORS = "brake.dynamic={force: 60 kN, power: 1.6 MW}"
 WEAK = "brake.dynamic={force: 24 kN, power: 400 kW, wheelsets: [1, 3]}"
+HEAVY_ROTORS = tuple(
+    f"vehicle.wheelsets.{number}.rotational_inertia={inertia} kg m2"
+    for number, inertia in ((1, 300), (3, 200))
+)
 BYPASSED = ("rig.wsp=bypassed", "rig.topology=four-caliper")
 COASTING = (
     *BYPASSED,
@@ -35,13 +39,13 @@ def force_at_rims(columns, channel):
     return columns[channel].sum(axis=1) / 0.43
 
 
-def test_a_car_braked_at_constant_power_follows_the_closed_form_down_to_10_kmh(rig):
+@pytest.mark.parametrize(("rotors", "inertia"), [((), 4.0 * 123.0), (HEAVY_ROTORS, 2.0 * 123.0 + 500.0)])
+def test_a_car_braked_at_constant_power_follows_the_closed_form_down_to_10_kmh(rig, rotors, inertia):
     """t = m (v0^2 - v1^2) / (2 P) and s = m (v0^3 - v1^3) / (3 P), with the mass of what turns."""
     power = 120e3
-    stop = rig.columns(
-        *COASTING, "initial_speed=80 km/h", f"brake.dynamic={{force: 900 kN, power: {power} W}}"
-    )
-    mass = rig.case().scenario.vehicle.total_mass + 4.0 * 123.0 / 0.43**2
+    motors = f"brake.dynamic={{force: 900 kN, power: {power} W}}"
+    stop = rig.columns(*COASTING, *rotors, "initial_speed=80 km/h", motors)
+    mass = rig.case().scenario.vehicle.total_mass + inertia / 0.43**2
     fast, slow = 60.0 / 3.6, 10.0 / 3.6
     (t_0, s_0), (t_1, s_1) = when_at(stop, fast), when_at(stop, slow)
     assert t_1 - t_0 == pytest.approx(mass * (fast**2 - slow**2) / (2.0 * power), rel=2e-3)

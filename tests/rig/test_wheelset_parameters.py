@@ -37,6 +37,10 @@ def differing(rig, *overrides):
 FIELDS_SET = {
     "wheel_radius=0.42 m": {"wheel_radius", "slip_response", "slip_stiffness"},
     "configured_radius=0.42 m": {"configured_radius", "tooth_pitch"},
+    "rotational_inertia=200 kg m2": {
+        *("rotational_inertia", "inertia_response", "inertia_stiffness"),
+        *("slip_response", "slip_stiffness"),
+    },
     "brake_force=90 %": {"brake_force"},
     "pad_friction=0.3": {"reference_pad_friction"},
     "caliper.coulomb_friction=99 N": {"coulomb_friction"},

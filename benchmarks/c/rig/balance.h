@@ -44,7 +44,7 @@ static inline double wheelset_energy(const Wheelset *wheelset, const Bogie *bogi
     double springs = spring_energy(p->primary_longitudinal_stiffness, shift) +
                      spring_energy(p->primary_vertical_stiffness, rise);
     double motion =
-        kinetic_energy(p->wheelset_mass, wheelset->speed) + kinetic_energy(p->wheelset_inertia, wheelset->rotation);
+        kinetic_energy(p->wheelset_mass, wheelset->speed) + kinetic_energy(wheelset->rotational_inertia, wheelset->rotation);
     return springs + motion + p->wheelset_mass * p->gravity * (p->gradient * position);
 }
 
@@ -62,8 +62,8 @@ static inline double stored_energy(const Car *car, const Bogie *bogies, const Wh
 
 static inline double rail_work(const Wheelset *wheelset, const Parameters *p)
 {
-    double turned = kinetic_energy(p->wheelset_inertia, wheelset->rotation);
-    double turned_first = kinetic_energy(p->wheelset_inertia, p->initial_speed / wheelset->wheel_radius);
+    double turned = kinetic_energy(wheelset->rotational_inertia, wheelset->rotation);
+    double turned_first = kinetic_energy(wheelset->rotational_inertia, p->initial_speed / wheelset->wheel_radius);
     double braked = wheelset->brake_heat + wheelset->dynamic_energy;
     return braked + wheelset->contact_loss + (turned - turned_first);
 }

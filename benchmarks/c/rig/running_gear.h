@@ -94,11 +94,11 @@ OURS Braking step_wheelset(Wheelset *wheelset, Bogie *bogie, real thrust, real s
     real slip_change = slip->free - slip->estimate;
     real turning_creep = slip->direction * slip_change * wheelset->slip_stiffness;
     real moment = fma(wheelset->wheel_radius, turning_creep, -direction * wheelset->torque);
-    real turned = fma(p->inertia_response, moment, rotation);
+    real turned = fma(wheelset->inertia_response, moment, rotation);
     mask locked = turned * direction <= 0.0;
     real free_speed = fma(p->mass_response, thrust, speed);
     real sliding_creep = locked_force(speed, free_speed, sliding_force, p->mass_response);
-    real holding = fma(wheelset->wheel_radius, sliding_creep, rotation * p->inertia_stiffness);
+    real holding = fma(wheelset->wheel_radius, sliding_creep, rotation * wheelset->inertia_stiffness);
     real creep = choose(locked, sliding_creep, turning_creep);
     real braking = choose(locked, holding, direction * wheelset->torque);
     wheelset->creep_force = creep;

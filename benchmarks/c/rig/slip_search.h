@@ -22,7 +22,7 @@ OURS Slip bracket_slip(Wheelset *wheelset, real thrust, const Parameters *p)
     real slip = fma(-wheelset->wheel_radius, wheelset->rotation, wheelset->speed);
     real braking = turning_direction(wheelset->rotation, wheelset->speed) * wheelset->torque;
     real pushed = fma(p->mass_response, thrust, slip);
-    real free_slip = fma(p->inertia_response * wheelset->wheel_radius, braking, pushed);
+    real free_slip = fma(wheelset->inertia_response * wheelset->wheel_radius, braking, pushed);
     s.direction = choose(free_slip < 0.0, number(-1.0), number(1.0));
     s.free = s.direction * free_slip;
     s.highest = s.free;

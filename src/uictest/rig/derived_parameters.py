@@ -237,16 +237,10 @@ def _frames(p: Parameters, scenario: Scenario) -> None:
     p.bogie_pitch_response = step / bogie.pitch_inertia
 
 
-@_reads("vehicle.wheelset", "simulation.time_step")
+@_reads("vehicle.wheelset.mass", "simulation.time_step")
 def _wheelset(p: Parameters, scenario: Scenario) -> None:
-    """What a force or moment on a wheelset changes within one step, and the inverses."""
-    wheelset = scenario.vehicle.wheelset
-    step = float(scenario.simulation.time_step)
-    by_mass = step / wheelset.mass
-    by_inertia = step / wheelset.rotational_inertia
-    p.mass_response = by_mass
-    p.inertia_response = by_inertia
-    p.inertia_stiffness = 1.0 / by_inertia
+    """What a force on a wheelset changes within one step."""
+    p.mass_response = float(scenario.simulation.time_step) / scenario.vehicle.wheelset.mass
 
 
 @_reads("vehicle")

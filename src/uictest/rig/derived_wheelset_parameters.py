@@ -49,12 +49,13 @@ def _reads(*values: str, keys: tuple[str, ...] = ()) -> Callable[[_Set], _Set]:
     return register
 
 
-@_reads("wheel_radius", keys=("vehicle.wheelset", "simulation.time_step"))
+@_reads("wheel_radius", "rotational_inertia", keys=("vehicle.wheelset.mass", "simulation.time_step"))
 def _slip(own: WheelsetParameters, value: ValueOf, scenario: Scenario) -> None:
-    """What a creep force changes within one step, and its inverse."""
-    wheelset, radius = scenario.vehicle.wheelset, value("wheel_radius")
-    step = float(scenario.simulation.time_step)
-    own.slip_response = step / wheelset.mass + radius * radius * (step / wheelset.rotational_inertia)
+    """What a moment and a creep force change within one step, and the inverses."""
+    radius, step = value("wheel_radius"), float(scenario.simulation.time_step)
+    own.inertia_response = step / value("rotational_inertia")
+    own.inertia_stiffness = 1.0 / own.inertia_response
+    own.slip_response = step / scenario.vehicle.wheelset.mass + radius * radius * own.inertia_response
     own.slip_stiffness = 1.0 / own.slip_response
 
 

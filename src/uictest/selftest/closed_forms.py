@@ -238,9 +238,8 @@ def _distance(stops: KnownStops) -> Answer:
     recording = rig.simulate(case, record_every=1e-3).recording
     assert recording is not None
     vehicle = case.scenario.vehicle
-    turning = math.fsum(
-        float(vehicle.wheelset.rotational_inertia) / radius**2 for radius in vehicle.wheel_radii
-    )
+    wheelsets = zip(vehicle.rotational_inertias, vehicle.wheel_radii, strict=True)
+    turning = math.fsum(float(inertia) / radius**2 for inertia, radius in wheelsets)
     inputs = float(case.scenario.initial_speed), vehicle.total_mass + turning
     expected = dry_stop_distance(_brake_force(case, recording), recording[TIME], *inputs)
     return Answer(expected, float(stops.stop(_STOP).measures.braking_distance))

@@ -145,11 +145,10 @@ class Balances:
 
     def brake_impulse(self, brake_factor: float | Array) -> Array | None:
         """Return the impulse of the rail by the balance of each wheelset, N s, (4, k); else None."""
-        s, wheelset = self.samples, self.scenario.vehicle.wheelset
-        if s.torque is None:
+        if self.samples.torque is None:
             return None
         torque = brake_factor * self._torque_impulse
-        impulse: Array = (torque + wheelset.rotational_inertia * self._turned) / self._radius
+        impulse: Array = (torque + self._inertia * self._turned) / self._radius
         return impulse
 
     def residuals(
@@ -199,6 +198,10 @@ class Balances:
     @cached_property
     def _radius(self) -> Array:
         return of_wheelsets(self.scenario, "wheel_radius")
+
+    @cached_property
+    def _inertia(self) -> Array:
+        return of_wheelsets(self.scenario, "rotational_inertia")
 
     @cached_property
     def _turned(self) -> Array:

@@ -27,13 +27,12 @@ def wheel_loads(vehicle: scenario.Vehicle, deceleration: Array) -> Array:
     body, bogie, wheelset = vehicle.loaded_body, vehicle.bogie, vehicle.wheelset
     height = _coupling_height(vehicle)
     lean = body.mass * (body.height - height) / (2.0 * vehicle.half_pivot_distance)
-    turning = (
-        0.5 * body.mass * height
-        + bogie.mass * bogie.height
-        + 2.0 * wheelset.mass * wheelset.radius
-        + 2.0 * wheelset.rotational_inertia / wheelset.radius
-    ) / (2.0 * bogie.half_wheelbase)
-    shares = np.array([0.25 * b * lean + 0.5 * w * turning for b in (1.0, -1.0) for w in (1.0, -1.0)])
+    moments = 0.5 * body.mass * height + bogie.mass * bogie.height + 2.0 * wheelset.mass * wheelset.radius
+    rotating = np.array(vehicle.rotational_inertias).reshape(2, 2).sum(axis=1) / wheelset.radius
+    turning = (moments + rotating) / (2.0 * bogie.half_wheelbase)
+    shares = np.array(
+        [0.25 * b * lean + 0.5 * w * turning[j] for j, b in enumerate((1.0, -1.0)) for w in (1.0, -1.0)]
+    )
     static = vehicle.total_mass * STANDARD_GRAVITY / _WHEELS
     loads: Array = static + np.outer(shares, deceleration)
     return loads

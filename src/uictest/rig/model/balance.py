@@ -67,7 +67,7 @@ def _wheelset_energy(wheelset: Wheelset, bogie: Bogie, p: Parameters) -> float:
         p.primary_vertical_stiffness, rise
     )
     motion: float = kinetic_energy(p.wheelset_mass, wheelset.speed) + kinetic_energy(
-        p.wheelset_inertia, wheelset.rotation
+        wheelset.rotational_inertia, wheelset.rotation
     )
     height: float = p.gradient * position
     return springs + motion + float(p.wheelset_mass * p.gravity) * height
@@ -79,8 +79,8 @@ def rail_work(wheelset: Wheelset, p: Parameters) -> float:
     What the rail takes from the motion of the wheelset becomes heat of its contacts, work of its brakes or
     rotation. What the brakes draw from the pitching of the bogie, some ten joules, is in it as well.
     """
-    turned = kinetic_energy(p.wheelset_inertia, wheelset.rotation)
-    turned_first = kinetic_energy(p.wheelset_inertia, p.initial_speed / wheelset.wheel_radius)
+    turned = kinetic_energy(wheelset.rotational_inertia, wheelset.rotation)
+    turned_first = kinetic_energy(wheelset.rotational_inertia, p.initial_speed / wheelset.wheel_radius)
     braked = wheelset.brake_heat + wheelset.dynamic_energy
     return braked + wheelset.contact_loss + (turned - turned_first)
 

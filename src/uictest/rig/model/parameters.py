@@ -202,10 +202,7 @@ class Parameters(
     half_pivot_distance: float = from_scenario("vehicle.half_pivot_distance")  # m
     # wheelset
     wheelset_mass: float = from_scenario("vehicle.wheelset.mass")  # kg
-    wheelset_inertia: float = from_scenario("vehicle.wheelset.rotational_inertia")  # kg m2
     mass_response: float = derived()  # step over wheelset mass, s/kg
-    inertia_response: float = derived()  # step over wheelset inertia, s/(kg m2)
-    inertia_stiffness: float = derived()  # its inverse
     # suspensions: primary per wheelset, secondary per bogie, N/m and N s/m
     primary_longitudinal_stiffness: float = from_scenario(
         "vehicle.primary.longitudinal_stiffness", of_both_sides

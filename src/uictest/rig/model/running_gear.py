@@ -139,11 +139,11 @@ def step_wheelset(
     slip_change = slip.free - slip.estimate
     turning_creep = slip.direction * slip_change * wheelset.slip_stiffness
     moment = fma(wheelset.wheel_radius, turning_creep, -direction * wheelset.torque)
-    turned = fma(p.inertia_response, moment, rotation)
+    turned = fma(wheelset.inertia_response, moment, rotation)
     locked = turned * direction <= 0.0
     free_speed = fma(p.mass_response, thrust, speed)
     sliding_creep = locked_force(speed, free_speed, sliding_force, p.mass_response)
-    holding = fma(wheelset.wheel_radius, sliding_creep, rotation * p.inertia_stiffness)
+    holding = fma(wheelset.wheel_radius, sliding_creep, rotation * wheelset.inertia_stiffness)
     creep = select(locked, sliding_creep, turning_creep)
     braking = select(locked, holding, direction * wheelset.torque)
     wheelset.creep_force = creep

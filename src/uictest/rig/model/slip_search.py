@@ -94,7 +94,7 @@ def bracket_slip(wheelset: Wheelset, thrust: float, p: Parameters) -> Slip:
     slip = fma(-wheelset.wheel_radius, wheelset.rotation, wheelset.speed)
     braking = turning_direction(wheelset.rotation, wheelset.speed) * wheelset.torque
     pushed = fma(p.mass_response, thrust, slip)
-    free_slip = fma(p.inertia_response * wheelset.wheel_radius, braking, pushed)
+    free_slip = fma(wheelset.inertia_response * wheelset.wheel_radius, braking, pushed)
     direction = select(free_slip < 0.0, -1.0, 1.0)
     free = direction * free_slip
     lowest = lowest_slip(free, wheelset.slip_response, wheelset.wheel_load, wheelset.friction)

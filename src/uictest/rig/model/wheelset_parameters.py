@@ -15,6 +15,9 @@ class WheelsetParameters(Record):
     # wheel
     wheel_radius: float = from_scenario("wheel_radius")  # at which it rolls, m
     configured_radius: float = from_scenario("configured_radius")  # of which the WSP was told, m
+    rotational_inertia: float = from_scenario("rotational_inertia")  # with what it drives, kg m2
+    inertia_response: float = derived()  # step over that, s/(kg m2)
+    inertia_stiffness: float = derived()  # its inverse
     slip_response: float = derived()  # change of slip speed in a step per creep force, m/(s N)
     slip_stiffness: float = derived()  # its inverse
     # disc brake

@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Discriminator, Tag
 
-from uictest.plans.scenario.parts.wheelsets import ALIKE, Radius, Wheelsets
+from uictest.plans.scenario.parts.wheelsets import ALIKE, Inertia, Radius, Wheelsets
 from uictest.plans.scenario.yaml import Inconsistency, Key, Part, Quantity, Section
 from uictest.plans.scenario.yaml.quantity_field import field, of_kind, optional, quantity, schema_field
 
@@ -51,9 +51,7 @@ class Wheelset(Section):
     """One of the four wheelsets, with its brake discs."""
 
     mass: Quantity = quantity("Mass of one wheelset with axle boxes.", "mass", "100 kg .. 10 t")
-    rotational_inertia: Quantity = quantity(
-        "Moment of inertia about the axle.", "inertia", "1 kg m2 .. 1e4 kg m2"
-    )
+    rotational_inertia: Inertia = field("Moment of inertia about the axle.")
     radius: Radius = field("Rolling radius.")
 
 
@@ -158,6 +156,13 @@ class Vehicle(Part):
         """Rolling radius of each wheelset, m."""
         own = (each.wheel_radius for each in self.wheelsets.values())
         return tuple(self.wheelset.radius if radius is None else radius for radius in own)
+
+    @property
+    def rotational_inertias(self) -> tuple[float, ...]:
+        """Moment of inertia of each wheelset about its axle, kg m2."""
+        regular = self.wheelset.rotational_inertia
+        own = (each.rotational_inertia for each in self.wheelsets.values())
+        return tuple(regular if inertia is None else inertia for inertia in own)
 
     @property
     def total_mass(self) -> float:

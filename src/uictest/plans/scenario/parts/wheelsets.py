@@ -101,6 +101,7 @@ NUMBERS: Final = ("1", "2", "3", "4")
 """Numbers of the wheelsets from the leading end, as keys."""
 _ERRORS: Final = ("gain_error", "offset", "noise")
 Radius = Annotated[Quantity, of_kind("length", "> 0.1 m .. 1 m")]
+Inertia = Annotated[Quantity, of_kind("inertia", "1 kg m2 .. 1e4 kg m2")]
 
 
 def _known(number: str) -> str:
@@ -154,6 +155,10 @@ class OwnValues(Section):
     wheel_radius: Radius | None = optional(
         "Rolling radius of its wheels; vehicle.wheelset.radius if left out."
     )
+    rotational_inertia: Inertia | None = optional(
+        "Moment of inertia about its axle, with that of a motor and its gear, seen from the axle;"
+        " vehicle.wheelset.rotational_inertia if left out."
+    )
     configured_radius: Radius | None = optional(
         "Radius that the WSP was configured with: measured speed is rotation times this;"
         " vehicle.wheelset.radius if left out."
@@ -179,6 +184,7 @@ ALIKE: Final = MappingProxyType(_completed({}))
 REGULAR: Final[Mapping[str, str]] = MappingProxyType(
     {
         **dict.fromkeys(("wheel_radius", "configured_radius"), "vehicle.wheelset.radius"),
+        "rotational_inertia": "vehicle.wheelset.rotational_inertia",
         "pad_friction": "brake.system.disc.pad_friction",
         **{f"caliper.{name}": f"rig.caliper.{name}" for name in OwnCaliper.model_fields},
         **{f"wsp_valve.{name}": f"brake.system.wsp_valve.{name}" for name in OwnWspValve.model_fields},
