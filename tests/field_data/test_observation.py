@@ -185,3 +185,21 @@ def test_a_distance_that_is_not_recorded_is_integrated(channels, prepared):
     actual = prepared(channels)
     assert actual.choices["distance"] == "integrated from speed"
     assert actual.standstill == pytest.approx(expected, rel=1e-4)
+
+
+def test_a_recorded_track_brake_gives_its_energy_and_time_and_leaves_no_initial_adhesion():
+    track = "brake.track={attraction: 100 kN, off_below: 20 km/h, delay: 0.3 s}"
+    settings = ("rail.condition=wet", "rail.friction=0.06", "brake.position=emergency", track)
+    case = stated_case("stop", 60.0 / 3.6, settings)
+    simulated = simulate(case, record_every=0.01)
+    recording = simulated.recording
+    channels = {
+        name: RawChannel(name, name, recording["time"], np.asarray(values))
+        for name, values in recording.channels.items()
+        if name != "time"
+    }
+    observed = observe(prepare(channels, recording.metadata, Preparation()), case.scenario).measures
+    assert observed.track_brake_energy == pytest.approx(simulated.measures.track_brake_energy, rel=1e-2)
+    assert observed.track_brake_time == pytest.approx(simulated.measures.track_brake_time, abs=0.05)
+    result = evaluate(case, observed, simulated.wheelset_measures)
+    assert result.measures["initial_adhesion_g"] != result.measures["initial_adhesion_g"]

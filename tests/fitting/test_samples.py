@@ -5,7 +5,7 @@ import pytest
 
 from uictest.core.recording import TIME
 from uictest.recorded.field_data import WHEELSETS, Preparation, RawChannel, prepare, stated_case
-from uictest.recorded.fitting.samples import initial_speed, samples_of
+from uictest.recorded.fitting.samples import FitError, initial_speed, samples_of
 from uictest.rig import simulate
 
 
@@ -42,3 +42,9 @@ def test_the_initial_speed_is_the_mean_of_the_first_tenth_of_a_second():
     stop = prepare(channels, {"brake_command_time": "0 s"}, Preparation())
     first = (time > -1e-6) & (time < 0.1 + 1e-6)
     assert initial_speed(stop) == pytest.approx(float(speed[first].mean()), abs=0.01)
+
+
+def test_a_stop_that_a_track_brake_slowed_as_well_is_no_stop_for_a_fit(recorded_stop):
+    case, stop = recorded_stop(60, 0.06, settings=["brake.track={attraction: 100 kN, when: always}"])
+    with pytest.raises(FitError, match="a track brake slowed the train"):
+        samples_of(stop, case.scenario)

@@ -22,7 +22,7 @@ from uictest.core.measures import (
     samples_of,
 )
 from uictest.core.record import fields_of
-from uictest.core.recording import BRAKE_COMMAND_TIME, Recording
+from uictest.core.recording import BRAKE_COMMAND_TIME, TIME, Recording
 from uictest.core.units import KILOMETRE_PER_HOUR, STANDARD_GRAVITY
 from uictest.judging import evaluation
 from uictest.judging.evaluation import CaseResult, evaluate
@@ -100,6 +100,7 @@ def observe(stop: RecordedStop, judged_under: scenario.Scenario) -> Observed:
     if stop.standstill is not None:
         replay.stop_at(*stop.standstill)
     train, wheelsets = replay.train, replay.wheelsets
+    _observe_track_brake(train, recording)
     close_contacts(train, wheelsets, _mass(recording))
     records = np.zeros(len(WHEELSETS), WHEELSET_MEASURES)
     for record, wheelset in zip(records, wheelsets, strict=True):
@@ -107,6 +108,14 @@ def observe(stop: RecordedStop, judged_under: scenario.Scenario) -> Observed:
     stop_measures = np.zeros(1, STOP_MEASURES)
     _copy(train, stop_measures[0])
     return Observed(stop_measures[0], records.view(np.recarray), coverage_of(stop))
+
+
+def _observe_track_brake(train: Any, recording: Recording) -> None:
+    """Set energy and time of the track brake where its force was recorded; a gap adds none."""
+    if "track_brake_force" in recording.channels:
+        force = np.nan_to_num(recording["track_brake_force"])
+        train.track_brake_energy = float(np.trapezoid(force * recording["speed"], recording[TIME]))
+        train.track_brake_time = float(np.diff(recording[TIME])[force[1:] > 0.0].sum())
 
 
 def _copy(source: Any, record: Any) -> None:

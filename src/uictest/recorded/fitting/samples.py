@@ -87,6 +87,7 @@ def samples_of(stop: field_data.RecordedStop, scenario: Scenario) -> StopSamples
     recording = stop.recording
     names = ("speed", *(f"wheel_speed_{n}" for n in WHEELSETS))
     _require_sound_speeds(stop, names)
+    _require_wheels_alone(recording, scenario)
     definition = scenario.measures
     moving = np.asarray(recording["speed"]) > definition.moving_speed
     count = len(moving) if moving.all() else int(np.argmin(moving))
@@ -124,6 +125,13 @@ def _require_sound_speeds(stop: field_data.RecordedStop, names: tuple[str, ...])
         raise FitError(f"a fit needs speeds without defects: {'; '.join(defects)}")
     if stop.trigger.late:
         raise FitError("the record begins after the brake command, so places on the track are not known")
+
+
+def _require_wheels_alone(recording: Recording, scenario: Scenario) -> None:
+    """Raise FitError where a track brake slowed the train, or may have: a fit takes that for the wheels'."""
+    force = recording.channels.get("track_brake_force")
+    if np.nanmax(force, initial=0.0) > 0.0 if force is not None else scenario.brake.track is not None:
+        raise FitError("a track brake slowed the train: the deceleration is not that of its wheels")
 
 
 def _smoothed(samples: Array, width: int) -> Array:

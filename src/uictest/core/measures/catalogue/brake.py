@@ -44,7 +44,7 @@ def _of_track_brake(stop: StopMeasures, value: float) -> MeasureValue:
     return one_value(value)
 
 
-_TRACK_BRAKE = RecordedData(("force of the track brake",), when="never")
+_TRACK_BRAKE = RecordedData(("track_brake_force",))
 
 
 def _of_sanders(numbers: Iterable[float]) -> MeasureValue:
