@@ -51,6 +51,7 @@ def test_both_rigs_stop_alike(found, name):
     [
         ("brake.command", "[{at: 0 s, value: 80 %}, {at: 1 s, value: 100 %}]", "a course of brake.command"),
         ("brake.dynamic", "{force: 100 kN, power: 2 MW}", "brake.dynamic"),
+        ("brake.track", "{attraction: 100 kN}", "brake.track"),
         ("until", "5 km/h", "until"),
         ("drag", "{speed: 10 km/h, duration: 5 s}", "drag"),
         (
