@@ -82,6 +82,26 @@ class NeighbourDifference(NamedTuple):
         return sorted(beyond, key=lambda name: -beyond[name])
 
 
+def sliding_sentence(differences: Sequence[NeighbourDifference]) -> str:
+    """Return which wheelsets slide more or less than their neighbours; empty where none does.
+
+    No finding: the trailing wheelsets of bogies carry less load, and later ones run on what others cleaned.
+    """
+    slides = [each for each in differences if each.sign == "slid_distance"]
+    more = [each for each in slides if each.difference.low > each.limit]
+    less = [each for each in slides if each.difference.high < -each.limit]
+    parts = [
+        f"{word} than its neighbours: wheelset {', '.join(_with_difference(each) for each in some)}"
+        for word, some in (("slides more", more), ("slides less", less))
+        if some
+    ]
+    return f"{'; '.join(parts)}; load and cleaned rail do that to sound trains, too" if parts else ""
+
+
+def _with_difference(each: NeighbourDifference) -> str:
+    return f"{each.wheelset} ({each.difference.value:+.0f} % of the distance)"
+
+
 def neighbour_differences(signs: Signs) -> list[NeighbourDifference]:
     """Return the differences of every sign and wheelset that some stop shows."""
     return [each for sign in service_log.SIGNS for n in _WHEELSETS for each in _differences(signs, sign, n)]

@@ -14,6 +14,7 @@ from uictest.analysis.logged_stops.neighbours import (
     compared_table,
     findings_table,
     neighbour_differences,
+    sliding_sentence,
 )
 from uictest.analysis.logged_stops.rail_tables import rail_tables
 from uictest.analysis.logged_stops.stop_groups import (
@@ -95,6 +96,8 @@ class LogSurvey:
         if compared < FEWEST:
             counted = report.counted(compared, "stop")
             yield f"wheelsets are not told apart: {counted} to compare them in, {FEWEST} are needed"
+        if sliding := sliding_sentence(differences):
+            yield sliding
         yield from self._group_sentences(series)
         yield self._rail_sentence()
         for row in drifting.data.rows:

@@ -19,11 +19,12 @@ from uictest.recorded.field_data import WHEELSETS, RecordedStop, of_wheelsets
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-_FILL, _VENT = 0, 2
+_FILL = 0
 _SLOWEST = 20.0 * KILOMETRE_PER_HOUR
 """m/s: below, a pole wheel reads too coarsely to compare wheels; chosen."""
-_TELLING_DROP = 0.1 * BAR
-"""Pa by which a pressure must fall, or rise, for its valve to have answered; chosen."""
+_TELLING_DROP = 0.08
+"""Share of the pressure by which it must fall for its valve to have answered; chosen. A share, since air
+leaves the slower the less there is."""
 _LEAST_PRESSURE = 1.0 * BAR
 """Pa from which a vent must show in the pressure; chosen."""
 _COARSEST = 0.021
@@ -32,6 +33,8 @@ _LONG_VENT = 0.1
 """s: a vent as long as this must show in the pressure; chosen, longer than valves take to switch."""
 _SETTLED = 5.0
 """s after which all valves fill that the pressures have settled; chosen: twice the build-up of position P."""
+_UNBRAKED = 0.3
+"""s after the brake command in which wheels roll without creep to speak of; chosen."""
 _BUILT_UP = 0.5
 """Share of the highest line or cylinder pressure whose time is compared; chosen."""
 _LEAST_SLIDING = 5.0
@@ -48,7 +51,7 @@ class SignKind(NamedTuple):
         unit: of the number.
         limit: by how much it may differ from the middle one of the other wheelsets; chosen.
         relative: whether the limit is a share of theirs.
-        more, less: what a wheelset does whose number lies above, or below; empty where that is no finding.
+        more, less: what a wheelset does whose number lies above, or below; empty where that is no defect.
         digits: behind the point.
     """
 
@@ -65,10 +68,10 @@ SIGNS: Final = MappingProxyType(
     {
         "slid_distance": SignKind(
             "share of the braking distance over which it slides",
-            "%", 15.0, False, "slides more", "slides less", 1,
+            "%", 15.0, False, "", "", 1,
         ),
         "rolling_speed": SignKind(
-            "excess of the wheel speed over that of the train while all wheelsets roll",
+            "excess of the wheel speed over that of the train before the brake has built up",
             "%", 0.7, False, "reads fast: small wheel or sensor", "reads slowly: large wheel or sensor", 2,
         ),
         "speed_roughness": SignKind(
@@ -76,7 +79,7 @@ SIGNS: Final = MappingProxyType(
             "m/s", 1.0, True, "reads a rough speed", "", 4,
         ),
         "build_up": SignKind(
-            "time from the brake command to half of its highest pressure, before any vent",
+            "time from the brake command to half of the highest pressure, before any valve acts",
             "s", 0.15, False, "brakes late", "", 2,
         ),
         "pressure": SignKind(
@@ -88,7 +91,7 @@ SIGNS: Final = MappingProxyType(
             "kN", 0.06, True, "brakes with more force", "brakes weakly", 2,
         ),
         "vent_delay": SignKind(
-            "time from the command to vent to a pressure lower by 0.1 bar",
+            "time from the command to vent to a pressure lower by 8 %",
             "s", 0.025, False, "vents late", "", 3,
         ),
         "vent_rate": SignKind(
@@ -182,10 +185,9 @@ class _Course:
         return all(self.intervals.get(name, math.inf) <= _COARSEST for name in names)
 
     def rolling_speeds(self) -> list[float]:
-        """Return by how much each wheel reads faster than the train, %."""
-        with np.errstate(invalid="ignore"):
-            shares = 100.0 * (self.wheels[:, self.rolls] / self.speed[self.rolls] - 1.0)
-        return [_middle(own, _FEWEST_SAMPLES) for own in shares]
+        """Return by how much each wheel reads faster than the train before it brakes, %, so without creep."""
+        unbraked = (self.time <= _UNBRAKED) & (self.speed > _SLOWEST)
+        return [_middle(own) for own in 100.0 * (self.wheels[:, unbraked] / self.speed[unbraked] - 1.0)]
 
     def roughnesses(self) -> list[float]:
         """Return the root mean square of the second difference of each wheel speed, m/s."""
@@ -194,9 +196,9 @@ class _Course:
         return [_root_mean_square(own) for own in bends]
 
     def build_up_times(self) -> list[float]:
-        """Return when the pressure of each cylinder reaches half of its highest value before any vent, s."""
-        pressures, venting = self._of("cylinder_pressure"), self._of("valve_command") == _VENT
-        first = np.flatnonzero(venting.any(axis=0))
+        """Return when the pressure of each cylinder reaches half of the highest before any valve acts, s."""
+        pressures, acting = self._of("cylinder_pressure"), self._of("valve_command") > _FILL
+        first = np.flatnonzero(acting.any(axis=0))
         end = int(first[0]) if len(first) else len(self.time)
         highest = float(np.nanmax(pressures[:, :end], initial=0.0))
         if highest < _LEAST_PRESSURE:
@@ -224,7 +226,7 @@ class _Course:
         # A pressure goes on falling until the valve has closed again.
         last = min(first + round((cycle.duration + _LONG_VENT) / self.step) + 1, len(pressure))
         begin, own = float(pressure[first]), pressure[first:last]
-        fallen = np.flatnonzero(own <= begin - _TELLING_DROP)
+        fallen = np.flatnonzero(own <= (1.0 - _TELLING_DROP) * begin)
         telling = cycle.duration >= _LONG_VENT and begin >= _LEAST_PRESSURE
         if not len(fallen) or begin < _LEAST_PRESSURE:
             return _Vent(math.nan, math.nan, telling)
