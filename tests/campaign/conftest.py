@@ -15,6 +15,8 @@ def make_case():
         named = {"requirements": (), "test_case": None, "criteria": (), "repeat": 1}
         rig = SimpleNamespace(compensation_model=SimpleNamespace(to_identify=False))
         scenario = SimpleNamespace(tags=tags, expect=expect, controller=controller, rig=rig, **named)
-        return SimpleNamespace(id=case_id, scenario=scenario, path=Path("scenarios", file), parameters={})
+        return SimpleNamespace(
+            id=case_id, scenario=scenario, path=Path("scenarios", file), parameters={}, train=None
+        )
 
     return make

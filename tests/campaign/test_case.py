@@ -20,6 +20,7 @@ class Rig:
         self.asked.append(record_every)
         recording = None if record_every is None else f"every {record_every} s"
         made_up = {"measures": None, "wheelset_measures": None, "response_times": None}
+        made_up |= {"coupler_ahead": None, "coupler_behind": None}
         return SimpleNamespace(
             **made_up,
             recording=recording,

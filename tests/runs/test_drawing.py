@@ -20,7 +20,7 @@ CYCLE = 0.01
 
 def _cases(count):
     scenario = SimpleNamespace(controller=SimpleNamespace(cycle_time=CYCLE), repeat=1, seed=0)
-    return [SimpleNamespace(id=f"case-{n}", scenario=scenario) for n in range(count)]
+    return [SimpleNamespace(id=f"case-{n}", scenario=scenario, train=None) for n in range(count)]
 
 
 def _result(case_id, outcome="pass"):

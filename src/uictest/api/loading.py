@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from uictest import report, rig, runs
@@ -131,7 +130,7 @@ def _case(
         raise ValueError("case, set and trust apply to files: pass set and trust to uictest.load")
     if seed is None:
         return what
-    return replace(what, scenario=what.scenario.model_copy(update={"seed": seed}))
+    return what.with_values(seed=seed)
 
 
 _AS_WRITTEN = "uictest"

@@ -115,8 +115,8 @@ class Rig:
 
         Raises:
             uictest.plans.scenario.ScenarioErrors: the file is invalid; the message has every error in it.
-            ValueError: no such case, or several and none is named; `record` is not positive, or there is no
-                such contract.
+            ValueError: no such case, several and none is named, or one that is a car of a train; `record` is
+                not positive, or there is no such contract.
         """
         if contract not in CONTRACTS:
             raise ValueError(f"contract is {contract!r}, expected {' or '.join(map(str, CONTRACTS))}")
@@ -125,6 +125,8 @@ class Rig:
         place = library.named_scenario(Path(path))
         cases = scenario.load([place], trusted=[Path(folder) for folder in trust])
         self.case = bench.identified(scenario.chosen_case(cases, case))
+        if (train := self.case.train) is not None:
+            raise ValueError(f"{self.case.id} is {train.label}: a rig that is stepped is a car alone")
         self._record = record
         self._contract = contract
         self._stop: SteppedStop | None = None

@@ -140,7 +140,7 @@ _KINDS = (
         _unit("MN/m", 1_000_000),
         _unit("N/mm", 1000),
     ),
-    _kind("damping", "N s/m", _unit("N s/m", 1), _unit("kN s/m", 1000)),
+    _kind("damping", "N s/m", _unit("N s/m", 1), _unit("kN s/m", 1000), _unit("MN s/m", 1_000_000)),
     _kind("quadratic resistance", "N s2/m2", _unit("N s2/m2", 1)),
     _kind("conductance", "m3/(s Pa)", _unit("m3/(s Pa)", 1), _unit("dm3/(s bar)", "1e-8")),
     _kind(

@@ -13,6 +13,7 @@ from uictest.judging import evaluation
 from uictest.report.content import RunContent
 from uictest.report.part_wording import changes_of, slide_speed
 from uictest.report.repeat_wording import stops_text
+from uictest.report.train_wording import train_text
 from uictest.report.verdict_sentences import tone
 
 Stop = evaluation.CaseResult | evaluation.RepeatedStop
@@ -65,6 +66,7 @@ def cases_table(content: RunContent) -> Table:
         Column(heading="outcome", text=outcome),
         Column(heading="stops", text=stops_text),
         *measure_columns(content.results),
+        Column(heading="train", text=train_text),
         Column(heading="changed parameters", text=lambda result: "; ".join(changes_of(result))),
         Column(heading="why", text=why),
     ]

@@ -25,7 +25,12 @@ from .backends.stepped import (
     stepping_code as stepping_code,
 )
 from .backends.train_lanes import TrainMeasures as TrainMeasures, run_trains_in_lanes as run_trains_in_lanes
-from .coupled_cars import TrainStop as TrainStop, run_coupled as run_coupled
+from .backends.trains import compiled_train as compiled_train
+from .coupled_cars import (
+    CouplerPeaks as CouplerPeaks,
+    TrainStop as TrainStop,
+    run_coupled as run_coupled,
+)
 from .derived_parameters import Assignment as Assignment
 from .derived_wheelset_parameters import WHEELSET_ASSIGNMENTS as WHEELSET_ASSIGNMENTS
 from .external.block import (
@@ -52,8 +57,15 @@ from .model.trace import CAR_CHANNELS as CAR_CHANNELS, WHEELSET_CHANNELS as WHEE
 from .recorded_rail import RecordedRail as RecordedRail
 from .simulation import (
     SimulatedStop as SimulatedStop,
+    compile_for as compile_for,
     recording_of_stop as recording_of_stop,
     simulate as simulate,
+    simulate_cars as simulate_cars,
 )
 from .single_stop import StopInputs as StopInputs, noise_key_text as noise_key_text, noise_keys as noise_keys
-from .train_inputs import Coupling as Coupling, TrainInputs as TrainInputs, assemble_train as assemble_train
+from .train_inputs import (
+    Coupling as Coupling,
+    TrainInputs as TrainInputs,
+    assemble_train as assemble_train,
+    coupling_of as coupling_of,
+)

@@ -30,8 +30,13 @@ from uictest.rig.track_brake_parameters import TRACK_BRAKE
 def assemble(case: Case) -> StopInputs:
     """Return what the rig is given for the stop of a case.
 
-    Raises ValueError where its compensation is still to be identified, see `uictest.rig.bench.identified`.
+    Raises ValueError where its compensation is still to be identified, see `uictest.rig.bench.identified`,
+    and for a car of a train, which does not run alone.
     """
+    if case.train is not None:
+        raise ValueError(
+            f"{case.id} is {case.train.label}: here a car runs alone, only `uictest run` runs trains"
+        )
     rig = case.scenario.rig
     if rig.compensation_model.to_identify and rig.topology == "one-caliper":
         raise ValueError("rig.compensation_model is to be identified first: uictest.rig.bench.identified")

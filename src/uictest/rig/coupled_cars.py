@@ -16,6 +16,13 @@ from uictest.rig.single_stop import FinishedStop, rows_of_trace
 from uictest.rig.train_inputs import Coupling, assemble_train
 
 
+class CouplerPeaks(NamedTuple):
+    """The largest forces with which a coupler pulled and pushed, N."""
+
+    pull: float
+    push: float
+
+
 class TrainStop(NamedTuple):
     """A finished stop of a train.
 
@@ -28,6 +35,13 @@ class TrainStop(NamedTuple):
     cars: tuple[FinishedStop, ...]
     couplers: NDArray[Any]
     parameters: NDArray[Any]
+
+    @property
+    def peaks(self) -> list[CouplerPeaks]:
+        """The largest forces in every coupler, from the leading one on."""
+        return [
+            CouplerPeaks(float(each["largest_pull"]), float(each["largest_push"])) for each in self.couplers
+        ]
 
 
 def run_coupled(

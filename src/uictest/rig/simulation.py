@@ -1,13 +1,17 @@
 """A case in, a stop out."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from uictest.controllers import ResponseTimes
 from uictest.core.recording import BRAKE_COMMAND_TIME, ORIGIN, Recording
 from uictest.plans.scenario import Case
 from uictest.rig.assembly import assemble
+from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.trains import compiled_train
+from uictest.rig.coupled_cars import CouplerPeaks, run_coupled
 from uictest.rig.external.workers import RunInputs, Workers
 from uictest.rig.model.trace import (
     CAR_CHANNELS,
@@ -21,6 +25,7 @@ from uictest.rig.model.trace import (
     WHEELSET_CHANNELS,
 )
 from uictest.rig.single_stop import FinishedStop, noise_key_text
+from uictest.rig.train_inputs import coupling_of
 
 
 @dataclass(frozen=True)
@@ -35,6 +40,8 @@ class SimulatedStop:
         response_times: how it answered, where cycles were paced by the clock.
         case_sha256: what it was given to name the stop, see :func:`uictest.rig.assembly.case_sha256`.
         noise_key: of the sensors' noise, see :mod:`uictest.rig.single_stop`, as eight hexadecimal digits.
+        coupler_ahead: largest forces in the coupler to the car ahead, None where there is none.
+        coupler_behind: largest forces in the coupler to the car behind, None where there is none.
     """
 
     measures: Any
@@ -44,6 +51,14 @@ class SimulatedStop:
     response_times: ResponseTimes | None = None
     case_sha256: str = ""
     noise_key: str = ""
+    coupler_ahead: CouplerPeaks | None = None
+    coupler_behind: CouplerPeaks | None = None
+
+
+def compile_for(cases: Iterable[Case]) -> None:
+    """Compile the rig for cars alone, for trains or both, as some cases need."""
+    for coupled in {case.train is not None for case in cases}:
+        (compiled_train if coupled else compiled_stop)()
 
 
 def simulate(case: Case, record_every: float | None = None, run: RunInputs | None = None) -> SimulatedStop:
@@ -51,12 +66,15 @@ def simulate(case: Case, record_every: float | None = None, run: RunInputs | Non
 
     Args:
         case: the case.
-        record_every: time between two samples of a recording, s, in whole base steps; None: no recording.
+        record_every: time between two samples of a recording, s, in whole base steps; None: no recording. A
+            case that is a car of a train runs with the whole train.
         run: what runs the stop [default: a child process if the controller comes from outside].
 
     Raises:
         ControllerError: when a controller from outside failed.
     """
+    if case.train is not None:
+        return simulate_cars([case], record_every)[0]
     inputs = assemble(case)
     step = float(inputs.parameters.step)
     steps_per_sample = 0 if record_every is None else max(round(record_every / step), 1)
@@ -73,6 +91,33 @@ def simulate(case: Case, record_every: float | None = None, run: RunInputs | Non
         case_sha256="" if inputs.config is None else inputs.config.case_sha256,
         noise_key=noise_key_text(inputs.parameters),
     )
+
+
+def simulate_cars(cases: Sequence[Case], record_every: float | None = None) -> list[SimulatedStop]:
+    """Simulate a train once and return the stops of some of its cars.
+
+    Args:
+        cases: cars of one train.
+        record_every: as for :func:`simulate`.
+    """
+    cars = list(cases[0].cars)
+    places = [case.train.number - 1 for case in cases if case.train is not None]
+    for place, case in zip(places, cases, strict=True):
+        cars[place] = replace(case, train=None)
+    coupling, step = coupling_of(cars[0].scenario), float(cars[0].scenario.simulation.time_step)
+    steps_per_sample = 0 if record_every is None else max(round(record_every / step), 1)
+    stop = run_coupled(cars, coupling, steps_per_sample)
+    peaks = [None, *stop.peaks, None]
+    return [
+        SimulatedStop(
+            *(stop.cars[place].measures, stop.cars[place].wheelset_measures),
+            recording_of_stop(case, stop.cars[place], from_outside=False) if steps_per_sample else None,
+            noise_key=noise_key_text(stop.parameters[place]),
+            coupler_ahead=peaks[place],
+            coupler_behind=peaks[place + 1],
+        )
+        for place, case in zip(places, cases, strict=True)
+    ]
 
 
 def recording_of_stop(case: Case, finished: FinishedStop, *, from_outside: bool) -> Recording:
@@ -118,6 +163,8 @@ def _facts(case: Case, finished: FinishedStop) -> dict[str, str]:
     facts = {ORIGIN: "simulated stop", "case": case.id, BRAKE_COMMAND_TIME: "0 s"}
     if math.isfinite(finished.measures.sliding_time):
         facts["sliding_time"] = f"{finished.measures.sliding_time:.6g}"
+    if case.train is not None:
+        facts["train"] = f"{case.train.train}, {case.train.label}"
     if case.scenario.faults:
         facts["faults"] = ", ".join(fault.label for fault in case.scenario.faults)
     return facts

@@ -7,7 +7,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.plans.scenario import Case
+from uictest.plans.scenario import Case, Coupler, Scenario
 from uictest.rig.assembly import assemble
 from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.rail import MARGIN, POINTS
@@ -37,6 +37,18 @@ class Coupling:
     damping: float = 0.8e6
     height: float = 1.025
     pipe_speed: float = float("inf")
+
+
+def coupling_of(scenario: Scenario) -> Coupling:
+    """Return what the scenario of any car says of its train."""
+    coupler, line = scenario.coupler or Coupler(), scenario.brake.transmission
+    return Coupling(
+        float(coupler.distance),
+        float(coupler.stiffness),
+        float(coupler.damping),
+        float(coupler.height),
+        float("inf") if line is None or isinstance(line, str) else float(line.pipe),
+    )
 
 
 class TrainInputs(NamedTuple):

@@ -10,14 +10,14 @@ from pathlib import Path
 from typing import NamedTuple
 
 from uictest import report, rig
-from uictest.analysis import comparison, validation
+from uictest.analysis import comparison
 from uictest.core import recording
 from uictest.judging import evaluation, series as judging_series
 from uictest.plans import scenario, series as series_plans
 from uictest.running import campaign
 from uictest.runs.drawing import TraceCollection
 from uictest.runs.observer import Observer
-from uictest.runs.scenario_files import read_reference
+from uictest.runs.scenario_files import references_of, require_cars_alone
 
 Keep = Callable[[str, recording.Recording], object]
 """Takes the id of a case and its recording."""
@@ -107,12 +107,13 @@ def batch_of(
         drawn_first: ids of the cases whose stops a page draws before all others.
 
     Compensations are identified here, before any display: up to minutes. Raises InvalidInputError where a
-    validation cannot be read.
+    validation cannot be read, or where --firm meets a train.
     """
     everything = all_cases(cases, planned)
-    references = _references(everything, validated)
+    references = references_of(everything, validated)
     parts = campaign.parts_of_cases(everything)
     settings = settings or campaign.RunSettings()
+    require_cars_alone([*filter(settings.asks_firmness_of, everything), *settings.calibration])
     read_for: Sequence[scenario.Case | series_plans.Series] = (*everything, *settings.calibration, *planned)
     read = {name: digest for each in read_for for name, digest in each.inputs.items()}
     manifest = report.run_manifest(arguments, seed, read, len(everything), parts.values())
@@ -127,15 +128,6 @@ def batch_of(
         baseline,
         drawn_first,
     )
-
-
-def _references(
-    cases: Sequence[scenario.Case], validated: Path | None
-) -> dict[str, validation.ValidationReference]:
-    """Return the validation of each case that has one, by its id; each file is read once."""
-    named = {case.id: validated or case.scenario.validated for case in cases}
-    read = {path: read_reference(Path(path)) for path in dict.fromkeys(named.values()) if path is not None}
-    return {case_id: read[path] for case_id, path in named.items() if path is not None}
 
 
 class BatchRun(NamedTuple):
@@ -231,7 +223,7 @@ def simulate_cases(
 
         varied = sum(stops_of_case(case, settings) for case in asked.values())
     with observer.compiling():
-        rig.compiled_stop()
+        rig.compile_for(cases)
         if asked:
             varied_cases = (*asked.values(), *settings.calibration)
             rig.load_block([case.scenario.controller.program for case in varied_cases])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from uictest import report
@@ -139,6 +139,16 @@ def _require_distinct(loaded: Sequence[series.Series]) -> None:
         file_of[each.id] = each.path
 
 
+def require_cars_alone(asked: Iterable[scenario.Case]) -> None:
+    """Raise InvalidInputError for a car of a train among cases whose verdicts are to be firm or not."""
+    for case in asked:
+        if case.train is not None:
+            raise InvalidInputError(
+                f"{case.id} is {case.train.label}: how firm verdicts are is found out of cars that run alone;"
+                " leave out --firm, or the train with -k"
+            )
+
+
 def nothing_selected(cases: Sequence[scenario.Case], planned: Sequence[series.Series] = ()) -> str:
     """Return the message for an empty selection, with the number of cases and series and their tags."""
     of_series = {tag for each in planned for tag in each.file.tags}
@@ -169,6 +179,15 @@ def reference_of(option: Path | None, named: str | None) -> validation.Validatio
     """Return the validation of an option, else that which a scenario names. Raises InvalidInputError."""
     path = option or (None if named is None else Path(named))
     return None if path is None else read_reference(path)
+
+
+def references_of(
+    cases: Sequence[scenario.Case], validated: Path | None
+) -> dict[str, validation.ValidationReference]:
+    """Return the validation of each case that has one, by its id; each file is read once."""
+    named = {case.id: validated or case.scenario.validated for case in cases}
+    read = {path: read_reference(Path(path)) for path in dict.fromkeys(named.values()) if path is not None}
+    return {case_id: read[path] for case_id, path in named.items() if path is not None}
 
 
 def read_reference(path: Path) -> validation.ValidationReference:

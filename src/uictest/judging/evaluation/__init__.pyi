@@ -4,6 +4,7 @@ from .bounds import (
     MissingData as MissingData,
     bounds_of as bounds_of,
 )
+from .car_in_train import CarInTrain as CarInTrain, CouplerForces as CouplerForces
 from .case import (
     JUDGED_KEYS as JUDGED_KEYS,
     error_result as error_result,

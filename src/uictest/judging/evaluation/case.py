@@ -17,6 +17,7 @@ from uictest.core.measures import (
     wheelset_column_values,
 )
 from uictest.judging.evaluation.bounds import Coverage
+from uictest.judging.evaluation.car_in_train import place_in_train
 from uictest.judging.evaluation.judgement import Detail, judge
 from uictest.judging.evaluation.result import CaseResult, outcome_of
 from uictest.judging.evaluation.rig_reasons import missed_deadlines
@@ -112,6 +113,7 @@ def evaluate(
         response_times=response_times,
         requirements=case.scenario.requirements,
         test_case=case.scenario.test_case or "",
+        train=place_in_train(case),
         duration=duration,
     )
 
@@ -149,6 +151,7 @@ def error_result(case: scenario.Case, reason: str, duration: float = 0.0) -> Cas
         reason=reason,
         requirements=scenario.named_requirements(case.scenario),
         test_case=case.scenario.test_case or "",
+        train=place_in_train(case),
         duration=duration,
     )
 

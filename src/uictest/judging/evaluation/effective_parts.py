@@ -8,7 +8,16 @@ from typing import Any, Final, get_args
 
 from uictest.controllers import Kind
 from uictest.judging.evaluation.parameters import EffectivePart, Parameter
-from uictest.plans.scenario import DESCRIPTIVE, PART_KEYS, PART_KINDS, Scenario, Value, mark_of, values_in
+from uictest.plans.scenario import (
+    DESCRIPTIVE,
+    PART_KEYS,
+    PART_KINDS,
+    Coupler,
+    Scenario,
+    Value,
+    mark_of,
+    values_in,
+)
 from uictest.plans.scenario.yaml import Key, Model, Part, Quantity, dotted
 
 _PARTS: Final = {kind: dotted(key) for key, kind in PART_KINDS.items() if not PART_KEYS[key].several}
@@ -117,7 +126,8 @@ def _as_declared(part: Part, place: Key, parameter: Parameter) -> Parameter:
 
 
 def _stop(scenario: Scenario) -> Iterator[Parameter]:
-    yield from _own(scenario, "", {})
+    couplers = None if scenario.coupler is None else Coupler()  # a train has some, stated or not
+    yield from _own(scenario, "", {"coupler": couplers})
     yield from _own(scenario.simulation, "simulation.", {})
 
 

@@ -11,6 +11,7 @@ from typing import Final
 from uictest.core.measures import StopMeasures, Wheelsets
 from uictest.core.units import value_text, with_unit
 from uictest.judging.evaluation.bounds import Bounds, ObservedStop, bounds_of, why_cut_off, why_no_stopping
+from uictest.judging.evaluation.car_in_train import over_stops_of_train
 from uictest.judging.evaluation.decision import Decision, decide
 from uictest.judging.evaluation.json_values import Expectation, Outcome
 from uictest.judging.evaluation.judgement import Detail, undecided, verdict_by, with_definitions
@@ -216,6 +217,7 @@ def evaluate_repeats(case: scenario.Case, repeats: Sequence[SimulatedRepeat]) ->
         # As of a single stop: whatever the other stops say, none of them is verified.
         requirements=scenario.named_requirements(case.scenario) if outcome == "error" else first.requirements,
         repeats=Repeats(rule.name, stops, rule.share if rule.name == "at_least" else None),
+        train=over_stops_of_train([each.result.train for each in repeats]),
         duration=sum(each.result.duration for each in repeats),
     )
 

@@ -21,6 +21,7 @@ from pydantic import (
 
 from uictest.controllers import ResponseTimes
 from uictest.core import document
+from uictest.judging.evaluation.car_in_train import CarInTrain
 from uictest.judging.evaluation.firmness import WrittenFirmness
 from uictest.judging.evaluation.json_values import (
     CaseMeasures,
@@ -78,9 +79,9 @@ class CaseResult:
     simulated stop met, together with its seed, see :mod:`uictest.rig.single_stop`. `domain_of_validity` says
     whether the case lies where the model was validated; None where nobody asked. `strict` says that the case
     is not met either where one of its verdicts is not settled. `firmness` says whether numbers that nobody
-    measured turn its verdicts, where that was asked. The document has these nine, and `repeats`, only where
-    there is something in them. `duration` (seconds of wall clock) is for
-    progress and JUnit only, never part of the document: a result must not depend on the machine.
+    measured turn its verdicts, where that was asked. `train` says where a car ran in its train. The document
+    has these ten, and `repeats`, only where there is something in them. `duration` (seconds of wall clock) is
+    for progress and JUnit only, never part of the document: a result must not depend on the machine.
 
     A case that repeats its stop has its stops in `repeats`: `measures` and `wheelsets` are then medians over
     them, and `criteria` are verdicts over all of them. `case_sha256` is that of the first.
@@ -106,6 +107,7 @@ class CaseResult:
     domain_of_validity: DomainOfValidity | None = None
     strict: bool = False
     firmness: WrittenFirmness | None = None
+    train: CarInTrain | None = None
     duration: Annotated[float, Field(exclude=True)] = field(default=0.0, compare=False)
 
     @property
@@ -211,6 +213,7 @@ def narrowest_margin(result: CaseResult) -> tuple[float | None, str]:
 _OF_SOME: Final = (
     *("response_times", "controller_version", "case_sha256"),
     *("requirements", "test_case", "noise_key", "repeats", "domain_of_validity", "strict", "firmness"),
+    "train",
 )
 """Fields that the form of a result or a verdict has only where there is something in them."""
 

@@ -4,6 +4,7 @@ from .applicability import (
     test_conditions_of as test_conditions_of,
     unmet_conditions as unmet_conditions,
 )
+from .case import Case as Case, TrainPlace as TrainPlace
 from .compensation_fit import (
     FIT_KEYS as FIT_KEYS,
     RIG_SOURCE as RIG_SOURCE,
@@ -49,7 +50,7 @@ from .loading import (
     load_file as load_file,
     load_with_trees as load_with_trees,
 )
-from .model import Case as Case, Scenario as Scenario
+from .model import Scenario as Scenario
 from .overrides import (
     FIXED as FIXED,
     Override as Override,
@@ -69,6 +70,7 @@ from .parts.compensation import (
     Compensation as Compensation,
     ModuleAir as ModuleAir,
 )
+from .parts.coupler import Coupler as Coupler
 from .parts.criteria import Criteria as Criteria, Criterion as Criterion
 from .parts.dynamic_brake import DynamicBrake as DynamicBrake
 from .parts.external_controller import ExternalController as ExternalController
@@ -136,5 +138,6 @@ from .resolution import (
     with_default_parts as with_default_parts,
 )
 from .sections import SURVEY as SURVEY, load_share as load_share
+from .train import is_train as is_train
 from .yaml.diagnostics import Diagnostic as Diagnostic, ScenarioErrors as ScenarioErrors
 from .yaml.quantities import Quantity as Quantity

@@ -22,6 +22,9 @@ FAULTS: Final = "faults"
 CONTROLLER: Final = "controller"
 """Key of the controller of a scenario."""
 
+CAR: Final = "car"
+"""What tells the cases of the cars of a train apart."""
+
 Labels = Mapping[int, str]
 """What ids call controllers, by the identity of their nodes."""
 NO_LABELS: Final[Labels] = MappingProxyType({})
@@ -31,12 +34,17 @@ _DIGITS: Final = 8
 _UNSAFE = re.compile(r"[^A-Za-z0-9.+_-]")
 
 
-def case_id(name: str, variant: Variant, short: dict[str, str], labels: Labels = NO_LABELS) -> str:
-    """``name`` or ``name[friction=0.10,command=90]``; ``short`` maps swept keys to their short names."""
-    if not variant:
-        return name
+def case_id(
+    name: str, variant: Variant, short: dict[str, str], labels: Labels = NO_LABELS, car: int = 0
+) -> str:
+    """``name`` or ``name[friction=0.10,command=90]``; ``short`` maps swept keys to their short names.
+
+    A case that is one car of a train has its number from 1, too.
+    """
     texts = [f"{short[setting.key]}={value_label(setting, labels)}" for setting in variant]
-    return f"{name}[{','.join(texts)}]"
+    if car:
+        texts.append(f"{CAR}={car}")
+    return f"{name}[{','.join(texts)}]" if texts else name
 
 
 def controller_labels(settings: Iterable[Setting], parts: Parts) -> Labels:

@@ -12,6 +12,7 @@ from uictest.core.units import KINDS
 from uictest.plans.scenario.model import Scenario
 from uictest.plans.scenario.parts.vary import Vary
 from uictest.plans.scenario.resolution import PART_KEYS, PART_KINDS
+from uictest.plans.scenario.train import TrainCar
 from uictest.plans.scenario.yaml import QUANTITY_KEYWORD, Quantity, QuantityField, written
 
 SCHEMA_DRAFT: Final = "http://json-schema.org/draft-07/schema#"
@@ -36,6 +37,15 @@ def json_schema() -> dict[str, Any]:
     schema["definitions"] |= {**vary.pop("definitions"), "Vary": vary}
     described = schema["properties"]["vary"]["description"]
     schema["properties"]["vary"] = {"$ref": f"{_DEFINITIONS}Vary", "description": described}
+    cars = _schema_2020_of(tuple[TrainCar, ...], "train")
+    schema["definitions"]["TrainCar"] = cars["definitions"]["TrainCar"]
+    train = schema["properties"]["train"]
+    schema["properties"]["train"] = {
+        "type": "array",
+        "minItems": 1,
+        "items": {"$ref": f"{_DEFINITIONS}TrainCar"},
+        "description": train["description"],
+    }
     schema["required"] = ["schema", "name"]
     schema["anyOf"] = [{"required": ["extends"]}, {"required": ["initial_speed"]}]
     for section in ("Brake", "Rail", "Rig"):

@@ -5,9 +5,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, NamedTuple
 
+from uictest.plans.scenario.case import Case, TrainPlace
 from uictest.plans.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_valid
 from uictest.plans.scenario.files import Files, Roots, scenario_trees
 from uictest.plans.scenario.identifiers import (
+    CAR,
     CONTROLLER,
     LONGEST,
     Labels,
@@ -15,11 +17,19 @@ from uictest.plans.scenario.identifiers import (
     controller_labels,
     short_keys,
 )
-from uictest.plans.scenario.model import Case
+from uictest.plans.scenario.model import Scenario
 from uictest.plans.scenario.overrides import Override, apply_overrides, parse_overrides, with_value
 from uictest.plans.scenario.rail_friction import changed_alone, overridden_alone
 from uictest.plans.scenario.references import Parts
 from uictest.plans.scenario.resolution import resolve, with_default_parts
+from uictest.plans.scenario.train import (
+    car_trees,
+    is_train,
+    require_couplable,
+    require_no_train,
+    with_default_vehicles,
+    without_inherited_vehicle,
+)
 from uictest.plans.scenario.yaml import (
     SCENARIO_SCHEMA,
     Diagnostic,
@@ -42,6 +52,8 @@ from uictest.plans.scenario.yaml import (
 
 _SECTIONS_OF_SWEEPS: Final = ("grid", "ranges", "sample", "quantiles", "k_dry")
 """Keys that a scenario has only under `vary`, and `grid`, which 0.2 had for `matrix`."""
+
+_TRAINS_BY_LISTS: Final = "`uictest run` runs trains, and their cases by `matrix`"
 
 
 class LoadedCase(NamedTuple):
@@ -110,6 +122,10 @@ class _ScenarioFile:
     ids: dict[str, Variant] = field(default_factory=dict)
 
 
+_ResolvedCar = tuple[tuple[Scenario, tuple[Document, ...]], Map]
+"""The scenario of a car, the documents of its parts, and its tree."""
+
+
 class _Loader:
     """Loads one scenario after another and collects the errors of all."""
 
@@ -126,11 +142,10 @@ class _Loader:
         with collecting(self.diagnostics, whole_file(path)):
             file, variants = self._read(path, tree)
         for variant in variants if file is not None else ():
-            case = None
+            cases = list[LoadedCase]()
             with collecting(self.diagnostics, whole_file(path)):
-                case = self._case(file, variant)
-            if case is not None:
-                yield case
+                cases = self._cases(file, variant)
+            yield from cases
 
     def _read(self, path: Path, tree: Map) -> tuple[_ScenarioFile, list[Variant]]:
         require_schema(tree, SCENARIO_SCHEMA)
@@ -143,7 +158,8 @@ class _Loader:
         # Every scenario has its own name: an inherited one would not be unique.
         merged = merged.without("name") if own_name is None else merged.with_entry("name", own_name)
         merged, vary = self._without_vary(tree, merged)
-        merged = with_default_parts(merged)
+        merged = without_inherited_vehicle(merged, documents)
+        merged = with_default_vehicles(merged) if is_train(merged) else with_default_parts(merged)
         self.diagnostics.extend(overridden_alone(merged, self.overrides))
         merged = apply_overrides(merged, self.overrides)
         base = merged.without(*EXPANSION_KEYS)
@@ -171,6 +187,7 @@ class _Loader:
             if (entry := own.entries.get(key)) is not None:
                 message = f"a sweep has no {quoted(key)} beside 'vary'"
                 raise single_error(entry.key, message, key, "list what a sweep varies under `vary`")
+        require_no_train(merged, "a sweep", _TRAINS_BY_LISTS)
         if vary is None:
             hint = "a scenario without `vary` is run with `uictest run`"
             raise single_error(own.place, "nothing varies", "vary", hint)
@@ -182,15 +199,44 @@ class _Loader:
         require_schema(tree, SCENARIO_SCHEMA)
         return tree
 
-    def _case(self, file: _ScenarioFile, variant: Variant) -> LoadedCase:
+    def _cases(self, file: _ScenarioFile, variant: Variant) -> list[LoadedCase]:
+        """Return the case of a variant; of a train those of its cars, which name each other."""
         tree = self._varied(file.tree, variant)
-        scenario, documents = resolve(tree, self.parts)
+        cars, diagnostics = list[_ResolvedCar](), list[Diagnostic]()
+        for car, count in car_trees(tree):
+            with collecting(diagnostics, whole_file(file.path)):
+                cars += [(resolve(car, self.parts), car)] * count
+        if diagnostics:
+            raise ScenarioErrors(diagnostics)
+        scenarios = tuple(scenario for (scenario, _), _ in cars)
+        named = scenarios[0].name, variant, file.short, file.labels
+        if not is_train(tree):
+            return [self._case(file, variant, case_id(*named), *cars[0])]
+        require_couplable(scenarios, [car for _, car in cars])
+        places = (TrainPlace(case_id(*named), n, scenarios) for n in range(1, len(cars) + 1))
+        return [
+            self._case(file, variant, case_id(*named, car=place.number), *car, place)
+            for place, car in zip(places, cars, strict=True)
+        ]
+
+    def _case(
+        self,
+        file: _ScenarioFile,
+        variant: Variant,
+        identifier: str,
+        resolved: tuple[Scenario, tuple[Document, ...]],
+        tree: Map,
+        train: TrainPlace | None = None,
+    ) -> LoadedCase:
+        scenario, documents = resolved
+        swept = {setting.key: as_written(setting.value.node) for setting in variant}
         case = Case(
-            id=self._claimed(case_id(scenario.name, variant, file.short, file.labels), file, variant),
+            id=self._claimed(identifier, file, variant),
             scenario=scenario,
             path=Path(display_name(file.path)),
-            parameters={setting.key: as_written(setting.value.node) for setting in variant},
+            parameters=swept if train is None else {**swept, CAR: str(train.number)},
             inputs={each.display: each.sha256 for each in (*file.documents, *documents) if each.sha256},
+            train=train,
         )
         return LoadedCase(case, tree, file.vary)
 

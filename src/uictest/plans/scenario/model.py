@@ -1,9 +1,7 @@
-"""The scenario: what a user writes, defaults filled in, units canonical; and the case: one of its stops."""
+"""The scenario: what a user writes, defaults filled in, units canonical."""
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from uictest.controllers import DEFAULT as DEFAULT_CONTROLLER
@@ -28,6 +26,7 @@ from uictest.plans.scenario.feasibility import (
 )
 from uictest.plans.scenario.parts.compensation import COMPENSATION_SETTINGS
 from uictest.plans.scenario.parts.controller import Controller
+from uictest.plans.scenario.parts.coupler import Coupler
 from uictest.plans.scenario.parts.criteria import Criteria
 from uictest.plans.scenario.parts.fault import Fault
 from uictest.plans.scenario.parts.measures import MeasureDefinitions
@@ -63,6 +62,10 @@ class Scenario(TestFile):
     vehicle: Annotated[Vehicle, PartReference(Vehicle, "intercity-180")] = field(
         "The vehicle: a library name, a relative path or an inline mapping."
     )
+    train: tuple[dict[str, Any], ...] | None = optional(
+        "The cars of a train from the leading one on, in place of `vehicle`: what each has of its own."
+    )
+    coupler: Coupler | None = optional("The couplers of a train.")
     initial_speed: Quantity = quantity(
         "Train speed at which the brake command is given.", "speed", "> 1 km/h .. 600 km/h"
     )
@@ -263,19 +266,3 @@ class Scenario(TestFile):
         tank, extra = self.brake.system.tank, self.brake.system.caliper_tank
         stroke = self.rig.caliper.piston_area * self.rig.caliper.clearance
         return tank.volume - extra.ball_volume + extra.hose_and_dead_volume + stroke
-
-
-@dataclass(frozen=True, slots=True)
-class Case:
-    """One stop on the rig."""
-
-    id: str
-    """Unique among the cases loaded together; safe as a file name."""
-    scenario: Scenario
-    """Resolved: every reference to a part replaced by the part."""
-    path: Path
-    """The file it comes from, as shown to users."""
-    parameters: dict[str, str]
-    """Swept dotted keys and their values as written, in order."""
-    inputs: dict[str, str]
-    """Every file read for it, by shown name, and its SHA-256."""

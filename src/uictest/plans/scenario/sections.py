@@ -9,6 +9,7 @@ from pydantic_core import PydanticCustomError
 from uictest.plans.scenario.parts.brake import BrakeSystem, Caliper, LoadValve
 from uictest.plans.scenario.parts.brake_command import Command, CommandStep
 from uictest.plans.scenario.parts.compensation import Compensation
+from uictest.plans.scenario.parts.coupler import Transmission
 from uictest.plans.scenario.parts.dynamic_brake import DynamicBrake
 from uictest.plans.scenario.parts.pad import DiscTemperature, Pad
 from uictest.plans.scenario.parts.rail import (
@@ -66,6 +67,10 @@ class Brake(Model):
         "The dynamic brake, blended with the friction brake; none if left out."
     )
     track: TrackBrake | None = optional("The magnetic track brake of the car; none if left out.")
+    transmission: Transmission | None = optional(
+        "How the command comes to the cars of a train: along a wire, or as in {pipe: 250 m/s}; a wire if left"
+        " out."
+    )
     disc_temperature: Literal["constant", "modelled"] | None = optional(
         "Whether the discs warm up; if left out, they do where the pad's friction depends on it."
     )

@@ -65,6 +65,9 @@ def read_entry(
     assert isinstance(reference, Scalar)
     path = files.scenario_beside(reference, key)
     cases = load_file(path, [*common, *values_set_by(node), *last], files)
+    if any(case.train is not None for case in cases):
+        message = f"{quoted(reference.text)} is a train; a series runs cars alone"
+        raise single_error(reference.place, message, key)
     listed = node.get("recordings") if isinstance(node, Map) else None
     if not isinstance(listed, List) or not listed.items:
         return Stop(reference, cases, None)

@@ -27,6 +27,7 @@ from uictest.report.repeat_wording import (
 from uictest.report.requirements import requirement_rows, verified_requirements
 from uictest.report.text_tables import csv_text
 from uictest.report.traces.quantities import WHEELSETS
+from uictest.report.train_wording import TRAIN_COLUMNS, any_in_train, train_cells
 from uictest.report.verdict_sentences import definition_sentence, reading_sentences
 
 if TYPE_CHECKING:
@@ -48,7 +49,8 @@ def summary_table(results: Sequence[evaluation.CaseResult], uictest_version: str
 
     `uictest_version` is that of built-in controllers.
 
-    Where a case repeats its stop, there are its share of stops that pass and the range of each measure, too.
+    Where a case repeats its stop, there are its share of stops that pass and the range of each measure, too;
+    where one is a car of a train, its train and the forces in its couplers.
     """
     keys = dict.fromkeys(f"parameters.{key}" for result in results for key in result.parameters)
     columns = [
@@ -56,6 +58,7 @@ def summary_table(results: Sequence[evaluation.CaseResult], uictest_version: str
         *keys,
         *("expect", "outcome", "met", "reason", "controller", "controller_version"),
         *(CHANGED, "test_case", REQUIREMENTS),
+        *(TRAIN_COLUMNS if any_in_train(results) else ()),
         *_of_repeated(results, SHARE_COLUMNS),
         *STOP_COLUMNS,
         *_of_repeated(results, range_columns(STOP_COLUMNS)),
@@ -133,6 +136,7 @@ def _summary_row(result: evaluation.CaseResult, uictest_version: str) -> dict[st
         CHANGED: "; ".join(changes_of(result)),
         "test_case": result.test_case,
         REQUIREMENTS: "; ".join(result.requirements),
+        **train_cells(result),
         **share_cells(result),
         **(result.measures or {}),
         **range_cells(result, STOP_COLUMNS),

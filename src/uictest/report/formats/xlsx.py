@@ -33,6 +33,7 @@ from uictest.report.sheet import (
     styles_of,
     write_table,
 )
+from uictest.report.train_wording import train_cells
 from uictest.report.verdict_sentences import result_word
 
 _LONGEST_SHEET: Final = 31
@@ -113,7 +114,7 @@ def result_row(result: evaluation.CaseResult) -> Row:
     row |= {"outcome": result.outcome, "expect": result.expect, **share_cells(result)}
     row |= {"narrowest_margin": margin, "narrowest_criterion": criterion}
     row |= {**(result.measures or {}), **range_cells(result, STOP_COLUMNS)}
-    row |= dict(result.parameters)
+    row |= {**result.parameters, **train_cells(result)}
     named: Row = {"test_case": result.test_case, REQUIREMENTS: "; ".join(result.requirements)}
     named |= {"outside": "; ".join(domain_sentences(result))}
     row |= {column: text for column, text in named.items() if text}

@@ -29,6 +29,7 @@ from uictest.report.part_wording import (
     slide_speed,
 )
 from uictest.report.repeat_wording import any_repeated, stops_text
+from uictest.report.train_wording import train_facts, train_text
 from uictest.report.verdict_sentences import (
     counted,
     counted_in,
@@ -130,7 +131,7 @@ _WORDS: Final[tuple[Callable[..., Any], ...]] = (
     ),
     *(counted, counted_in, listed, number, reading_sentences, reading_sources, tone),
     *(any_repeated, stops_text),
-    *(firmness_sentences, firmness_table),
+    *(firmness_sentences, firmness_table, train_facts, train_text),
 )
 """What every template can put results into words by."""
 

@@ -21,6 +21,7 @@ from uictest.report.escaping import printable
 from uictest.report.part_wording import part_sentences, slide_speed
 from uictest.report.repeat_wording import any_repeated, range_cells, repeat_sentences, share_cells, stops_text
 from uictest.report.terminal.table_lines import columns_not_shown, fitted, table_columns
+from uictest.report.train_wording import train_cells
 from uictest.report.verdict_sentences import (
     DIFFERS,
     criterion_sentences,
@@ -114,6 +115,9 @@ def _measures(result: evaluation.CaseResult) -> Iterator[str]:
         yield "maximum_slide=" + "/".join(number(wheelset["maximum_slide"]) for wheelset in result.wheelsets)
         vents = (number(wheelset["valve_actuations"]) for wheelset in result.wheelsets)
         yield "valve_actuations=" + "/".join(vents)
+    for name, force in train_cells(result).items():
+        if isinstance(force, float):
+            yield f"{name}={number(force)}"
     if (times := result.response_times) is not None:
         yield f"missed_deadlines={times.missed_deadlines}"
         yield f"longest_answer_s={number(times.longest_answer_s)}"

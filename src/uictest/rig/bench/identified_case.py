@@ -2,24 +2,32 @@
 
 from dataclasses import replace
 
-from uictest.plans.scenario import Case
+from uictest.plans.scenario import Case, Scenario
 
 
 def identified(case: Case) -> Case:
     """Return a case whose compensation, where it is to be identified, is: for its caliper, brake and sensors.
 
     The same rig gives the same numbers, in every process and in every order. What is identified is what the
-    setting of the compensation uses. It takes up to some minutes, once for each distinct rig.
+    setting of the compensation uses; of a train, that of every car. It takes up to some minutes, once for
+    each distinct rig.
 
     Raises:
         UnsuitableRecordError: the bench cannot identify a compensation for the rig; the message says why.
     """
-    rig = case.scenario.rig
+    own = _identified(case.scenario)
+    if case.train is not None:
+        scenarios = tuple(map(_identified, case.train.scenarios))
+        return replace(case, scenario=own, train=replace(case.train, scenarios=scenarios))
+    return case if own is case.scenario else replace(case, scenario=own)
+
+
+def _identified(scenario: Scenario) -> Scenario:
+    rig = scenario.rig
     if not rig.compensation_model.to_identify or rig.topology != "one-caliper":
-        return case
+        return scenario
     # It brings the bench and the identification, which few stops need.
     from uictest.rig.bench.identified_rig import identified_compensation
 
-    model = identified_compensation(case.scenario)
-    changed = case.scenario.model_copy(update={"rig": rig.model_copy(update={"compensation_model": model})})
-    return replace(case, scenario=changed)
+    model = identified_compensation(scenario)
+    return scenario.model_copy(update={"rig": rig.model_copy(update={"compensation_model": model})})

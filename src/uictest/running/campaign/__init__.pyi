@@ -33,5 +33,7 @@ from .stop import (
     Stop as Stop,
     StopRun as StopRun,
     run_stop as run_stop,
+    run_train as run_train,
     stops_of as stops_of,
+    stops_together as stops_together,
 )

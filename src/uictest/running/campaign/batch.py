@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
-from itertools import islice
+from itertools import chain, islice
 from types import TracebackType
 from typing import Final, Generic, TypeVar
 
@@ -16,7 +16,17 @@ from uictest.core import recording
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.rig import bench
-from uictest.running.campaign.stop import CaseAssembly, CaseRun, RecordingRequest, StopRun, run_stop, stops_of
+from uictest.running.campaign.stop import (
+    CaseAssembly,
+    CaseRun,
+    RecordingRequest,
+    Stop,
+    StopRun,
+    run_stop,
+    run_train,
+    stops_together,
+    trains_in,
+)
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
@@ -103,10 +113,15 @@ def replay(
     cases: Sequence[scenario.Case], *, every: float, jobs: int
 ) -> Iterator[tuple[scenario.Case, recording.Recording]]:
     """Yield each case with its recording, a sample `every` so many seconds, in the order of the cases."""
-    stops = map_on_threads(
-        lambda case: rig.simulate(bench.identified(case), record_every=every), cases, jobs=jobs
-    )
-    for case, stop in zip(cases, stops, strict=True):
+
+    def simulated(together: Sequence[scenario.Case]) -> list[rig.SimulatedStop]:
+        identified = [bench.identified(case) for case in together]
+        if identified[0].train is not None:
+            return rig.simulate_cars(identified, every)
+        return [rig.simulate(case, record_every=every) for case in identified]
+
+    stops = map_on_threads(simulated, trains_in(cases), jobs=jobs)
+    for case, stop in zip(cases, chain.from_iterable(stops), strict=True):
         if stop.recording is not None:
             yield case, stop.recording
 
@@ -233,9 +248,13 @@ def run_cases(
     with rig.Workers() as workers:
         run: rig.RunInputs = rig.run_in_process if settings.in_process else workers.run
         run = rig.in_real_time(run) if settings.real_time else run
-        stop_runs = ThreadedMap(
-            lambda stop: run_stop(stop, settings.recording, run), stops_of(cases), jobs=settings.jobs
-        )
+
+        def run_together(stops: Sequence[Stop]) -> Sequence[StopRun]:
+            if stops[0].case.train is not None:
+                return run_train(stops, settings.recording)
+            return [run_stop(stop, settings.recording, run) for stop in stops]
+
+        stop_runs = ThreadedMap(run_together, stops_together(cases), jobs=settings.jobs)
         assembly = CaseAssembly(settings.recording)
         try:
             with stop_runs:
@@ -270,10 +289,10 @@ def judge_cases(
 
 
 def _assembled(
-    stop_runs: Iterable[StopRun], assembly: CaseAssembly, on_stop: Callable[[], None]
+    stop_runs: Iterable[Sequence[StopRun]], assembly: CaseAssembly, on_stop: Callable[[], None]
 ) -> Iterator[CaseRun]:
     """Yield each case once its last stop is there; at the end those that an interrupt kept from that."""
-    for stop_run in stop_runs:
+    for stop_run in chain.from_iterable(stop_runs):
         assembly.add(stop_run)
         on_stop()
         yield from assembly.complete()

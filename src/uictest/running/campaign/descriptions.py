@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 from uictest import report
-from uictest.plans.scenario import Case, ExternalController, Scenario, is_changed, yaml
+from uictest.plans.scenario import Case, Coupler, ExternalController, Scenario, is_changed, yaml
 
 
 def descriptions_of(cases: Iterable[Case]) -> dict[str, report.CaseDescription]:
@@ -21,6 +22,7 @@ def _settings(scenario: Scenario) -> dict[str, str]:
     brake, rail, rig = scenario.brake, scenario.rail, scenario.rig
     return {
         "vehicle": _named(scenario.vehicle),
+        **({} if scenario.coupler is None else {"train": _train(scenario.coupler, brake.transmission)}),
         "initial speed": scenario.initial_speed.text
         + (
             ""
@@ -34,6 +36,13 @@ def _settings(scenario: Scenario) -> dict[str, str]:
         "rig": f"{rig.topology}, compensation {_named(rig.compensation_model)}, setting {rig.compensation}",
         "criteria": ", ".join(profile.name for profile in scenario.criteria),
     }
+
+
+def _train(coupler: Coupler, line: Any) -> str:
+    """Return what holds a train together."""
+    numbers = f"couplers {coupler.stiffness.text}, {coupler.damping.text}, {coupler.distance.text} apart"
+    command = "a wire" if line in (None, "wire") else f"a pipe at {line.pipe.text}"
+    return f"{numbers}; command along {command}"
 
 
 def _named(part: yaml.Part) -> str:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import groupby
 from time import perf_counter
 from typing import Any, Literal, NamedTuple
 
@@ -69,10 +70,7 @@ class Stop(NamedTuple):
     @property
     def alone(self) -> scenario.Case:
         """The case that is this stop alone: under the same name, with its own seed."""
-        if not self.is_repeated:
-            return self.case
-        changes = {"seed": self.seed, "repeat": 1}
-        return replace(self.case, scenario=self.case.scenario.model_copy(update=changes))
+        return self.case.with_values(seed=self.seed, repeat=1) if self.is_repeated else self.case
 
 
 class StopRun(NamedTuple):
@@ -83,10 +81,27 @@ class StopRun(NamedTuple):
     records: tuple[Any, ...] = ()
 
 
+def trains_in(cases: Iterable[scenario.Case]) -> Iterator[tuple[scenario.Case, ...]]:
+    """Yield the cases that run at once: one alone, or neighbours that are cars of one train."""
+
+    def stop(case: scenario.Case) -> Hashable:
+        return id(case) if case.train is None else (case.train.train, case.scenario.seed)
+
+    for _, neighbours in groupby(cases, stop):
+        yield tuple(neighbours)
+
+
 def stops_of(cases: Iterable[scenario.Case]) -> Iterator[Stop]:
     """Yield every stop of every case, in order of cases and seeds."""
     for case in cases:
         yield from (Stop(case, place) for place in range(case.scenario.repeat))
+
+
+def stops_together(cases: Iterable[scenario.Case]) -> Iterator[tuple[Stop, ...]]:
+    """Yield the stops that run at once, in order of cases and seeds: one alone, or those of a train."""
+    for cars in trains_in(cases):
+        for place in range(cars[0].scenario.repeat):
+            yield tuple(Stop(case, place) for case in cars)
 
 
 def run_stop(stop: Stop, request: RecordingRequest, run: rig.RunInputs | None = None) -> StopRun:
@@ -95,32 +110,66 @@ def run_stop(stop: Stop, request: RecordingRequest, run: rig.RunInputs | None = 
     `run` runs the stop, see :func:`uictest.rig.simulate`. Of the stops of a case only the first is recorded,
     and of those of the band the extremes are kept.
     """
+
+    def simulated(cases: Sequence[scenario.Case], every: float | None) -> list[rig.SimulatedStop]:
+        return [rig.simulate(case, every, run) for case in cases]
+
+    return _run([stop], request, simulated)[0]
+
+
+def run_train(stops: Sequence[Stop], request: RecordingRequest) -> list[StopRun]:
+    """Simulate a train once, and judge the stops of some of its cars as :func:`run_stop` does."""
+    return _run(stops, request, rig.simulate_cars)
+
+
+def _run(
+    stops: Sequence[Stop],
+    request: RecordingRequest,
+    simulate: Callable[[Sequence[scenario.Case], float | None], list[rig.SimulatedStop]],
+) -> list[StopRun]:
     started = perf_counter()
-    case = stop.alone
+    cases = [stop.alone for stop in stops]
     try:
-        case = bench.identified(case)
-        simulated: rig.SimulatedStop = rig.simulate(case, _interval(stop, request), run)
-        records = simulated.measures, simulated.wheelset_measures
-        result = evaluation.evaluate_simulated(
-            *(case, *records, perf_counter() - started),
-            detail="status" if stop.is_repeated else "full",
-            response_times=simulated.response_times,
-        )
-        result = replace(
-            result,
-            controller_version=simulated.controller_version,
-            case_sha256=simulated.case_sha256,
-            noise_key=simulated.noise_key,
-        )
-        if stop.is_repeated:
-            judged = records if result.outcome != "error" else ()
-            return StopRun(stop, _of_repeated(stop, request, result, simulated.recording), judged)
-        if request.wants(result) and simulated.recording is None:
-            # A stop is reproducible to the bit, so it can be recorded once the case is known to have missed.
-            simulated = rig.simulate(case, request.every, run)
-        return StopRun(stop, CaseRun(result, simulated.recording if request.wants(result) else None))
+        cases = [bench.identified(case) for case in cases]
+        simulated = simulate(cases, _interval(stops[0], request))
+        seconds = (perf_counter() - started) / len(stops)
+        results = [_judged(*each, seconds) for each in zip(stops, cases, simulated, strict=True)]
+        # A stop is reproducible to the bit, so it can be recorded once the case is known to have missed.
+        if not stops[0].is_repeated and simulated[0].recording is None and any(map(request.wants, results)):
+            simulated = simulate(cases, request.every)
+        return [_finished(*each, request) for each in zip(stops, results, simulated, strict=True)]
     except Exception as error:
-        return StopRun(stop, _failed(case, error, perf_counter() - started))
+        seconds = (perf_counter() - started) / len(stops)
+        failed = [_failed(case, error, seconds) for case in cases]
+        return [StopRun(stop, case_run) for stop, case_run in zip(stops, failed, strict=True)]
+
+
+def _judged(
+    stop: Stop, case: scenario.Case, simulated: rig.SimulatedStop, seconds: float
+) -> evaluation.CaseResult:
+    result = evaluation.evaluate_simulated(
+        *(case, simulated.measures, simulated.wheelset_measures, seconds),
+        detail="status" if stop.is_repeated else "full",
+        response_times=simulated.response_times,
+    )
+    peaks = simulated.coupler_ahead, simulated.coupler_behind
+    ahead, behind = (None if each is None else evaluation.CouplerForces(*each) for each in peaks)
+    return replace(
+        result,
+        controller_version=simulated.controller_version,
+        case_sha256=simulated.case_sha256,
+        noise_key=simulated.noise_key,
+        train=None if result.train is None else replace(result.train, ahead=ahead, behind=behind),
+    )
+
+
+def _finished(
+    stop: Stop, result: evaluation.CaseResult, simulated: rig.SimulatedStop, request: RecordingRequest
+) -> StopRun:
+    if not stop.is_repeated:
+        return StopRun(stop, CaseRun(result, simulated.recording if request.wants(result) else None))
+    records = (simulated.measures, simulated.wheelset_measures) if result.outcome != "error" else ()
+    return StopRun(stop, _of_repeated(stop, request, result, simulated.recording), records)
 
 
 def _interval(stop: Stop, request: RecordingRequest) -> float | None:

@@ -78,6 +78,7 @@ from .tree import (
     as_written as as_written,
     describe as describe,
     entry_at as entry_at,
+    merge as merge,
     nearest as nearest,
     plain as plain,
     quoted as quoted,

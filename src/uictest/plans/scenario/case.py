@@ -1,0 +1,59 @@
+"""The case: one stop of a car on the rig, alone or coupled to others."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from uictest.plans.scenario.model import Scenario
+
+
+@dataclass(frozen=True, slots=True)
+class TrainPlace:
+    """Where a car runs in its train."""
+
+    train: str
+    """Id of the train: that of the case without the number of the car."""
+    number: int
+    """Of the car, from 1 for the leading one."""
+    scenarios: tuple[Scenario, ...]
+    """Of all cars of the train in their order."""
+
+    @property
+    def label(self) -> str:
+        """The place in words: `car 2 of 4`."""
+        return f"car {self.number} of {len(self.scenarios)}"
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One stop on the rig."""
+
+    id: str
+    """Unique among the cases loaded together; safe as a file name."""
+    scenario: Scenario
+    """Resolved: every reference to a part replaced by the part."""
+    path: Path
+    """The file it comes from, as shown to users."""
+    parameters: dict[str, str]
+    """Swept dotted keys and their values as written, in order; in a train the number of the car, too."""
+    inputs: dict[str, str]
+    """Every file read for it, by shown name, and its SHA-256."""
+    train: TrainPlace | None = None
+    """Where it runs in a train; None for a car alone."""
+
+    def with_values(self, **changes: Any) -> "Case":
+        """The case with other values of what a train has once; so have the cars that it is coupled to."""
+        scenario = self.scenario.model_copy(update=changes)
+        if self.train is None:
+            return replace(self, scenario=scenario)
+        scenarios = tuple(each.model_copy(update=changes) for each in self.train.scenarios)
+        return replace(self, scenario=scenario, train=replace(self.train, scenarios=scenarios))
+
+    @property
+    def cars(self) -> "tuple[Case, ...]":
+        """The cases of all cars of the train, each as if it ran alone; of a car alone, this case."""
+        if self.train is None:
+            return (self,)
+        scenarios = list(self.train.scenarios)
+        scenarios[self.train.number - 1] = self.scenario
+        return tuple(replace(self, scenario=each, train=None) for each in scenarios)

@@ -1,0 +1,151 @@
+"""Scenarios of trains: a case for each car, and what cannot be coupled."""
+
+import re
+
+import pytest
+
+from uictest.plans.scenario import ScenarioErrors, load
+
+TRAIN = """
+schema: uictest/scenario/1
+name: short
+initial_speed: 40 km/h
+rail: {condition: wet, friction: 0.07}
+"""
+
+
+@pytest.fixture
+def cases(tmp_path):
+    """Write a scenario and return its cases."""
+
+    def write(more, *overrides, beside=TRAIN):
+        (tmp_path / "train.yaml").write_text(beside + more, "utf-8")
+        return load([tmp_path / "train.yaml"], overrides)
+
+    return write
+
+
+def test_every_car_is_a_case_with_what_it_has_of_its_own(cases):
+    loaded = cases(
+        "train:\n"
+        "  - {vehicle: crh380a, brake: {system: distributor}, expect: fail}\n"
+        "  - {count: 2, controller: slip-band}\n"
+        "brake: {command: 80 %, transmission: {pipe: 250 m/s}}\n"
+    )
+    assert [case.id for case in loaded] == ["short[car=1]", "short[car=2]", "short[car=3]"]
+    scenarios = [case.scenario for case in loaded]
+    assert [each.vehicle.name for each in scenarios] == ["crh380a", "intercity-180", "intercity-180"]
+    assert [each.brake.system.name for each in scenarios] == ["distributor", "ep-disc", "ep-disc"]
+    assert [each.controller.name for each in scenarios] == ["threshold", "slip-band", "slip-band"]
+    assert [each.expect for each in scenarios] == ["fail", "pass", "pass"]
+    assert {each.brake.command.text for each in scenarios} == {"80 %"}
+    assert {each.brake.transmission.pipe for each in scenarios} == {250.0}
+    assert {each.coupler.stiffness for each in scenarios} == {5e6}
+    assert all(case.train.scenarios == tuple(scenarios) for case in loaded)
+    assert [case.parameters["car"] for case in loaded] == ["1", "2", "3"]
+
+
+def test_a_scenario_without_train_is_a_car_alone(cases):
+    (alone,) = cases("vehicle: crh380a\n")
+    assert (alone.id, alone.train, alone.cars, alone.scenario.coupler) == ("short", None, (alone,), None)
+
+
+def test_lists_and_values_of_the_command_line_reach_single_cars(cases):
+    train = "train: [{count: 2}, {vehicle: crh380a}]\nmatrix: {rail.friction: [0.07, 0.08]}\n"
+    loaded = cases(train, "train.0.vehicle.half_pivot_distance=9 m", "train.1.count=1")
+    assert [case.id for case in loaded] == [
+        f"short[friction={friction},car={car}]" for friction in ("0.07", "0.08") for car in (1, 2, 3)
+    ]
+    assert [float(case.scenario.vehicle.half_pivot_distance) == 9.0 for case in loaded[:3]] == [
+        True,
+        True,
+        False,
+    ]
+
+
+def test_a_train_takes_the_place_of_the_vehicle_of_a_parent(tmp_path, cases):
+    (tmp_path / "parent.yaml").write_text(TRAIN.replace("short", "parent") + "vehicle: crh380a\n", "utf-8")
+    child = "schema: uictest/scenario/1\nname: child\nextends: parent.yaml\n"
+    first, _ = cases("train: [{count: 2}]\n", beside=child)
+    assert first.scenario.vehicle.name == "intercity-180"
+    (alone,) = cases("train: null\n", beside=child)
+    assert alone.scenario.vehicle.name == "crh380a"
+
+
+def test_what_changes_in_a_train_changes_in_all_of_its_cars(cases):
+    second = cases("train: [{count: 3}]\n")[1].with_values(seed=7)
+    assert {case.scenario.seed for case in second.cars} == {7}
+    assert second.train.number == 2
+
+
+@pytest.mark.parametrize(
+    ("more", "expected"),
+    [
+        (
+            "vehicle: crh380a\ntrain: [{count: 2}]\n",
+            ["train.yaml:6:1: vehicle: the cars of a train have vehicles of their own"],
+        ),
+        ("train: []\n", ["6:8: train: expected a list of cars, found an empty list"]),
+        ("train: crh380a\n", ["6:8: train: expected a list of cars, found a text"]),
+        ("train: [crh380a]\n", ["6:9: train.0: expected a mapping, found a text"]),
+        ("train: [{count: 0}]\n", ["6:17: train.0.count: expected a whole number from 1 to 32"]),
+        ("train: [{count: true}]\n", ["train.0.count: expected a whole number"]),
+        ("train: [{count: 2.5}]\n", ["train.0.count: expected a whole number"]),
+        ("train: [{count: 20}, {count: 13}]\n", ["6:8: train: 33 cars; a train has at most 32"]),
+        (
+            "train: [{vehicel: crh380a}]\n",
+            ["6:10: train.0.vehicel: unknown key 'vehicel'", "did you mean 'vehicle'?"],
+        ),
+        (
+            "train:\n  - {seed: 3, rail: {friction: 0.1}}\n  - {simulation: {time_step: 1 ms}}\n",
+            [
+                "7:6: train.0.seed: a train has one seed",
+                "write seed beside `train`; a car has vehicle, count, brake, rig, controller, sanders,",
+                "7:15: train.0.rail: a train has one rail",
+                "8:6: train.1.simulation: a train has one simulation",
+            ],
+        ),
+        (
+            "train: [{brake: {transmission: wire}}]\n",
+            ["6:18: train.0.brake.transmission: a train has one transmission"],
+        ),
+        (
+            "train: [{vehicle: crh38a}, {brake: {command: 120 %}}]\n",
+            [
+                "6:19: vehicle: no vehicle 'crh38a' in the library",
+                "6:46: brake.command: 120 % is out of range",
+            ],
+        ),
+        ("train: [{}]\nfirm: true\n", ["7:7: firm: how firm verdicts are is not known of trains"]),
+        ("coupler: {damping: 1 MN s/m}\n", ["6:1: coupler: only a train has it"]),
+        ("brake: {transmission: wire}\n", ["6:9: brake.transmission: only a train has it"]),
+        ("train: [{}]\ncoupler: {slack: 2 mm}\n", ["7:11: coupler.slack: unknown key 'slack'"]),
+        (
+            "train: [{count: 2}]\nbrake: {transmission: {pipe: 250}}\n",
+            ["7:30: brake.transmission.pipe: '250' has no unit"],
+        ),
+        (
+            "train: [{}, {controller: {extends: slip-band, cycle_time: 5 ms}}]\n",
+            ["6:26: controller: a controller cycle of 5 ms; that of the first car is 10 ms"],
+        ),
+        (
+            "train: [{count: 3}]\ncoupler: {distance: 20 m}\n",
+            ["7:21: coupler.distance: 20 m let the wheels of neighbouring cars overlap", "more than 21.36 m"],
+        ),
+        (
+            "train: [{vehicle: crh380a}, {}]\ncoupler: {damping: 10 MN s/m}\nsimulation: {time_step: 1 ms}\n",
+            ["7:10: coupler: too stiff or too much damped for a body of 32.37 t with a step of 1 ms"],
+        ),
+    ],
+)
+def test_what_is_no_train_is_said_at_its_place(cases, more, expected):
+    with pytest.raises(ScenarioErrors) as errors:
+        cases(more)
+    text = re.sub(r"\s+", " ", str(errors.value))
+    assert [each for each in expected if each not in text] == []
+
+
+def test_a_controller_from_outside_is_refused(tmp_path, cases):
+    (tmp_path / "wsp.py").write_text("class W:\n    def step(self, inputs, outputs): ...\n", "utf-8")
+    with pytest.raises(ScenarioErrors, match=r"controller: .* is a controller from outside"):
+        cases("train: [{}, {controller: {python: wsp.py, class: W}}]\n")
