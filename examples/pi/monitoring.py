@@ -1,101 +1,85 @@
-"""Print which faults a controller reports, after how long, and what it reports wrongly.
+"""Print what three controllers report of every kind of fault, by the verdicts of the program.
 
-python monitoring.py [monitoring.yaml]
+python monitoring.py [SCENARIO...]        [default: monitoring-sound.yaml monitoring.yaml]
 
-The rule is TB/T 3009-2019, 4.2.5 (second-hand), with the largest A and B that it allows: a wheelset whose
-speed, as its sensor shows it, differs from that of the train v by more than A + B v is to be reported within
-10 s. Whether it does is decided by the true speed of the train, not by what the controller believes.
+The profile `uictest-wsp-monitoring` judges each stop; a row is a fault, its cells count stops.
 """
 
 import sys
-from dataclasses import dataclass, field
+from collections import defaultdict
 from pathlib import Path
+from statistics import median
 
-from monitored_pi import PARAMETERS, MonitoredPi
+import yaml
 
 import uictest
-from uictest.controllers import Config
-from uictest.plans.scenario import Case, load
 
-A, B, WITHIN = 50.0 / 3.6, 0.3, 10.0
-"""m/s, 1 and s."""
-RADIUS = (0.43,) * 4
-"""m; the controller does not use it."""
-FAULTY = 1
-"""Place of the wheelset with the fault."""
-BEGINS = 3.0
-"""When the fault begins, s."""
-PLACES = tuple(sum(1 << (first + place) for first in (0, 8, 16)) for place in range(4))
-"""Bits of the diagnosis that concern each wheelset."""
-
-
-@dataclass
-class Watched:
-    """Instants of one stop, s since the brake command."""
-
-    fault: str
-    ended: float = 0.0
-    deviates: float | None = None  # beginning of the first deviation that lasts, or of the one at the end
-    reports: dict[int, float] = field(default_factory=dict)  # first report of each wheelset
-
-    def observe(self, time: float, wheel_speed: float, train_speed: float, diagnosis: int) -> None:
-        """Observe one controller cycle (s, m/s, m/s)."""
-        self.ended = time
-        due = self.deviates is not None and time - self.deviates >= WITHIN
-        if abs(wheel_speed - train_speed) <= A + B * train_speed:
-            self.deviates = self.deviates if due else None
-        elif self.deviates is None:
-            self.deviates = time
-        for place, bits in enumerate(PLACES):
-            if diagnosis & bits:
-                self.reports.setdefault(place, time)
-
-    @property
-    def verdict(self) -> str:
-        """What the rule says of the stop; without a deviation that lasts it asks for nothing."""
-        wrong = [place for place in self.reports if place != FAULTY or self.fault == "none"]
-        if wrong:
-            return "wrongly reported: " + ", ".join(f"wheelset {place + 1}" for place in wrong)
-        reported = self.reports.get(FAULTY)
-        if self.deviates is None or self.ended - self.deviates < WITHIN:
-            return "not required" if reported is None else "reported, not required"
-        if reported is None:
-            return "not reported"
-        return "reported" if reported - self.deviates <= WITHIN else "reported too late"
+SCENARIOS = "monitoring-sound.yaml", "monitoring.yaml"
+DUE = "rotation-reported", "fault-reported"
+STANDS = "standstill"
+WATCHER, BUILT_IN = "MonitoredPi", ("threshold", "slip-band")
+"""The controller that has a diagnosis, and those that have none."""
+HEADER = (
+    *("fault of wheelset 2", "stops", "reported, after s: median (longest)", "report missing"),
+    *("false report", "timer over 10 s", "no standstill", "`threshold`: missing", "`slip-band`: missing"),
+)
+Stop = dict[str, tuple[str, float | None]]
+"""Criterion -> status and value."""
 
 
-def watched(scenario: Path, case: str, fault: str) -> Watched:
-    """Run one stop with the controller and note what it reports."""
-    rig = uictest.Rig(scenario, case=case)
-    inputs = rig.reset()
-    parameters = {name: entry["default"] for name, entry in PARAMETERS.items()}
-    controller = MonitoredPi(Config(4, rig.cycle_time, rig.state.train_speed, RADIUS, parameters))
-    controller.reset()
-    stop = Watched(fault)
-    while not rig.stopped:
-        outputs = controller.step(inputs)
-        stop.observe(inputs.time, inputs.wheel_speed[FAULTY], rig.state.train_speed, outputs.diagnosis)
-        inputs = rig.step(outputs)
-    return stop
+def fault_of(text: str) -> str:
+    """Return part, kind and value of a fault; `none` without one."""
+    if not text:
+        return "none"
+    (fault,) = yaml.safe_load(text)
+    value = f" {fault['value']}" if "value" in fault else ""
+    return f"`{fault['part']}` `{fault['kind']}`{value}"
 
 
-def fault_of(case: Case) -> str:
-    """Return part, kind and value of the fault of a case; `none` without one."""
-    for fault in case.scenario.faults:
-        value = "" if fault.value is None else f" {fault.value:.3g}"
-        return f"{fault.part} {fault.kind}{value}"
-    return "none"
+def missing(stops: list[Stop]) -> int:
+    """Return in how many stops a report that was due did not come in time."""
+    return failed(stops, *DUE)
 
 
-def main(scenario: Path) -> None:
-    print("| fault | reported, s after it began | by the rule |")
-    print("|---|---|---|")
-    for case in load([scenario]):
-        stop = watched(scenario, case.id, fault_of(case))
-        reported = stop.reports.get(FAULTY)
-        after = "-" if reported is None else f"{reported - BEGINS:.1f}"
-        print(f"| {stop.fault} | {after} | {stop.verdict} |")
+def failed(stops: list[Stop], *criteria: str) -> int:
+    return sum(any(stop[name][0] == "fail" for name in criteria) for stop in stops)
+
+
+def times(stops: list[Stop]) -> str:
+    """Return how many stops have a report of the wheelset with the fault, and after what time."""
+    known = sorted(
+        value
+        for status, value in (stop["report-time"] for stop in stops)
+        if status == "pass" and value is not None
+    )
+    return f"{len(known)}, {median(known):.1f} ({known[-1]:.1f})" if known else "-"
+
+
+def row(fault: str, stops: dict[str, list[Stop]]) -> list[str]:
+    own = stops[WATCHER]
+    counts = [missing(own), *(failed(own, name) for name in ("no-false-report", "safety-timer", STANDS))]
+    shown = [
+        str(count) if count else "-" for count in [*counts, *(missing(stops[name]) for name in BUILT_IN)]
+    ]
+    if fault == "none":
+        shown[-len(BUILT_IN) :] = [""] * len(BUILT_IN)  # they are not watched there
+    return [fault, str(len(own)), times(own), *shown]
+
+
+def main(*paths: Path) -> None:
+    table: dict[str, dict[str, list[Stop]]] = defaultdict(lambda: defaultdict(list))
+    for result in uictest.run(list(paths), record="none"):
+        controller = result.parameters["controller"]
+        name = WATCHER if WATCHER in controller else controller
+        verdicts: Stop = {verdict.id: (verdict.status, verdict.value) for verdict in result.criteria}
+        stands = result.measures is not None and result.measures["braking_time_s"] > 0.0
+        verdicts[STANDS] = "pass" if stands else "fail", None
+        table[fault_of(result.parameters.get("faults", ""))][name].append(verdicts)
+    print(f"| {' | '.join(HEADER)} |")
+    print(f"|{'---|' * len(HEADER)}")
+    for fault, stops in table.items():
+        print(f"| {' | '.join(row(fault, stops))} |")
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).with_name("monitoring.yaml"))
+    main(*map(Path, sys.argv[1:] or (Path(__file__).with_name(name) for name in SCENARIOS)))
