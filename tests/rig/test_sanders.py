@@ -70,6 +70,18 @@ def test_a_variable_sander_gives_all_wheelsets_a_constant_density(rig, kept):
         np.testing.assert_allclose(columns["sand_density"][at, i], 0.0075 * kept**i, rtol=1e-9, atol=1e-15)
 
 
+def test_no_sand_is_lost_where_a_cycle_takes_a_train_further_than_a_wheelbase(rig):
+    """At 250 km/h with 50 ms: 3.5 m, so that a ring is written and read over in one cycle."""
+    overrides = ("initial_speed=250 km/h", "rail.condition=wet", "controller.cycle_time=50 ms", VARIABLE)
+    cases = [rig.case(*overrides), rig.case(*overrides[:-1])]
+    train = run_coupled(cases, COUPLED, steps_per_sample=100)
+    for j, car in enumerate(train.cars):
+        met, moved = car.trace.wheelsets["sand_density"], car.trace.train["distance"]
+        at = (moved > 60.0) & (car.trace.train["speed"] > 3.0)
+        expected = np.full((at.sum(), 4), 0.0075) * 0.8 ** np.arange(4 * j, 4 * j + 4)
+        np.testing.assert_allclose(met[at], expected, rtol=1e-9)
+
+
 def test_nozzles_add_to_what_lies_before_them(rig):
     one, other = (f"{{wheelset: {n}, density: 5 g/m, rate: 60 kg/min, {ALWAYS}}}" for n in (1, 3))
     columns = rig.columns(*WET, f"sanders=[{one}, {other}]")
