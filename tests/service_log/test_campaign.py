@@ -159,3 +159,19 @@ def test_a_selection_of_dry_stops_that_is_empty_is_refused(tmp_path, capsys, mon
     (tmp_path / "night.yaml").write_text(logs.CONDITIONS, "utf-8")
     assert execute(["log", "night.parquet", "--scenario", "night.yaml", "--dry", "stop-0007"]) == 4
     assert "stop-0007: selects no stop" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (lambda table: table["rows"].append(["x"]), "one cell for each column"),
+        (lambda table: table["columns"][0].__setitem__(2, 99), "digits of a column"),
+        (lambda table: table.__setitem__("place", "nowhere"), "campaign.0.tables.0.place"),
+    ],
+)
+def test_a_document_that_was_changed_by_hand_is_refused_with_its_place(sound, tmp_path, capsys, change, told):
+    document = json.loads((sound / "results.json").read_text("utf-8"))
+    change(document["campaign"]["tables"][0])
+    (tmp_path / "results.json").write_text(json.dumps(document), "utf-8")
+    assert execute(["report", str(tmp_path), "--format", "html"]) == 4
+    assert told in capsys.readouterr().err

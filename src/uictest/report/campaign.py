@@ -18,6 +18,7 @@ Place = Literal["first", "map", "detail"]
 Digits = int | Literal["significant"] | None
 STOPS: Final = "stops"
 """Key of the column that names stops, separated by commas."""
+_DIGITS: Final = range(16)
 _MOST: Final = 30
 """Rows of a table that a reader of a summary is given."""
 
@@ -26,13 +27,15 @@ class CampaignColumn(NamedTuple):
     """A column: its key for programs, its heading for people, and how many digits of its numbers they see.
 
     `digits` is None for a column of texts, of which long ones may wrap; `significant` where the rows have
-    numbers of different size.
+    numbers of different size. Where a terminal is too narrow the highest `rank` is left
+    out first, without ranks the last one.
     """
 
     key: str
     heading: str
     digits: Digits = None
     wraps: bool = False
+    rank: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +58,13 @@ class CampaignTable:
     columns: tuple[CampaignColumn, ...]
     rows: tuple[tuple[Cell, ...], ...]
 
+    def __post_init__(self) -> None:
+        """Raise ValueError for what no table can show: a document may have been changed by hand."""
+        if any(len(row) != len(self.columns) for row in self.rows):
+            raise ValueError(f"table {self.name!r}: a row has not one cell for each column")
+        if any(isinstance(each.digits, int) and each.digits not in _DIGITS for each in self.columns):
+            raise ValueError(f"table {self.name!r}: digits of a column must be 0 to {_DIGITS[-1]}")
+
     @property
     def data(self) -> Data:
         """The table for programs."""
@@ -72,7 +82,7 @@ def _column(column: CampaignColumn, place: int) -> Column[Sequence[Cell]]:
     return Column(
         heading=column.heading,
         text=_text_of(place, column.digits),
-        rank=place,
+        rank=place if column.rank is None else column.rank,
         right=column.digits is not None,
         wraps=column.wraps,
     )

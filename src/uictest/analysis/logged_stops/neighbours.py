@@ -127,14 +127,14 @@ def _differences(signs: Signs, sign: str, wheelset: int) -> Iterator[NeighbourDi
 
 
 _FINDINGS: Final = (
-    report.CampaignColumn("wheelset", "wheelset", 0),
-    report.CampaignColumn("finding", "finding"),
-    report.CampaignColumn("measure", "by", wraps=True),
-    report.CampaignColumn("own", "it"),
-    report.CampaignColumn("neighbours", "neighbours"),
-    report.CampaignColumn("difference", "difference,\n95 % interval"),
-    report.CampaignColumn("shown_in", "shown in"),
-    report.CampaignColumn(report.STOPS, "stops", wraps=True),
+    report.CampaignColumn("wheelset", "wheelset", 0, rank=0),
+    report.CampaignColumn("finding", "finding", rank=0),
+    report.CampaignColumn("measure", "by", wraps=True, rank=5),
+    report.CampaignColumn("own", "it", rank=3),
+    report.CampaignColumn("neighbours", "neighbours", rank=2),
+    report.CampaignColumn("difference", "difference\n95 % interval", rank=1),
+    report.CampaignColumn("shown_in", "shown in", rank=0),
+    report.CampaignColumn(report.STOPS, "stops", wraps=True, rank=4),
 )
 
 
