@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from uictest.plans.scenario import load
 from uictest.plans.scenario.yaml import ScenarioErrors
 from uictest.rig.coupled_cars import Coupling, run_coupled
+from uictest.rig.simulation import simulate
 
 WET = ("initial_speed=80 km/h", "rail.condition=wet", "rail.friction=0.05")
 ALWAYS = "when: always, off_below: 0 km/h, delay: 0 s"
@@ -190,6 +192,21 @@ def test_sand_of_one_car_is_met_by_the_next(rig):
     np.testing.assert_allclose(met[at], np.full((at.sum(), 4), 0.0075) * 0.8 ** np.arange(4, 8), rtol=1e-9)
     plain = run_coupled([rig.case(*WET)] * 2, COUPLED)
     assert train.cars[1].measures.end_distance < plain.cars[1].measures.end_distance
+
+
+def test_a_car_of_a_train_records_the_sand_of_the_cars_before_it(tmp_path):
+    path = tmp_path / "train.yaml"
+    sander = "{wheelset: 3, density: 7.5 g/m, rate: 60 kg/min, when: always}"
+    path.write_text(
+        "schema: uictest/scenario/1\nname: sanded\ninitial_speed: 40 km/h\n"
+        f"train: [{{sanders: [{sander}]}}, {{}}]\nrail: {{condition: wet, friction: 0.05}}\n"
+    )
+    first, second = (simulate(case, 0.1) for case in load([path]))
+    assert first.recording is not None and second.recording is not None
+    assert first.recording["sand_density_1"].max() == 0.0
+    assert second.recording["sand_density_1"].max() == pytest.approx(0.0075 * 0.8**2, rel=1e-9)
+    assert second.wheelset_measures.sand_laid.tolist() == [0.0] * 4
+    assert first.wheelset_measures.sand_laid[2] > 0.1
 
 
 def test_a_sanded_train_of_one_car_has_the_bits_of_a_car_alone(rig):

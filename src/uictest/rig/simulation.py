@@ -149,7 +149,7 @@ def _recorded(
         *(() if case.scenario.brake.models_disc_temperature else DISC_CHANNELS),
         *(() if case.scenario.brake.dynamic else DYNAMIC_BRAKE_CHANNELS),
         *(() if case.scenario.brake.track else TRACK_BRAKE_CHANNELS),
-        *(() if case.scenario.sanders else SAND_CHANNELS),
+        *(() if any(car.scenario.sanders for car in case.cars) else SAND_CHANNELS),
         *(() if case.scenario.faults else FAULT_CHANNELS),
     }
     return (

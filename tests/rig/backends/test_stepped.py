@@ -18,6 +18,7 @@ SCENARIOS = Path(__file__).parents[3] / "scenarios"
 OF_THE_NEXT_CYCLE = {
     *("measured_speed", "pressure_error", "loadcell_error", "line_pressure_error", "friction"),
     *("pad_friction", "last_tooth", "tooth_time", "tooth_rate", "tooth_speed", "cleaned_share"),
+    "sand_density",
 }
 """What the sensors and the look-ups after the last cycle set."""
 VARIANTS = {
@@ -25,6 +26,7 @@ VARIANTS = {
     "pole wheels": ("low-adhesion-80.yaml", ["rig.sensors=pole-wheel"]),
     "slip band": ("slide-80-four-caliper.yaml", ["controller=slip-band"]),
     "another cycle": ("low-adhesion-80.yaml", ["controller.cycle_time=20 ms"]),
+    "a sander": ("sanded-80.yaml", []),
 }
 
 
