@@ -3,13 +3,21 @@
 import csv
 import json
 import re
+from dataclasses import replace
 from zipfile import ZipFile
 
 import numpy as np
 import pytest
 
+import uictest
 from tests.service_log import logs
+from uictest.analysis.logged_stops import LogSurvey
 from uictest.cli.entry import execute
+from uictest.core.recording import Recording
+from uictest.recorded.field_data import judge_recording, load_map, stop_in
+from uictest.recorded.service_log import find_stops, write_stops
+
+MAP = load_map("uictest")[0]
 
 
 def judged(folder, stops, *arguments, forces=True, begin=0.0):
@@ -175,3 +183,43 @@ def test_a_document_that_was_changed_by_hand_is_refused_with_its_place(sound, tm
     (tmp_path / "results.json").write_text(json.dumps(document), "utf-8")
     assert execute(["report", str(tmp_path), "--format", "html"]) == 4
     assert told in capsys.readouterr().err
+
+
+@pytest.fixture(name="recorded", scope="module")
+def _recorded(tmp_path_factory):
+    """A recorded stop, and the case that it is judged as."""
+    folder = tmp_path_factory.mktemp("recorded")
+    log = find_stops([logs.write_log([logs.simulated(logs.wet(0.08), 50.0, 2)], folder / "log.parquet")], MAP)
+    case, *_ = uictest.load(logs.SCENARIO, set={"criteria": "uictest-stop"})
+    return stop_in(write_stops(log, MAP, folder / "stops")[0], MAP), case
+
+
+def surveyed(stop, case):
+    result, _ = judge_recording(case, stop)
+    survey = LogSurvey({}, vehicle_known=True)
+    survey.add(case, stop, result)
+    return survey.campaign([result])
+
+
+@pytest.mark.parametrize(
+    "lacking",
+    [
+        *("wheel_speed", "valve_command", "cylinder_pressure", "clamping_force", "brake_line_pressure"),
+        "wheel_speed_3",
+    ],
+)
+def test_whatever_a_record_lacks_the_rest_is_said(recorded, lacking):
+    stop, case = recorded
+    kept = {name: own for name, own in stop.recording.channels.items() if not name.startswith(lacking)}
+    recording = Recording(kept, {name: stop.recording.units[name] for name in kept})
+    names = {table.name for table in surveyed(replace(stop, recording=recording), case).tables}
+    assert {"findings", "friction", "wet_stops"} <= names
+
+
+@pytest.mark.parametrize("samples", [1, 2, 15, 40])
+def test_a_stop_of_a_few_samples_has_no_friction(recorded, samples):
+    stop, case = recorded
+    kept = {name: own[:samples] for name, own in stop.recording.channels.items()}
+    short = replace(stop, recording=Recording(kept, stop.recording.units), standstill=None)
+    (table,) = [each for each in surveyed(short, case).tables if each.name == "friction"]
+    assert [row["standing"] for row in table.data.rows] != ["found"]

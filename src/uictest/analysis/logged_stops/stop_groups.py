@@ -3,22 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
 from uictest import report
 from uictest.core.document import Cell
-from uictest.core.series_measures import (
-    SERIES_MEASURES,
-    CountedStop,
-    SpeedStops,
-    mean_of,
-    of_stop,
-    percent_of_dry,
-)
-from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.core.series_measures import SERIES_MEASURES, mean_of
 from uictest.judging import series as judged_series
 from uictest.judging.evaluation import CaseResult
 from uictest.plans import series as series_plans
@@ -250,20 +242,12 @@ def wet_table(stops: Sequence[LoggedStop], result: judged_series.SeriesResult | 
 
 def extensions(stops: Sequence[LoggedStop]) -> dict[str, float]:
     """Return by how much the distance of each wet stop exceeds the mean of the dry ones of its speed, %."""
-    return {name: value for name, value in _extensions(stops, dry_groups(stops)) if math.isfinite(value)}
-
-
-def _extensions(
-    stops: Sequence[LoggedStop], dry: Mapping[float, Sequence[LoggedStop]]
-) -> Iterator[tuple[str, float]]:
-    figure = of_stop("distance")
-    for stop in stops:
-        if not stop.dry and stop.nominal is not None:
-            reference = tuple(_counted(each) for each in dry.get(stop.nominal, ()))
-            group = SpeedStops(stop.nominal * KILOMETRE_PER_HOUR, reference, (_counted(stop),))
-            (percent,) = percent_of_dry(figure, group)
-            yield stop.result.id, percent - 100.0
-
-
-def _counted(stop: LoggedStop) -> CountedStop:
-    return CountedStop({"distance": stop.distance}, (), stop.result.outcome == "pass")
+    means = {
+        speed: math.fsum(stop.distance for stop in group) / len(group)
+        for speed, group in dry_groups(stops).items()
+    }
+    return {
+        stop.result.id: 100.0 * (stop.distance / means[stop.nominal] - 1.0)
+        for stop in stops
+        if not stop.dry and stop.nominal in means and math.isfinite(stop.distance)
+    }

@@ -101,8 +101,9 @@ def _solve(rail: RailUnderStop, *, with_pads: bool) -> tuple[list[float], list[f
 
     start = np.array(rail.stretches.start + [1.0] * with_pads)
     if not len(start):
-        known = balances.samples.torque is not None
-        return [], [], float(np.std(np.concatenate(residuals(start)))) if known else float("nan")
+        left = np.concatenate(residuals(start))
+        known = balances.samples.torque is not None and len(left) > 0
+        return [], [], float(np.std(left)) if known else float("nan")
     solution = solve(residuals, start, _bounds(count, with_pads=with_pads))
     return list(map(float, solution.values)), solution.half_widths, solution.residual
 

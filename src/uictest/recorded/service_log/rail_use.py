@@ -59,6 +59,8 @@ def rail_use(name: str, stop: RecordedStop, judged_under: Scenario) -> RailUse:
         balances = fitting.balances_of(stop, judged_under)
     except fitting.FitError as error:
         return RailUse(name, _no_windows(), "", "not seen", np.nan, np.nan, str(error))
+    if not len(balances.windows.first):
+        return RailUse(name, _no_windows(), "", "not seen", np.nan, np.nan, "the stop is too short for a fit")
     windows, known_by = _windows(balances)
     (estimate,) = fitting.fit_balances(balances, (), with_pads=False).friction
     standing: Standing = "not seen" if estimate.standing == "not reached" else estimate.standing

@@ -182,7 +182,8 @@ class _Course:
 
     def _is_fine(self, *names: str) -> bool:
         """Return whether channels are recorded often enough to tell when a valve answers."""
-        return all(self.intervals.get(name, math.inf) <= _COARSEST for name in names)
+        known = all(name in self.channels for name in names)
+        return known and all(self.intervals.get(name, math.inf) <= _COARSEST for name in names)
 
     def rolling_speeds(self) -> list[float]:
         """Return by how much each wheel reads faster than the train before it brakes, %, so without creep."""
