@@ -82,6 +82,14 @@ def test_a_friction_or_cleaning_of_the_scenario_stands_in_place_of_the_condition
     assert changed(of(varied)) == {"rail.variation.spread": ("30 %", "20 %")}
 
 
+def test_what_sand_does_stands_among_the_numbers_only_of_a_car_with_sanders(cases):
+    (without,), (sanded,) = cases(""), cases("sanders: [{wheelset: 2, rate: 1 kg/min}]\n")
+    assert not [key for key in parameters(of(without)) if "sand" in key]
+    found = parameters(of(sanded))
+    assert (found["rail.sand.kept"].written, found["rail.sand.kept"].mark) == ("0.8", "default")
+    assert (found["sanders.0.rate"].written, found["sanders.0.rate"].mark) == ("1 kg/min", "user")
+
+
 def test_the_mark_says_whose_number_it_is(cases):
     (case,) = cases("rail: {gradient: 0 permille}\nvehicle: manchester-benchmark\n")
     found = parameters(of(case))

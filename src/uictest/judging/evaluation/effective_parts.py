@@ -27,6 +27,7 @@ _CONDITIONS: Final = ("brake.command", "brake.position", "rail.gradient", "rig.w
 """Keys that describe a recorded stop, besides rail condition, criteria and measures."""
 
 _SECTIONS: Final = ("brake", "rail", "rig", "simulation")
+_OF_SAND: Final = "rail.sand."
 _RAIL_OVERRIDES: Final = ("friction", "cleaning", "variation")
 """Keys of the rail that replace what the rail condition has under the same name."""
 
@@ -135,7 +136,9 @@ def _section(scenario: Scenario, name: str) -> Iterator[Parameter]:
     # What the rail leaves out is the condition's.
     of_condition = _RAIL_OVERRIDES if name == "rail" else ()
     defaults = {key: getattr(scenario.rail.condition, key) for key in of_condition}
-    return _own(getattr(scenario, name), f"{name}.", defaults)
+    for parameter in _own(getattr(scenario, name), f"{name}.", defaults):
+        if scenario.sanders or not parameter.key.startswith(_OF_SAND):  # without sanders it says nothing
+            yield parameter
 
 
 def _own(model: Model, above: str, defaults: Mapping[str, object]) -> Iterator[Parameter]:
