@@ -25,6 +25,7 @@ class Rig:
             **made_up,
             recording=recording,
             controller_version="wsp 1.2.0",
+            controller_contract=2,
             case_sha256="ab" * 32,
             noise_key="00c0ffee",
         )
@@ -75,7 +76,8 @@ def test_a_stop_with_a_controller_from_outside_is_never_repeated(make_case, make
 def test_a_result_says_which_controller_answered_in_which_stop(make_case, make_rig):
     make_rig("pass")
     result = run_stop(Stop(make_case("dry")), RecordingRequest("none")).case_run.result
-    assert (result.controller_version, result.case_sha256) == ("wsp 1.2.0", "ab" * 32)
+    told = result.controller_version, result.controller_contract, result.case_sha256
+    assert told == ("wsp 1.2.0", 2, "ab" * 32)
     assert result.noise_key == "00c0ffee"
 
 

@@ -94,13 +94,16 @@ def test_the_document_is_json_that_any_reader_takes(results):
 
 
 def test_which_controller_answered_and_the_noise_are_there_only_where_known_and_come_back(results):
-    told = dataclasses.replace(results[0], controller_version="wsp 1.2", case_sha256="ab" * 32)
+    told = dataclasses.replace(
+        results[0], controller_version="wsp 1.2", controller_contract=2, case_sha256="ab" * 32
+    )
     document = json.loads(to_json(result_document([told, *results[1:]])))
     first, *others = document["cases"]
-    assert list(first) == [*CASE, "controller_version", "case_sha256"]
+    assert list(first) == [*CASE, "controller_version", "controller_contract", "case_sha256"]
     assert [list(case) for case in others] == [CASE, CASE]
     back, *_ = results_of(document)
-    assert (back.controller_version, back.case_sha256) == ("wsp 1.2", "ab" * 32)
+    told = back.controller_version, back.controller_contract, back.case_sha256
+    assert told == ("wsp 1.2", 2, "ab" * 32)
     simulated = dataclasses.replace(results[0], noise_key="00c0ffee")
     document = json.loads(to_json(result_document([simulated, *results[1:]])))
     assert [case.get("noise_key") for case in document["cases"]] == ["00c0ffee", None, None]

@@ -256,9 +256,12 @@ def test_controllers_are_named_once_and_one_that_never_acted_is_marked():
         "scenario.rig", "rig", "", None, (Parameter("rig.wsp", "bypassed", "", "bypassed", "user"),)
     )
     own, idle = ({"controller": PLAIN, "scenario.rig": each} for each in (rig("one-caliper"), bypassed))
-    outside = make_result(parts={"controller": LIBRARY}, controller_version="1.2")
+    outside = make_result(parts={"controller": LIBRARY}, controller_version="1.2", controller_contract=2)
     both = [make_result(parts=own), make_result(parts=idle), outside, make_result(parts={})]
-    assert controllers_text(both, "0.2.0") == "threshold (built into uictest 0.2.0), wsp (version 1.2)"
+    assert (
+        controllers_text(both, "0.2.0")
+        == "threshold (built into uictest 0.2.0), wsp (version 1.2, contract 2)"
+    )
     assert (
         controllers_text([make_result(parts=idle)], "0.2.0")
         == "threshold (built into uictest 0.2.0), bypassed"

@@ -83,7 +83,8 @@ def controller_of(result: evaluation.CaseResult, uictest_version: str = "") -> t
 def controllers_text(results: Iterable[evaluation.CaseResult], uictest_version: str = "") -> str:
     """Return the controllers under test, each once: `slip-band (built into uictest 0.2.0)`; empty if unknown.
 
-    One whose valves are bypassed in every case is marked so: it was not tested.
+    One from outside is shown with the contract that it kept: `my-wsp (version 3.1, contract 2)`. One whose
+    valves are bypassed in every case is marked so: it was not tested.
     """
     acts: dict[str, bool] = {}
     for result in results:
@@ -91,7 +92,9 @@ def controllers_text(results: Iterable[evaluation.CaseResult], uictest_version: 
         if not name:
             continue
         kind = "built into" if evaluation.program_in(result.parts) is None else "version"
-        text = f"{name} ({kind} {version})" if version else name
+        known = [f"{kind} {version}"] if version else []
+        known += [f"contract {result.controller_contract}"] if result.controller_contract else []
+        text = f"{name} ({', '.join(known)})" if known else name
         acts[text] = acts.get(text, False) or not is_bypassed(result.parts)
     return ", ".join(text if active else f"{text}, bypassed" for text, active in acts.items())
 

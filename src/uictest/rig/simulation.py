@@ -37,6 +37,7 @@ class SimulatedStop:
         wheelset_measures: four records of :data:`uictest.core.measures.WHEELSET_MEASURES`.
         recording: channels over time, if requested.
         controller_version: what a controller from outside says of itself.
+        controller_contract: version of the contract that it kept; 0: the controller is built in.
         response_times: how it answered, where cycles were paced by the clock.
         case_sha256: what it was given to name the stop, see :func:`uictest.rig.assembly.case_sha256`.
         noise_key: of the sensors' noise, see :mod:`uictest.rig.single_stop`, as eight hexadecimal digits.
@@ -48,6 +49,7 @@ class SimulatedStop:
     wheelset_measures: Any
     recording: Recording | None = None
     controller_version: str = ""
+    controller_contract: int = 0
     response_times: ResponseTimes | None = None
     case_sha256: str = ""
     noise_key: str = ""
@@ -87,7 +89,7 @@ def simulate(case: Case, record_every: float | None = None, run: RunInputs | Non
     recording = recording_of_stop(case, finished, from_outside=from_outside) if steps_per_sample else None
     return SimulatedStop(
         *(finished.measures, finished.wheelset_measures, recording),
-        *(finished.controller_version, finished.response_times),
+        *(finished.controller_version, finished.contract if from_outside else 0, finished.response_times),
         case_sha256="" if inputs.config is None else inputs.config.case_sha256,
         noise_key=noise_key_text(inputs.parameters),
     )

@@ -120,6 +120,7 @@ def test_a_result_has_the_digest_that_the_program_was_given_though_it_failed(
     result = result_in(Path("out/latest"))
     assert result["case_sha256"] == Path("stops").read_text("utf-8")
     assert result.get("controller_version") == version
+    assert result.get("controller_contract") == (None if fails else 1)
 
 
 def test_a_program_that_contradicts_its_scenario_is_quoted(call, scenario):

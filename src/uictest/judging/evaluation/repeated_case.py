@@ -214,6 +214,7 @@ def evaluate_repeats(case: scenario.Case, repeats: Sequence[SimulatedRepeat]) ->
         ),
         noise_key=next((key for each in repeats if (key := each.result.noise_key)), ""),
         controller_version=next((v for each in repeats if (v := each.result.controller_version)), ""),
+        controller_contract=max(each.result.controller_contract for each in repeats),
         # As of a single stop: whatever the other stops say, none of them is verified.
         requirements=scenario.named_requirements(case.scenario) if outcome == "error" else first.requirements,
         repeats=Repeats(rule.name, stops, rule.share if rule.name == "at_least" else None),

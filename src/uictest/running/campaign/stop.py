@@ -157,6 +157,7 @@ def _judged(
     return replace(
         result,
         controller_version=simulated.controller_version,
+        controller_contract=simulated.controller_contract,
         case_sha256=simulated.case_sha256,
         noise_key=simulated.noise_key,
         train=None if result.train is None else replace(result.train, ahead=ahead, behind=behind),
