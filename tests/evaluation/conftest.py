@@ -71,6 +71,7 @@ def _case(scenario):
         scenario=scenario,
         path=Path("scenarios") / "slip-120.yaml",
         parameters={"rail.friction": "0.10"},
+        train=None,
     )
 
 

@@ -21,6 +21,7 @@ DEFINED = {"locked_speed": 0.1, "moving_speed": 10 / 3.6, "low_speed_cutoff": 30
 DEFINED |= {"sliding_slide": 0.05, "sliding_slip": 0.3, "sliding_below": 0.9, "deceleration_filter": 0.5}
 DEFINED |= {"rising_share": 0.05, "developed_share": 0.95, "reduced_share": 0.9, "released_share": 0.2}
 DEFINED |= {"developed_time": 2.0, "first_phase_duration": 3.0}
+DEFINED |= {"monitored_speed": 50 / 3.6, "monitored_share": 0.3}
 
 
 def _verdict(measure, value=None, **definitions):
