@@ -117,6 +117,19 @@ def test_the_adhesion_that_is_seen_lies_below_the_friction(sound):
     assert 0.0 < min(medians) <= max(medians) < largest
 
 
+def test_every_stop_stands_once_in_the_map_and_every_window_in_both_distributions(sound):
+    (row,) = rows(sound, "outcomes_over_speed_and_friction")
+    assert row.pop("initial_speed") == "80"
+    assert sum(map(int, re.findall(r"\d+", " ".join(row.values())))) == 14
+    by_speed, by_place = (rows(sound, f"adhesion_by_{name}") for name in ("speed", "place"))
+    for wheelset in "1234":
+        counts = [
+            sum(int(each["windows"]) for each in own if each["wheelset"] == wheelset)
+            for own in (by_speed, by_place)
+        ]
+        assert counts[0] == counts[1] > 0
+
+
 def test_without_forces_only_the_mean_of_all_wheelsets_is_seen(tmp_path):
     run = judged(tmp_path, [logs.simulated(logs.wet(0.08), 80.0, 3)], forces=False)
     assert {row["wheelset"] for row in rows(run, "adhesion_by_speed")} == {"0"}

@@ -18,6 +18,8 @@ from uictest.recorded import service_log
 Array = NDArray[np.float64]
 _SPEED_BIN: Final = 20.0
 """km/h; chosen."""
+_SPEED_STEP: Final = 10.0
+"""km/h to which the initial speeds of stops are rounded; chosen."""
 _PLACE_BINS: Final = (10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 _MOST_BINS: Final = 12
 """Bins of places at most: the narrowest of the widths above that needs no more; chosen."""
@@ -146,9 +148,9 @@ def _outcome_map(uses: Uses, results: Sequence[CaseResult], speeds: dict[str, fl
     outcomes = {result.id: result.outcome for result in results}
     known = [use for use in uses if use.standing == "found"]
     frictions = {use.stop: int(use.friction / _FRICTION_BIN) for use in known}
-    rows_of = {name: int(speed // _SPEED_BIN) for name, speed in speeds.items()}
+    rows_of = {name: _SPEED_STEP * round(speed / _SPEED_STEP) for name, speed in speeds.items()}
     bins = sorted(set(frictions.values()))
-    columns = [report.CampaignColumn("initial_speed", "from, km/h")]
+    columns = [report.CampaignColumn("initial_speed", "from about\nkm/h")]
     columns += [
         report.CampaignColumn(
             f"friction_{k * _FRICTION_BIN:.2f}", f"{k * _FRICTION_BIN:.2f} to {(k + 1) * _FRICTION_BIN:.2f}"
@@ -161,7 +163,7 @@ def _outcome_map(uses: Uses, results: Sequence[CaseResult], speeds: dict[str, fl
         stops = [use.stop for use in uses if rows_of[use.stop] == row]
         cells = [_outcomes_text([outcomes[s] for s in stops if frictions.get(s) == k]) for k in bins]
         unseen = _outcomes_text([outcomes[s] for s in stops if s not in frictions])
-        rows.append((f"{row * _SPEED_BIN:g} to {(row + 1) * _SPEED_BIN:g}", *cells, unseen))
+        rows.append((f"{row:g}", *cells, unseen))
     return report.CampaignTable(
         "outcomes_over_speed_and_friction",
         "Stops by speed and friction",
