@@ -20,7 +20,12 @@ from ..builders import make_recording, make_verdict
 DEFINED = {"locked_speed": 0.1, "moving_speed": 10 / 3.6, "low_speed_cutoff": 30 / 3.6, "end_speed": 60 / 3.6}
 DEFINED |= {"sliding_slide": 0.05, "sliding_slip": 0.3, "sliding_below": 0.9, "deceleration_filter": 0.5}
 DEFINED |= {"rising_share": 0.05, "developed_share": 0.95, "reduced_share": 0.9, "released_share": 0.2}
-DEFINED |= {"developed_time": 2.0, "first_phase_duration": 3.0}
+DEFINED |= {
+    "developed_time": 2.0,
+    "first_phase_duration": 3.0,
+    "monitored_speed": 50 / 3.6,
+    "monitored_share": 0.3,
+}
 DEFINED |= {"monitored_speed": 50 / 3.6, "monitored_share": 0.3}
 
 
@@ -53,8 +58,10 @@ def test_every_measure_says_when_it_is_decided_and_where_that_is_shown():
     plots = {plot.key for plot in (*PANELS, *STRIPS)}
     decided = {name: measure.decided for name, measure in MEASURES.items()}
     assert {own.plot for own in decided.values() if own is not None} <= plots
-    # How far the rig is from that which its compensation was identified for is no matter of a stop.
-    assert [name for name, own in decided.items() if own is None] == ["compensation_misfit"]
+    # How far the rig is from that which its compensation was identified for is no matter of a stop, and no
+    # plot shows what a controller reports.
+    of_reports = ["required_report_time", "report_time", "false_reports"]
+    assert [name for name, own in decided.items() if own is None] == ["compensation_misfit", *of_reports]
 
 
 @pytest.mark.parametrize("measure", [name for name, measure in MEASURES.items() if measure.decided])
