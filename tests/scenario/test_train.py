@@ -112,10 +112,15 @@ def test_what_changes_in_a_train_changes_in_all_of_its_cars(cases):
         (
             "train: [{vehicle: crh38a}, {brake: {command: 120 %}}]\n",
             [
-                "6:19: vehicle: no vehicle 'crh38a' in the library",
-                "6:46: brake.command: 120 % is out of range",
+                "6:19: train.0.vehicle: no vehicle 'crh38a' in the library",
+                "6:46: train.1.brake.command: 120 % is out of range",
             ],
         ),
+        (
+            "train: [{}, {faults: [{part: speed-sensor}]}]\nmatrix: {train.1.brake.command: [70 %, 7 m]}\n",
+            ["6:23: train.1.faults.0.at: missing key 'at'", "7:40: train.1.brake.command: unknown unit 'm'"],
+        ),
+        ("train: [{}, {}]\nbrake: {command: 120 %}\n", ["7:18: brake.command: 120 % is out of range"]),
         ("train: [{}]\nfirm: true\n", ["7:7: firm: how firm verdicts are is not known of trains"]),
         ("coupler: {damping: 1 MN s/m}\n", ["6:1: coupler: only a train has it"]),
         ("brake: {transmission: wire}\n", ["6:9: brake.transmission: only a train has it"]),
@@ -126,7 +131,7 @@ def test_what_changes_in_a_train_changes_in_all_of_its_cars(cases):
         ),
         (
             "train: [{}, {controller: {extends: slip-band, cycle_time: 5 ms}}]\n",
-            ["6:26: controller: a controller cycle of 5 ms; that of the first car is 10 ms"],
+            ["6:26: train.1.controller: a controller cycle of 5 ms; that of the first car is 10 ms"],
         ),
         (
             "train: [{count: 3}]\ncoupler: {distance: 20 m}\n",
@@ -145,7 +150,16 @@ def test_what_is_no_train_is_said_at_its_place(cases, more, expected):
     assert [each for each in expected if each not in text] == []
 
 
+def test_every_car_names_what_all_of_its_train_was_read_from(tmp_path, cases):
+    vehicle = "schema: uictest/vehicle/1\nname: {name}\nextends: crh380a\n"
+    for name in ("lead", "last"):
+        (tmp_path / f"{name}.yaml").write_text(vehicle.format(name=name), "utf-8")
+    files = [list(case.inputs) for case in cases("train: [{vehicle: lead.yaml}, {vehicle: last.yaml}]\n")]
+    assert files[0] == files[1]
+    assert {name.rpartition("/")[2] for name in files[0]} >= {"train.yaml", "lead.yaml", "last.yaml"}
+
+
 def test_a_controller_from_outside_is_refused(tmp_path, cases):
     (tmp_path / "wsp.py").write_text("class W:\n    def step(self, inputs, outputs): ...\n", "utf-8")
-    with pytest.raises(ScenarioErrors, match=r"controller: .* is a controller from outside"):
+    with pytest.raises(ScenarioErrors, match=r"train.1.controller: .* is a controller from outside"):
         cases("train: [{}, {controller: {python: wsp.py, class: W}}]\n")

@@ -55,6 +55,12 @@ def test_a_file_of_0_2_has_the_same_cases(write):
     assert not now.written_now
 
 
+def test_a_sweep_of_a_train_is_refused_without_asking_for_one_of_its_cars(write):
+    Path("stop.yaml").write_text(SCENARIO + "train: [{count: 2}]\n")
+    with pytest.raises(ScenarioErrors, match="'stop.yaml' is a train; a sweep runs a car alone"):
+        write(OLD_HEAD + "grid: {seed: [1, 2]}\n")
+
+
 def test_a_case_that_0_2_names_has_its_values(write):
     Path("stop.yaml").write_text(SCENARIO + "matrix: {brake.command: [60 %, 90 %]}\n")
     old = OLD_HEAD + "grid: {seed: [1, 2]}\n"

@@ -21,11 +21,10 @@ from uictest.plans.scenario.model import Scenario
 from uictest.plans.scenario.overrides import Override, apply_overrides, parse_overrides, with_value
 from uictest.plans.scenario.rail_friction import changed_alone, overridden_alone
 from uictest.plans.scenario.references import Parts
-from uictest.plans.scenario.resolution import resolve, with_default_parts
+from uictest.plans.scenario.resolution import with_default_parts
+from uictest.plans.scenario.resolved_cars import resolved_cars
 from uictest.plans.scenario.train import (
-    car_trees,
     is_train,
-    require_couplable,
     require_no_train,
     with_default_vehicles,
     without_inherited_vehicle,
@@ -122,10 +121,6 @@ class _ScenarioFile:
     ids: dict[str, Variant] = field(default_factory=dict)
 
 
-_ResolvedCar = tuple[tuple[Scenario, tuple[Document, ...]], Map]
-"""The scenario of a car, the documents of its parts, and its tree."""
-
-
 class _Loader:
     """Loads one scenario after another and collects the errors of all."""
 
@@ -202,21 +197,18 @@ class _Loader:
     def _cases(self, file: _ScenarioFile, variant: Variant) -> list[LoadedCase]:
         """Return the case of a variant; of a train those of its cars, which name each other."""
         tree = self._varied(file.tree, variant)
-        cars, diagnostics = list[_ResolvedCar](), list[Diagnostic]()
-        for car, count in car_trees(tree):
-            with collecting(diagnostics, whole_file(file.path)):
-                cars += [(resolve(car, self.parts), car)] * count
-        if diagnostics:
-            raise ScenarioErrors(diagnostics)
+        cars = resolved_cars(file.path, tree, self.parts)
         scenarios = tuple(scenario for (scenario, _), _ in cars)
         named = scenarios[0].name, variant, file.short, file.labels
         if not is_train(tree):
             return [self._case(file, variant, case_id(*named), *cars[0])]
-        require_couplable(scenarios, [car for _, car in cars])
-        places = (TrainPlace(case_id(*named), n, scenarios) for n in range(1, len(cars) + 1))
+        read = tuple(document for (_, documents), _ in cars for document in documents)
         return [
-            self._case(file, variant, case_id(*named, car=place.number), *car, place)
-            for place, car in zip(places, cars, strict=True)
+            self._case(
+                *(file, variant, case_id(*named, car=number)),
+                *((scenario, read), car, TrainPlace(case_id(*named), number, scenarios)),
+            )
+            for number, ((scenario, _), car) in enumerate(cars, start=1)
         ]
 
     def _case(

@@ -124,11 +124,12 @@ def _of_0_2(tree: Map, fixed: Sequence[Override], parts: Parts) -> SweepFile:
         raise single_error(reference.node.place, message, "scenario")
     parts.files.beside(reference.node, "scenario")
     path = reference.node.place.document.folder / reference.node.text
-    loaded = _chosen(load_with_trees(path, fixed, parts), case_id, reference.node)
-    _reject_repeats(loaded, reference.node, "scenario", quoted(reference.node.text))
-    if loaded.case.train is not None:
+    cases = load_with_trees(path, fixed, parts)
+    if any(each.case.train is not None for each in cases):
         message = f"{quoted(reference.node.text)} is a train; a sweep runs a car alone"
         raise single_error(reference.node.place, message, "scenario")
+    loaded = _chosen(cases, case_id, reference.node)
+    _reject_repeats(loaded, reference.node, "scenario", quoted(reference.node.text))
     lists = tree.entries.get("grid")
     return SweepFile(
         name=file.name,
