@@ -14,6 +14,8 @@ from uictest.rig.backends.stepped import SteppedStop
 from uictest.rig.model.state import Car, Wheelset
 from uictest.rig.single_stop import run_to_end
 
+from ...stop_bits import stop_bits
+
 SCENARIOS = Path(__file__).parents[3] / "scenarios"
 OF_THE_NEXT_CYCLE = {
     *("measured_speed", "pressure_error", "loadcell_error", "line_pressure_error", "friction"),
@@ -42,8 +44,8 @@ def stepped_to_end(case, outside, every):
 
 def assert_same(stepped, run):
     """Every measure, every sample and every state but those of the cycle that never came."""
-    assert stepped.measures.tobytes() == run.measures.tobytes()
-    assert stepped.wheelset_measures.tobytes() == run.wheelset_measures.tobytes()
+    ours, theirs = (stop_bits(each.measures, each.wheelset_measures) for each in (stepped, run))
+    assert ours == theirs
     for one, other in zip(stepped.trace, run.trace, strict=True):
         assert one.tobytes() == other.tobytes()
     memory_of_controller = {*run.car.dtype.names, *run.wheelsets.dtype.names} - own_states()
@@ -63,7 +65,8 @@ def assert_bits_of_run(case, outside, every):
 
 
 def test_every_shipped_stop_has_the_bits_of_run(scenarios, controller_outside):
-    for number, case in enumerate(scenarios):
+    alone = [case for case in scenarios if case.train is None]
+    for number, case in enumerate(alone):
         assert_bits_of_run(case, controller_outside, every=0 if number % 5 else 7)
 
 
@@ -81,7 +84,8 @@ def test_a_stop_ends_after_its_longest_duration(rig):
         steps += 1
     assert steps == 50
     run = run_to_end(compiled_stop(), inputs)
-    assert stop.finished().measures.tobytes() == run.measures.tobytes()
+    ours, theirs = (stop_bits(each.measures, each.wheelset_measures) for each in (stop.finished(), run))
+    assert ours == theirs
 
 
 def test_the_present_state_is_that_of_the_recording(rig):
