@@ -31,6 +31,7 @@ from .files import (
     may_be_scenario as may_be_scenario,
 )
 from .identifiers import (
+    CAR as CAR,
     LONGEST as LONGEST,
     case_id as case_id,
     controller_labels as controller_labels,

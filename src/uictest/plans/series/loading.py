@@ -10,6 +10,7 @@ from typing import Annotated, Any, Final, Literal, NamedTuple
 from pydantic import Field
 
 from uictest.plans.scenario import (
+    CAR,
     Case,
     Criteria,
     Files,
@@ -51,8 +52,16 @@ from uictest.plans.scenario.yaml import (
     require_schema,
     validated,
 )
+from uictest.plans.series.listing import (
+    Stop,
+    cars_of,
+    read_entry,
+    read_stops,
+    recorded_twice,
+    values_set_by,
+)
 from uictest.plans.series.model import DEFAULT_CRITERIA, Recorded, Series, SeriesFile
-from uictest.plans.series.stops import Stop, StopReader, read_entry, recorded_twice, values_set_by
+from uictest.plans.series.stops import StopReader
 
 _NOT_A_SERIES: Final = {
     SCENARIO_SCHEMA: "give a scenario a file name that does not end in .series.yaml",
@@ -90,13 +99,24 @@ def load_series(
     short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
     every: list[Series] = []
     for variant in variants:
-        name = case_id(file.name, variant, short, labels)
         own = [Override(each.key, each.value.key, (each.value.node,)) for each in variant]
-        stops = StopReader(name, file.criteria, files, common, [*own, *fixed]).stops(tree, file)
-        read = {shown: digest for stop in stops for shown, digest in stop.case.inputs.items()}
+        listed = read_stops(tree, file, files, common, [*own, *fixed])
+        cases = [case for each in listed for case in each.read.cases]
+        read = {shown: digest for case in cases for shown, digest in case.inputs.items()}
         parameters = {each.key: as_written(each.value.node) for each in variant}
-        every.append(Series(name, Path(display_name(path)), file, parameters, stops, {**inputs, **read}))
+        for car in _judged_cars(file, cars_of(listed)):
+            name = case_id(file.name, variant, short, labels, car)
+            stops = StopReader(name, file.criteria, car).stops(listed)
+            of_car = {**parameters, CAR: str(car)} if car else parameters
+            every.append(Series(name, Path(display_name(path)), file, of_car, stops, {**inputs, **read}))
     return every
+
+
+def _judged_cars(file: SeriesFile, cars: int) -> Sequence[int]:
+    """Return the numbers of the cars that have a series each, from 1; 0 stands for a car alone."""
+    if not cars:
+        return (0,)
+    return range(1, cars + 1) if file.cars == "all" else (1,)
 
 
 def _criteria(tree: Map, parts: Parts) -> tuple[tuple[Criteria, ...], tuple[Document, ...]]:

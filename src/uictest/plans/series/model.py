@@ -69,6 +69,9 @@ class SeriesFile(TestFile):
     )
     dry: StopsField = field("The reference: scenarios of dry stops, at least one for each initial speed.")
     wet: StopsField = field("Scenarios of stops on a slippery rail.")
+    cars: Literal["first", "all"] = field(
+        "The cars of trains that are judged: the first, or every car in a series of its own.", default="first"
+    )
     criteria: Annotated[tuple[Criteria, ...], PartReference(Criteria, DEFAULT_CRITERIA, several=True)] = (
         field("One profile of criteria or a list of them.")
     )

@@ -1,116 +1,43 @@
-"""Read lists of stops from the scenarios and the recordings that they name; and the stops of a series."""
+"""The stops of a series, as they are run, and what stops cannot be judged together."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Final, NamedTuple
 
 from uictest.core.series_measures import Rail
 from uictest.plans import scenario as scenarios
-from uictest.plans.scenario import LONGEST, Case, Criteria, Files, Override, Scenario, is_path, load_file
+from uictest.plans.scenario import LONGEST, Case, Criteria, Scenario
 from uictest.plans.scenario.yaml import (
     Diagnostic,
     Entry,
-    Map,
-    Node,
     Scalar,
     ScenarioErrors,
-    Sequence as List,
     diagnose,
-    entry_at,
     in_reading_order,
-    is_file,
     quoted,
     single_error,
 )
-from uictest.plans.series.model import PlannedStop, Recorded, Role, SeriesFile, Stops
+from uictest.plans.series.listing import ListedStops, recorded_twice
+from uictest.plans.series.model import PlannedStop
 
 
-def values_set_by(node: Node, *, swept: bool = True) -> Iterator[Override]:
-    """Yield what a file or one of its entries sets: `repeat`, then the keys under `set`.
-
-    With `swept`, every key is an axis, so that the ids of its stops name the values. Raises ScenarioErrors
-    for an empty list.
-    """
-    if not isinstance(node, Map):
-        return
-    if (repeat := node.entries.get("repeat")) is not None:
-        yield Override("repeat", repeat.key, (repeat.node,))
-    section = node.get("set")
-    for key, entry in section.entries.items() if isinstance(section, Map) else ():
-        values = entry.node.items if swept and isinstance(entry.node, List) else (entry.node,)
-        if not values:
-            raise single_error(entry.node.place, "an empty list makes no stop", f"set.{key}")
-        yield Override(key, entry.key, tuple(values), swept=swept)
+def _differences_of_trains(dry: Case, wet: Case) -> Iterator[str]:
+    """Yield what must be the same in both stops, for every car of a train, and is not: keys, quoted."""
+    for number, (one, other) in enumerate(zip(dry.cars, wet.cars, strict=True), start=1):
+        of_car = "" if wet.train is None else f" of car {number}"
+        yield from (f"{quoted(key)}{of_car}" for key in _differences_of_cars(one.scenario, other.scenario))
 
 
-class Stop(NamedTuple):
-    """What one entry of a list of stops names: a scenario, its cases, and recordings of them."""
-
-    reference: Scalar
-    cases: list[Case]
-    recorded: Recorded | None
-
-
-def read_entry(
-    node: Node, key: str, files: Files, common: Sequence[Override] = (), last: Sequence[Override] = ()
-) -> Stop:
-    """Return what an entry names, which may be the reference of a scenario alone. Raises ScenarioErrors.
-
-    `common` and `last` are set before and after what the entry sets; errors of the scenario are at `key`.
-    """
-    reference = node.get("scenario") if isinstance(node, Map) else node
-    assert isinstance(reference, Scalar)
-    path = files.scenario_beside(reference, key)
-    cases = load_file(path, [*common, *values_set_by(node), *last], files)
-    if any(case.train is not None for case in cases):
-        message = f"{quoted(reference.text)} is a train; a series runs cars alone"
-        raise single_error(reference.place, message, key)
-    listed = node.get("recordings") if isinstance(node, Map) else None
-    if not isinstance(listed, List) or not listed.items:
-        return Stop(reference, cases, None)
-    recorded = Recorded(tuple(_existing(each, files) for each in listed.items), _channel_map(node, files))
-    if len(cases) > 1:
-        message = f"recordings belong to one stop, the scenario has {len(cases)} cases"
-        raise single_error(reference.place, message, key, "give each its own entry, with `set`")
-    return Stop(reference, cases, recorded)
-
-
-def _existing(reference: Node, files: Files) -> Path:
-    assert isinstance(reference, Scalar)
-    path = files.path_of(reference, "recordings")
-    if not is_file(path):
-        raise single_error(reference.place, f"no such file: {quoted(reference.text)}", "recordings")
-    return path
-
-
-def _channel_map(node: Node, files: Files) -> str:
-    reference = node.get("map") if isinstance(node, Map) else None
-    if not isinstance(reference, Scalar):
-        return Stops.model_fields["map"].get_default()  # type: ignore[no-any-return]
-    return str(files.path_of(reference, "map")) if is_path(reference.text) else reference.text
-
-
-def recorded_twice(read: Iterable[tuple[Recorded | None, Node]]) -> Iterator[Diagnostic]:
-    """Yield every recording that is named before: one stop would count as two."""
-    seen: set[Path] = set()
-    for recorded, node in read:
-        for file in recorded.files if recorded else ():
-            if file.resolve() in seen:
-                message = f"{quoted(file.name)} is named twice"
-                yield diagnose(node.place, message, "recordings", "each recording is one stop")
-            seen.add(file.resolve())
-
-
-def _differences_of_train(dry: Scenario, wet: Scenario) -> Iterator[str]:
-    """Yield the keys of what must be the same in both stops and is not."""
+def _differences_of_cars(dry: Scenario, wet: Scenario) -> Iterator[str]:
     dry_discs, wet_discs = dry.brake.initial_disc_temperature, wet.brake.initial_disc_temperature
     for key, one, other in (
         ("vehicle", dry.vehicle, wet.vehicle),
         ("brake.command", dry.brake.command, wet.brake.command),
         ("brake.position", dry.brake.position, wet.brake.position),
+        ("brake.transmission", dry.brake.transmission, wet.brake.transmission),
+        ("coupler", dry.coupler, wet.coupler),
         ("brake.system", dry.brake.system, wet.brake.system),
         ("brake.pad", dry.brake.pad, wet.brake.pad),
         ("brake.disc_temperature", dry.brake.disc_temperature, wet.brake.disc_temperature),
@@ -122,40 +49,36 @@ def _differences_of_train(dry: Scenario, wet: Scenario) -> Iterator[str]:
             yield key
 
 
-_DECISIVE: Final = ("vehicle", "initial_speed", "brake", "rail", "rig", "controller", "faults", "simulation")
+_DECISIVE: Final = (
+    *("vehicle", "coupler", "initial_speed", "brake", "rail", "rig", "controller", "sanders", "faults"),
+    "simulation",
+)
 """Keys of a scenario that decide, with the seed, how the stop goes."""
 
 
 class StopReader(NamedTuple):
-    """Reads the stops of one series.
+    """Makes the stops of one series.
 
     Args:
         series: the id of the series, which the ids of its cases begin with.
         criteria: of the series; those that judge single stops are added to the scenarios.
-        files: that the series may read.
-        common: what the file sets for all stops; an entry may set it otherwise.
-        last: what holds for all stops, whatever their entry says.
+        car: that is judged where the stops are of trains, from 1.
 
     """
 
     series: str
     criteria: tuple[Criteria, ...]
-    files: Files
-    common: Sequence[Override]
-    last: Sequence[Override]
+    car: int
 
-    def stops(self, tree: Map, file: SeriesFile) -> tuple[PlannedStop, ...]:
+    def stops(self, listed: Sequence[ListedStops]) -> tuple[PlannedStop, ...]:
         """Return the stops, dry ones first. Raises ScenarioErrors with the errors of all entries."""
         diagnostics: list[Diagnostic] = []
         read: list[tuple[PlannedStop, Entry]] = []
-        roles: tuple[tuple[Role, tuple[Stops, ...]], ...] = (("dry", file.dry), ("wet", file.wet))
-        for role, entries in roles:
-            for number in range(len(entries)):
-                entry, _ = entry_at(tree, (role, number))
-                try:
-                    read += [(stop, entry) for stop in self._of_entry(role, entry)]
-                except ScenarioErrors as errors:
-                    diagnostics.extend(errors.diagnostics)
+        for each in listed:
+            try:
+                read += [(stop, each.entry) for stop in self._of_entry(each)]
+            except ScenarioErrors as errors:
+                diagnostics.extend(errors.diagnostics)
         if not diagnostics:
             diagnostics.extend(_repeated(read))
             diagnostics.extend(_not_to_standstill(read))
@@ -179,16 +102,19 @@ class StopReader(NamedTuple):
             scenario = stop.case.scenario
             judged = any(scenarios.applies_to(criterion, scenario) for criterion in of_k_wet)
             if stop.role == "wet" and scenario.rig.wsp == "active" and judged:
-                rig = scenario.rig.model_copy(update={"wsp": "bypassed"})
                 # Wheels lock: a stop that fails is nothing to record or to draw before others.
-                changed = scenario.model_copy(update={"rig": rig, "expect": "fail"})
+                changed = _bypassed(scenario).model_copy(update={"expect": "fail"})
                 name = f"{self.series}.bypassed.{stop.case.id.removeprefix(f'{self.series}.')}"
                 case = replace(stop.case, id=name[:LONGEST], scenario=changed)
+                if (place := stop.case.train) is not None:
+                    train = f"{self.series}.bypassed.{place.train.removeprefix(f'{self.series}.')}"
+                    cars = tuple(map(_bypassed, place.scenarios))
+                    case = replace(case, train=replace(place, train=train, scenarios=cars))
                 yield PlannedStop("bypassed", case, rail=stop.rail)
 
-    def _of_entry(self, role: Role, entry: Entry) -> Iterator[PlannedStop]:
-        read = read_entry(entry.node, role, self.files, self.common, self.last)
-        for case in read.cases:
+    def _of_entry(self, listed: ListedStops) -> Iterator[PlannedStop]:
+        role, _, read = listed
+        for case in listed.cases_of(self.car):
             rail: Rail = "uncleaned" if case.scenario.rail.cleaning_in_force is None else "cleaned"
             own = self._case(case, read.reference)
             yield PlannedStop(role, own, read.recorded, "" if role == "dry" else rail)
@@ -212,7 +138,18 @@ class StopReader(NamedTuple):
             raise single_error(reference.place, message, "name")
         # What is expected of the scenario alone, by its own criteria, says nothing about a stop of a series.
         judged_by = {"criteria": (*case.scenario.criteria, *further), "expect": "pass"}
-        return replace(case, id=name, scenario=case.scenario.model_copy(update=judged_by))
+        own_train = f"{self.series}.{case.train.train}" if case.train is not None else ""
+        return replace(
+            case,
+            id=name,
+            scenario=case.scenario.model_copy(update=judged_by),
+            # Neighbours with the same train run at once: those of other series are none of it.
+            train=None if case.train is None else replace(case.train, train=own_train),
+        )
+
+
+def _bypassed(scenario: Scenario) -> Scenario:
+    return scenario.model_copy(update={"rig": scenario.rig.model_copy(update={"wsp": "bypassed"})})
 
 
 def _repeated(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
@@ -263,7 +200,7 @@ def _seeds(stop: PlannedStop) -> set[int]:
 
 def _conditions(stop: PlannedStop) -> list[object]:
     """Return what decides how a stop goes, besides its seed."""
-    return [getattr(stop.case.scenario, key) for key in _DECISIVE]
+    return [getattr(car.scenario, key) for car in stop.case.cars for key in _DECISIVE]
 
 
 def _unmatched(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
@@ -277,6 +214,6 @@ def _unmatched(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic
             speeds = ", ".join(dict.fromkeys(each.case.scenario.initial_speed.text for each in others))
             yield diagnose(entry.node.place, message, stop.role, f"there are such from {speeds}")
         elif stop.role == "wet":
-            for key in _differences_of_train(same_speed[0].case.scenario, stop.case.scenario):
-                message = f"{quoted(stop.case.id)} and the dry stop from {shown} differ in {quoted(key)}"
+            for key in _differences_of_trains(same_speed[0].case, stop.case):
+                message = f"{quoted(stop.case.id)} and the dry stop from {shown} differ in {key}"
                 yield diagnose(entry.node.place, message, "wet", "the reference is of the same train")

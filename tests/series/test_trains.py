@@ -1,0 +1,157 @@
+"""Series of trains: the cars that are judged, and what is refused."""
+
+import pytest
+
+from uictest.judging import series as judging
+from uictest.plans import series
+from uictest.plans.scenario import ScenarioErrors
+from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
+
+PAIR = "dry: dry.yaml\nwet: wet.yaml\n"
+SCENARIO = """
+schema: uictest/scenario/1
+name: {name}
+initial_speed: 40 km/h
+rail: {rail}
+criteria: uictest-stop
+{more}
+"""
+RAILS = {"dry": "{condition: dry}", "wet": "{condition: wet, friction: 0.04}"}
+TRAIN = "train: [{vehicle: intercity-180}, {vehicle: crh380a}]"
+BAD_CAR = "train: [{}, {rig: {wsp: bypassed}}]"
+PROFILE = """
+schema: uictest/criteria/1
+name: own
+title: Own
+sources: {own: {mark: chosen, text: of this test}}
+criteria:
+  - {id: rolls, source: own, layer: requirement, scope: series, measure: worst_locked_time,
+     upper: {value: 10 s, source: own}}
+  - {id: k-wet, source: own, layer: requirement, scope: series, measure: k_wet,
+     lower: {value: 0.1, source: own}}
+"""
+
+
+@pytest.fixture
+def of_trains(write, load):
+    """Load a series whose scenarios say this of the train, or of the car alone."""
+
+    def read(more, text="", wet=None):
+        write("own.yaml", PROFILE)
+        for name, rail in RAILS.items():
+            own = wet if wet is not None and name == "wet" else more
+            write(f"{name}.yaml", SCENARIO.format(name=name, rail=rail, more=own))
+        return load(f"{PAIR}criteria: own.yaml\n{text}")
+
+    return read
+
+
+def judged(planned):
+    settings = RunSettings(recording=RecordingRequest("none"))
+    return judging.judge_results(planned, run_cases(planned.cases, settings).whole())
+
+
+def refusal(read, *arguments):
+    with pytest.raises(ScenarioErrors) as caught:
+        read(*arguments)
+    return [(each.key, each.message) for each in caught.value.diagnostics]
+
+
+def test_the_first_car_is_judged_unless_all_are(of_trains):
+    (first,) = of_trains(TRAIN)
+    assert (first.id, first.parameters) == ("campaign[car=1]", {"car": "1"})
+    assert {stop.case.train.number for stop in first.stops} == {1}
+    of_all = of_trains(TRAIN, "cars: all\n")
+    assert [each.id for each in of_all] == ["campaign[car=1]", "campaign[car=2]"]
+    for number, each in enumerate(of_all, start=1):
+        assert {stop.case.train.number for stop in each.stops} == {number}
+        assert {len(stop.case.cars) for stop in each.stops} == {2}
+
+
+def test_series_of_a_matrix_have_their_cars_each(of_trains):
+    planned = of_trains(TRAIN, "cars: all\nmatrix: {controller: [threshold, slip-band]}\n")
+    assert [each.id for each in planned] == [
+        f"campaign[controller={name},car={car}]" for name in ("threshold", "slip-band") for car in (1, 2)
+    ]
+
+
+def test_the_wsp_of_every_car_is_bypassed_in_the_stop_that_k_wet_is_compared_with(of_trains):
+    (planned,) = of_trains(TRAIN)
+    _, wet, bypassed = planned.stops
+    assert [car.scenario.rig.wsp for car in wet.case.cars] == ["active"] * 2
+    assert [car.scenario.rig.wsp for car in bypassed.case.cars] == ["bypassed"] * 2
+    assert bypassed.role == "bypassed"
+
+
+def test_stops_run_at_once_only_with_cars_of_their_own_train(of_trains):
+    planned = of_trains(TRAIN, "cars: all\nmatrix: {controller: [threshold, slip-band]}\n")
+    trains = [stop.case.train.train for each in planned for stop in each.stops]
+    assert len(set(trains)) == len(trains) == 4 * 3
+
+
+def test_a_series_of_a_train_of_one_car_is_the_series_of_the_car(of_trains):
+    def figures(more):
+        (planned,) = of_trains(more)
+        result = judged(planned)
+        stops = [[each.case.measures, each.case.wheelsets] for each in result.cases]
+        shown = [
+            stops,
+            result.measures,
+            result.criteria,
+            result.outcome,
+            result.bypassed_k_wet,
+            result.speeds,
+        ]
+        return repr(shown).replace("[car=1]", "")  # NaN, which equals nothing, is text here
+
+    assert figures("train: [{vehicle: crh380a}]") == figures("vehicle: crh380a")
+
+
+def test_a_bad_car_fails_where_all_are_judged(of_trains):
+    results = list(map(judged, of_trains(BAD_CAR, "cars: all\n")))
+    verdicts = [{each.verdict.id: each.verdict.status for each in result.criteria} for result in results]
+    assert [each["rolls"] for each in verdicts] == ["pass", "fail"]
+    assert [result.met for result in results] == [True, False]
+    assert [each.case.train.label for each in results[1].cases] == ["car 2 of 2"] * 2
+
+
+def test_every_car_of_the_reference_is_that_of_the_wet_stop(of_trains):
+    shown = "'campaign[car=1].wet[car=1]' and the dry stop from 40 km/h differ in {}".format
+    other = "train: [{vehicle: intercity-180}, {}]"
+    assert refusal(of_trains, TRAIN, "", other) == [("wet", shown("'vehicle' of car 2"))]
+    coupled = f"{TRAIN}\ncoupler: {{stiffness: 2 MN/m}}"
+    assert refusal(of_trains, TRAIN, "", coupled) == [
+        ("wet", shown(f"'coupler' of car {car}")) for car in (1, 2)
+    ]
+    piped = f"{TRAIN}\nbrake: {{transmission: {{pipe: 250 m/s}}}}"
+    assert ("wet", shown("'brake.transmission' of car 1")) in refusal(of_trains, TRAIN, "", piped)
+
+
+def test_all_stops_are_of_trains_of_one_length(of_trains):
+    longer = "train: [{count: 3}]"
+    assert refusal(of_trains, TRAIN, "", longer) == [
+        ("wet", "'wet[car=1]' is of a train of 3, 'dry[car=1]' of a train of 2")
+    ]
+    assert refusal(of_trains, TRAIN, "", "vehicle: crh380a") == [
+        ("wet", "'wet' is a car alone, 'dry[car=1]' of a train of 2")
+    ]
+
+
+@pytest.mark.parametrize(
+    ("more", "text", "key", "message"),
+    [
+        ("vehicle: crh380a", "cars: all\n", "cars", "the stops are of cars alone"),
+        (TRAIN, "firm: true\n", "firm", "how firm verdicts are is not known of trains"),
+    ],
+)
+def test_what_does_not_go_with_trains_or_without(of_trains, more, text, key, message):
+    assert refusal(of_trains, more, text) == [(key, message)]
+
+
+def test_recordings_are_of_one_car(of_trains, write):
+    (planned,) = of_trains(TRAIN)
+    recorded = "dry: {scenario: dry.yaml, recordings: [a.csv]}\nwet: wet.yaml\n"
+    write("recorded.series.yaml", f"schema: uictest/series/1\nname: recorded\n{recorded}")
+    assert refusal(series.load_series, planned.path.with_name("recorded.series.yaml")) == [
+        ("dry", "'dry.yaml' is a train; recordings are of one car")
+    ]
