@@ -15,9 +15,10 @@ from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 
 
 def test_every_parameter_of_every_shipped_case_is_a_number(scenarios, rig):
-    for case in scenarios:
+    # A sander of a fixed rate has no largest density; a car of a train is assembled with its train.
+    for case in (case for case in scenarios if case.train is None):
         parameters, wheelset_parameters, rail, *_ = assemble(case)
-        endless = {name for name in PARAMETERS.names or () if name.startswith("fault_")}
+        endless = {name for name in PARAMETERS.names or () if name.startswith(("fault_", "sander_densities"))}
         finite = set(PARAMETERS.names or ()) - endless
         assert all(np.isfinite(parameters[name]).all() for name in finite)
         assert not any(np.isnan(parameters[name]).any() for name in endless)
@@ -110,7 +111,7 @@ def test_caliper_is_stiffened_by_its_damping_within_a_step(rig, step):
 def test_a_force_changes_speed_rotation_and_slip_within_a_step(rig, step):
     p = rig.parameters(f"simulation.time_step={step} ms")[0]
     assert p.mass_response == pytest.approx(1e-3 * step / p.wheelset_mass)
-    assert p.inertia_response == pytest.approx(1e-3 * step / p.wheelset_inertia)
+    assert p.inertia_response == pytest.approx(1e-3 * step / p.rotational_inertia)
     assert p.slip_response == pytest.approx(p.mass_response + p.wheel_radius**2 * p.inertia_response)
     inverses = (
         p.inertia_response * p.inertia_stiffness,
