@@ -8,9 +8,10 @@ from uictest.core.measures.catalogue.deceleration import initial_adhesion
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.lanes import run_in_lanes
+from uictest.rig.backends.train_lanes import run_trains_in_lanes
 from uictest.rig.coupled_cars import run_coupled
 from uictest.rig.external.in_process import run_in_process
-from uictest.rig.train_inputs import Coupling
+from uictest.rig.train_inputs import Coupling, assemble_train
 
 EMERGENCY = "brake.position=emergency"
 AT_ONCE = "delay: 0 s, rise_time: 1 ms"
@@ -182,6 +183,23 @@ def test_what_the_magnets_slow_is_no_adhesion_of_wheels(rig):
     stops = [rig.stop(*overrides, position).measures for position in ("brake.position=R", EMERGENCY)]
     assert initial_adhesion(stops[0], 3.0).unavailable_reason == ""
     assert "track brake acted" in initial_adhesion(stops[1], 3.0).unavailable_reason
+
+
+def test_what_magnets_of_another_car_slow_is_no_adhesion_of_wheels_either(rig):
+    slippery = (*SLIPPERY, "initial_speed=60 km/h", EMERGENCY)
+    never = "faults=[{at: 0 s, part: track-brake, kind: failed}]"
+    without, with_one, failed = (rig.case(*slippery, *more) for more in ((), (TO_REST,), (TO_REST, never)))
+    for cars, unavailable in (
+        ([without, without], [False, False]),
+        ([without, with_one, failed], [True, True, True]),
+        ([without, failed], [False, False]),
+    ):
+        coupling = Coupling(distance=25.0)
+        train = [each.measures for each in run_coupled(cars, coupling).cars]
+        reasons = [initial_adhesion(each, 3.0).unavailable_reason for each in train]
+        assert ["track brake" in reason for reason in reasons] == unavailable
+        (lanes,) = run_trains_in_lanes([assemble_train(cars, coupling)])
+        assert [each.tobytes() for each in lanes.measures] == [each.tobytes() for each in train]
 
 
 def test_stops_without_one_have_neither_energy_nor_time(rig):

@@ -161,5 +161,5 @@ def test_every_car_names_what_all_of_its_train_was_read_from(tmp_path, cases):
 
 def test_a_controller_from_outside_is_refused(tmp_path, cases):
     (tmp_path / "wsp.py").write_text("class W:\n    def step(self, inputs, outputs): ...\n", "utf-8")
-    with pytest.raises(ScenarioErrors, match=r"train.1.controller: .* is a controller from outside"):
+    with pytest.raises(ScenarioErrors, match=r"train\.1\.controller: .* is a controller from outside"):
         cases("train: [{}, {controller: {python: wsp.py, class: W}}]\n")

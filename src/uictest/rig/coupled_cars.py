@@ -14,6 +14,7 @@ from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.single_stop import FinishedStop, rows_of_trace
 from uictest.rig.train_inputs import Coupling, assemble_train
+from uictest.rig.train_measures import note_track_brakes_beside
 
 
 class CouplerPeaks(NamedTuple):
@@ -71,6 +72,7 @@ def run_coupled(
         *(*records, parameters, of_wheelsets.reshape(-1), distances, couplers, rail),
         *(np.zeros(n, RAIL_MEMORY), measures, of_each, samples, wheelset_samples, steps_per_sample),
     )
+    note_track_brakes_beside(measures)
     finished = tuple(
         FinishedStop(
             measures[j],

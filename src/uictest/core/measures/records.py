@@ -64,6 +64,7 @@ class StopMeasures(Record):
     held_time: float  # for which traction has held the speed of a drag, s
     track_brake_energy: float  # that the track brake turned into heat, where there is one, J
     track_brake_time: float  # for which it acted, s
+    track_brake_time_beside: float  # for which those of other cars of its train acted, the longest, s
     fault_time: float  # first cycle with a fault while the train moves, s
     reference_excess: float  # largest, of the controller's estimate over the train's speed since then, m/s
     has_diagnosis: float  # 1 where the controller can report something, else 0; NaN where that is not known

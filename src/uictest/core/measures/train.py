@@ -35,6 +35,7 @@ def begin_train(
     measures.air_consumed = NAN
     measures.track_brake_energy = NAN
     measures.track_brake_time = NAN
+    measures.track_brake_time_beside = NAN
     measures.energy_residual = NAN
     measures.air_residual = NAN
     measures.air_energy_residual = NAN

@@ -17,6 +17,7 @@ from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import RAIL_MEMORY, ROWS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.rig.train_inputs import TrainInputs
+from uictest.rig.train_measures import note_track_brakes_beside
 
 _ARGUMENTS: Final = 24
 """How many arguments the compiled loop over a queue of trains has."""
@@ -65,6 +66,7 @@ def run_trains_in_lanes(trains: Sequence[TrainInputs], width: int | None = None)
         numbers = [number for number, other in enumerate(kinds) if other == kind]
         batch = _batch([trains[number] for number in numbers])
         _run_queue(batch, width or register_width())
+        note_track_brakes_beside(batch.measures)
         for place, number in enumerate(numbers):
             done[number] = TrainMeasures(
                 batch.measures[:, place].copy(),

@@ -42,10 +42,15 @@ def initial_adhesion(stop: StopMeasures, first_phase_duration: float) -> Measure
 
     v is known at whole seconds after the first sliding and taken as linear between them. There is no value
     where no wheelset slid, or where the train stood or the record ended before the phase was over: the phase
-    would then not be one of sliding at all. Nor is there one where a track brake slowed the train as well.
+    would then not be one of sliding at all. Nor is there one where a track brake slowed the train as well,
+    be it that of another car.
     """
     if stop.track_brake_time > 0.0:
         return unavailable("the track brake acted, so the deceleration is not that of the wheels' adhesion")
+    if stop.track_brake_time_beside > 0.0:
+        return unavailable(
+            "the track brake of another car acted, so the deceleration is not that of the wheels' adhesion"
+        )
     if not math.isfinite(stop.sliding_time):
         return unavailable("no wheelset slid, so the first phase has no beginning")
     at_start = float(stop.speed_after_sliding[0])
