@@ -124,6 +124,10 @@ def test_what_changes_in_a_train_changes_in_all_of_its_cars(cases):
         ("train: [{}]\nfirm: true\n", ["7:7: firm: how firm verdicts are is not known of trains"]),
         ("coupler: {damping: 1 MN s/m}\n", ["6:1: coupler: only a train has it"]),
         ("brake: {transmission: wire}\n", ["6:9: brake.transmission: only a train has it"]),
+        (
+            "train: [{}, {}]\ncoupler: {stiffness: 0 N/m}\n",
+            ["7:22: coupler.stiffness: 0 N/m is out of range: it must be at least 100 kN/m"],
+        ),
         ("train: [{}]\ncoupler: {slack: 2 mm}\n", ["7:11: coupler.slack: unknown key 'slack'"]),
         (
             "train: [{count: 2}]\nbrake: {transmission: {pipe: 250}}\n",

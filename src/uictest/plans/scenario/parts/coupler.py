@@ -18,9 +18,10 @@ class Coupler(Model):
         default="26.4 m",
     )
     stiffness: Quantity = quantity(
-        "Stiffness of a coupler; the default is that of open data of an eight-car unit.",
+        "Stiffness of a coupler; the default is that of open data of an eight-car unit. The least is chosen:"
+        " one much softer lets cars run through each other.",
         "stiffness",
-        "0 N/m .. 100 MN/m",
+        "100 kN/m .. 100 MN/m",
         default="5 MN/m",
     )
     damping: Quantity = quantity(
