@@ -64,7 +64,7 @@ def test_gaps_are_intervals_of_more_than_two_and_a_half_usual_ones_and_slower_th
 
 @pytest.mark.parametrize(("interval", "coarse"), [(0.25, False), (0.26, True)])
 def test_samples_a_quarter_of_a_second_apart_are_the_last_that_show_all(interval, coarse):
-    assert len(list(coarse_defects(interval * np.arange(100), "speed"))) == coarse
+    assert len(list(coarse_defects(interval, "speed"))) == coarse
 
 
 TIME = np.linspace(0.0, 10.0, 1001)

@@ -56,7 +56,7 @@ def table(kinds, seed=0):
     return columns | {f"wheel_speed_{n}": speed + noise for n in (1, 2, 3, 4)}
 
 
-UNITS = {"time": "s", "brake_command": "1", "brake_line_pressure": "Pa"}
+UNITS = {"time": "s", "brake_command": "1", "brake_line_pressure": "Pa", "reservoir_pressure": "Pa"}
 STATED = [
     word
     for condition in ("rail.condition=dry", "brake.position=R", "rig.wsp=active", "criteria=uictest-stop")
@@ -65,12 +65,55 @@ STATED = [
 
 
 def written(columns, path):
+    if path.suffix == ".mf4":
+        return written_mdf([columns], path)
+    if path.suffix == ".tdms":
+        return written_tdms([columns], path)
     names = [f"{name} [{UNITS.get(name, 'm/s')}]" for name in columns]
     if path.suffix == ".csv":
         csv.write_csv(pa.table(list(columns.values()), names=names), path)
         return path
     fields = [pa.field(name, pa.float64(), metadata={"unit": UNITS.get(name, "m/s")}) for name in columns]
     parquet.write_table(pa.table(list(columns.values()), schema=pa.schema(fields)), path)
+    return path
+
+
+def written_mdf(groups, path):
+    """Write groups of columns, each over the time that it has."""
+    asammdf = pytest.importorskip("asammdf")
+    with asammdf.MDF(version="4.10") as mdf:
+        for columns in groups:
+            time, *others = columns.items()
+            signals = [
+                asammdf.Signal(v, time[1], name=name, unit=UNITS.get(name, "m/s")) for name, v in others
+            ]
+            mdf.append(signals, common_timebase=True)
+        mdf.save(path, compression=2)
+    return path
+
+
+def written_tdms(groups, path, rows=1000):
+    """Write groups of columns in many segments; of several groups each states its raster."""
+    nptdms = pytest.importorskip("nptdms")
+    with nptdms.TdmsWriter(path) as writer:
+        for number, columns in enumerate(groups):
+            time = columns["time"]
+            raster = {"wf_start_offset": float(time[0]), "wf_increment": float(time[1] - time[0])}
+            for first in range(0, len(time), rows):
+                objects = [
+                    nptdms.ChannelObject(
+                        f"g{number}",
+                        name,
+                        samples[first : first + rows],
+                        properties={
+                            "unit_string": UNITS.get(name, "m/s"),
+                            **(raster if len(groups) > 1 else {}),
+                        },
+                    )
+                    for name, samples in columns.items()
+                    if name != "time" or len(groups) == 1
+                ]
+                writer.write_segment(objects)
     return path
 
 
@@ -92,12 +135,66 @@ def test_every_stop_is_found_and_none_invented(tmp_path_factory, kinds, seed):
     assert all(text in event.reason for text, event in zip(expected, log.passed_over, strict=True))
 
 
-@pytest.mark.parametrize("suffix", ["csv", "parquet"])
-def test_both_formats_give_the_same_places(tmp_path, suffix):
+@pytest.fixture(name="small_pieces")
+def _small_pieces(monkeypatch):
+    """Pieces of a minute and a half, as if the logs of these tests were long."""
+    monkeypatch.setattr("uictest.core.recording.formats.pieces._ROWS", 900)
+    monkeypatch.setattr("uictest.core.recording.formats.pieces._BLOCK", 900 * 60)
+    monkeypatch.setattr("uictest.core.recording.formats.streams._ROWS", 900)
+    monkeypatch.setattr("uictest.core.recording.formats.streams._BYTES", 900 * 60)
+
+
+@pytest.mark.parametrize("suffix", ["csv", "parquet", "mf4", "tdms"])
+def test_every_format_gives_the_same_places(tmp_path, small_pieces, suffix):
     log = find_stops([written(table(["stop", "drag", "stop"]), tmp_path / f"log.{suffix}")], MAP)
     assert [event.row for event in log.stops] == [100, 500 + 800 + 100]
     assert [event.time for event in log.stops] == pytest.approx([10.0, 140.0])
     assert log.stops[0].distance == pytest.approx(300.0, rel=0.01)
+    columns = table(["stop", "drag", "stop"])
+    for event, path in zip(log.stops, write_stops(log, MAP, tmp_path / "stops"), strict=True):
+        stop = parquet.read_table(path)
+        assert stop["wheel_speed_3"].to_numpy() == pytest.approx(columns["wheel_speed_3"][slice(*event.rows)])
+
+
+@pytest.mark.parametrize(("write", "name"), [(written_mdf, "log.mf4"), (written_tdms, "log.tdms")])
+def test_groups_with_times_of_their_own_lie_over_the_train_speed(tmp_path, small_pieces, write, name):
+    columns = table(["stop", "drag", "stop"])
+    fast = {name: columns[name] for name in ("time", "speed")}
+    slow = {name: columns[name][::2] for name in ("time", *(f"wheel_speed_{n}" for n in (1, 2, 3, 4)))}
+    finest = STEP / 4 * np.arange(4 * len(columns["time"]))
+    brake = {"time": finest, "brake_command": np.repeat(columns["brake_command"], 4)}
+    coarse = {"time": finest[::40], "reservoir_pressure": 6e5 + 10.0 * finest[::40]}
+    log = find_stops([write([slow, brake, coarse, fast], tmp_path / name)], MAP)
+    assert [event.row for event in log.stops] == [100, 1400]
+    (_, path) = write_stops(log, MAP, tmp_path / "stops")
+    stop = parquet.read_table(path)
+    begin, end = log.stops[1].rows
+    assert stop["wheel_speed_1"].to_numpy()[::2] == pytest.approx(
+        slow["wheel_speed_1"][begin // 2 : (end + 1) // 2]
+    )
+    assert stop["reservoir_pressure"].to_numpy() == pytest.approx(6e5 + STEP * 10.0 * np.arange(begin, end))
+    defects = [str(defect) for defect in stop_in(path, MAP).defects if defect.kind == "coarse"]
+    assert defects == [
+        "coarse: reservoir_pressure is sampled every 1 s; at most 0.25 s shows all that happens"
+    ]
+
+
+def test_groups_whose_times_go_back_are_refused(tmp_path):
+    columns = table(["stop"])
+    columns["time"][200:] -= 10.0
+    groups = [{k: columns[k] for k in ("time", "speed")}, {k: columns[k] for k in ("time", "brake_command")}]
+    with pytest.raises(UnreadableError, match=r"log\.mf4: the times of group '' go back"):
+        find_stops([written_mdf(groups, tmp_path / "log.mf4")], MAP)
+
+
+# The destructor of asammdf fails for a file that it could not open.
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+@pytest.mark.parametrize("suffix", ["mf4", "tdms"])
+def test_a_damaged_file_is_said(tmp_path, suffix):
+    path = written(table(["stop"]), tmp_path / f"log.{suffix}")
+    path.write_bytes(path.read_bytes()[:2000])
+    with pytest.raises((UnreadableError, MapError), match=rf"log\.{suffix}: "):
+        find_stops([path], MAP)
 
 
 @pytest.mark.parametrize("step", [-500.0, 4000.0])

@@ -59,7 +59,7 @@ def log(
     quiet: options.Quiet = False,
     verbose: options.Verbose = False,
 ) -> ExitCode:
-    """Find the stops in long recordings (CSV, Parquet) and judge each. Several files are one log.
+    """Find the stops in long recordings and judge each. Several files are one log.
 
     Conditions are stated as for 'evaluate'. Applications of the brake that are no stops are listed with the
     reason. Reports and exit codes are those of 'run'; 5 where there is no stop.
@@ -171,7 +171,7 @@ def _stops(
     try:
         found = service_log.find_stops(paths, mapped, settings)
         return found, service_log.write_stops(found, mapped, place)
-    except (formats.UnreadableError, field_data.MapError) as error:
+    except (formats.UnreadableError, formats.MissingExtraError, field_data.MapError) as error:
         raise runs.InvalidInputError(str(error)) from error
     except OSError as error:
         raise runs.InvalidInputError(f"{error.filename}: {error.strerror or error}") from error

@@ -16,6 +16,7 @@ from .plausibility import (
 from .recording import (
     BRAKE_COMMAND_TIME as BRAKE_COMMAND_TIME,
     ORIGIN as ORIGIN,
+    SAMPLE_INTERVALS as SAMPLE_INTERVALS,
     TIME as TIME,
     Contents as Contents,
     Group as Group,

@@ -106,6 +106,9 @@ TIME = "time"
 BRAKE_COMMAND_TIME = "brake_command_time"
 """Metadata key of the time of the brake command, in the recording's time, e.g. `0 s`."""
 
+SAMPLE_INTERVALS = "sample_intervals"
+"""Metadata key of channels with a time of their own before they were cut out: JSON, name -> interval in s."""
+
 ORIGIN = "origin"
 """Metadata key of what was recorded: a train, a test rig or a simulation."""
 

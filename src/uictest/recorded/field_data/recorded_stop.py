@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from uictest.core.recording import TIME, Recording
+from uictest.core.recording import SAMPLE_INTERVALS, TIME, Recording
 from uictest.core.recording.formats import read_contents
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.recorded.field_data.channel_map import CHANNEL_UNITS, ChannelMap, Preparation
-from uictest.recorded.field_data.raw_channels import Array, RawChannel, select_channels, with_valve_commands
+from uictest.recorded.field_data.raw_channels import (
+    Array,
+    MapError,
+    RawChannel,
+    select_channels,
+    with_valve_commands,
+)
 from uictest.recorded.field_data.sensor_defects import analogue_defects, distance_defects, speed_defects
 from uictest.recorded.field_data.time_axis import (
     Defect,
@@ -106,7 +113,8 @@ def prepare(
     """
     ordered, defects = _ordered(channels)
     raster = max(float(preparation.raster), usual_interval(ordered["speed"].time))
-    defects += _sampling_defects(ordered, raster)
+    stated = _stated_intervals(metadata, ordered)
+    defects += _sampling_defects(ordered, raster, stated)
     plausible, implausible = _without_implausible(ordered)
     defects += implausible
     if not np.isfinite(plausible["speed"].samples).any():
@@ -126,7 +134,7 @@ def prepare(
         "filter": _filter_text(preparation, plausible, filtered),
         "sampling": f"speed every {1e3 * usual_interval(speed.time):.6g} ms",
     }
-    intervals = {name: usual_interval(channel.time) for name, channel in filtered.items()}
+    intervals = {name: stated.get(name, usual_interval(channel.time)) for name, channel in filtered.items()}
     return RecordedStop(recording, trigger, standstill, tuple(defects), choices, intervals)
 
 
@@ -161,10 +169,21 @@ def _ordered(channels: Mapping[str, RawChannel]) -> tuple[Channels, list[Defect]
     return {name: ordered[name] for name in channels if name in ordered}, defects
 
 
-def _sampling_defects(channels: Channels, raster: float) -> Iterator[Defect]:
+def _stated_intervals(metadata: Mapping[str, str], channels: Channels) -> dict[str, float]:
+    """Return how far apart the samples were from which a file has channels interpolated, s."""
+    try:
+        stated = json.loads(metadata.get(SAMPLE_INTERVALS, "{}"))
+        return {name: float(stated[name]) for name in channels if name in stated}
+    except (ValueError, TypeError) as error:
+        raise MapError(f"{SAMPLE_INTERVALS} in the header of the file: write seconds by channel") from error
+
+
+def _sampling_defects(channels: Channels, raster: float, stated: dict[str, float]) -> Iterator[Defect]:
     for axis in by_axis(channels.values()):
         yield from gap_defects(axis[0].time, _names(axis), raster)
-        yield from coarse_defects(axis[0].time, _names(axis))
+        yield from coarse_defects(usual_interval(axis[0].time), _names(axis))
+    for name, interval in stated.items():
+        yield from coarse_defects(interval, name)
     for channel in channels.values():
         yield from missing_samples(channel)
 

@@ -108,9 +108,8 @@ def is_coarse(interval: float) -> bool:
     return interval > _COARSEST * (1.0 + 1e-6)
 
 
-def coarse_defects(time: Array, names: str) -> Iterator[Defect]:
-    """Yield a sampling interval that can miss a locked wheelset or a venting valve."""
-    interval = usual_interval(time)
+def coarse_defects(interval: float, names: str) -> Iterator[Defect]:
+    """Yield a sampling interval, s, that can miss a locked wheelset or a venting valve."""
     if is_coarse(interval):
         yield Defect(
             "coarse",

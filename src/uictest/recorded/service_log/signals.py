@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.recording import Contents
-from uictest.core.recording.formats import UnreadableError, read_pieces
-from uictest.recorded.field_data import ChannelMap, MapError, RawChannel, of_wheelsets, select_channels
+from uictest.core.recording.formats import UnreadableError
+from uictest.recorded.field_data import ChannelMap, MapError, RawChannel, of_wheelsets
+from uictest.recorded.service_log.channels import pieces_of
 
 Array = NDArray[np.float64]
 WHEELS = of_wheelsets("wheel_speed")
 _COMMAND, _DEMAND, _LINE = ("brake_command",), ("demanded_pressure",), ("brake_line_pressure",)
 _CYLINDERS = of_wheelsets("cylinder_pressure")
+_NEEDED = (*WHEELS, *_COMMAND, *_DEMAND, *_LINE, *_CYLINDERS)
 SHOWN_BY: Final = {
     "auto": (_COMMAND, _DEMAND, _LINE, _CYLINDERS),
     "command": (_COMMAND,),
@@ -71,8 +71,8 @@ def read_signals(files: Sequence[Path], channel_map: ChannelMap) -> Signals:
     first_rows = [0]
     for path in files:
         try:
-            pieces = channels_of(path, channel_map, finder_only=True)
-            rows = [_rows(channels, channel_map.preparation.trigger) for channels in pieces]
+            pieces = pieces_of(path, channel_map, _NEEDED)
+            rows = [_rows(piece.channels, channel_map.preparation.trigger) for piece in pieces]
         except (UnreadableError, MapError) as error:
             raise type(error)(f"{path}: {error}") from error
         if not rows:
@@ -83,47 +83,6 @@ def read_signals(files: Sequence[Path], channel_map: ChannelMap) -> Signals:
     time, train, wheels, braked = (np.concatenate(column) for column in zip(*columns, strict=True))
     speed = _reference_speed(continuous_clock(time), train, wheels)
     return Signals(time, speed, braked > 0.0, ~np.isfinite(train), files, first_rows)
-
-
-def channels_of(path: Path, channel_map: ChannelMap, *, finder_only: bool) -> Iterator[dict[str, RawChannel]]:
-    """Yield the channels of a file in SI, piece by piece: those of the finder or all.
-
-    A later piece with implausible numbers gets channels of NaN: the clock runs on, nothing is believed.
-    """
-    sources = channel_map.sources()
-    needed = (
-        ("time", "speed", *WHEELS, *_COMMAND, *_DEMAND, *_LINE, *_CYLINDERS)
-        if finder_only
-        else tuple(sources)
-    )
-    names = {alias for name in needed if name in sources for alias in sources[name].source}
-    known: dict[str, RawChannel] = {}
-    for contents in read_pieces(path, channel_map.dialect, names):
-        try:
-            yield (known := select_channels(contents, channel_map, math.inf))
-        except MapError:
-            if not known:
-                raise
-            yield _without_implausible(contents, channel_map, known)
-
-
-def _without_implausible(
-    contents: Contents, channel_map: ChannelMap, known: dict[str, RawChannel]
-) -> dict[str, RawChannel]:
-    """Return the channels of a piece, those of NaN that cannot be read."""
-    kept: dict[str, RawChannel] = {}
-    group = contents.groups[0]
-    for name, channel in known.items():
-        others = {each.source for other, each in known.items() if other not in (name, "speed")}
-        reduced = replace(group, channels={k: v for k, v in group.channels.items() if k not in others})
-        try:
-            kept[name] = select_channels(Contents((reduced,)), channel_map, math.inf)[name]
-        except (MapError, KeyError):
-            kept[name] = replace(channel, samples=np.full(len(group), np.nan))
-    times = [each.time for each in kept.values() if len(each.time) == len(group)]
-    if not times:
-        raise MapError("a piece of the log has neither a usable time nor a usable speed")
-    return {name: replace(channel, time=times[0]) for name, channel in kept.items()}
 
 
 def _rows(channels: dict[str, RawChannel], trigger: str) -> tuple[Array, ...]:

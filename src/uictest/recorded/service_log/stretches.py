@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from uictest.core import files, recording
-from uictest.core.recording import BRAKE_COMMAND_TIME
-from uictest.recorded.field_data import CHANNEL_UNITS, ChannelMap, RawChannel
+from uictest.core.recording import BRAKE_COMMAND_TIME, SAMPLE_INTERVALS
+from uictest.recorded.field_data import CHANNEL_UNITS, ChannelMap
+from uictest.recorded.service_log.channels import Piece, pieces_of
 from uictest.recorded.service_log.finder import Log, LoggedEvent
-from uictest.recorded.service_log.signals import WHEELS, Array, channels_of
+from uictest.recorded.service_log.signals import WHEELS, Array
 
 _SIGNED = ("speed", "distance", *WHEELS)
 
@@ -21,37 +24,46 @@ def write_stops(log: Log, channel_map: ChannelMap, folder: Path) -> list[Path]:
 
     Raises UnreadableError, MapError, OSError.
     """
-    pending: dict[int, list[dict[str, Array]]] = {}
+    pending: dict[int, list[_Part]] = {}
     written: list[Path] = []
     following = 0
     files.make_folder(folder)
     for first, piece in _pieces(log, channel_map):
-        end = first + len(piece["time"])
+        end = first + len(piece)
         for k in range(following, len(log.stops)):
             begin, last = log.stops[k].rows
             if begin >= end:
                 break
-            part = slice(max(begin - first, 0), last - first)
-            pending.setdefault(k, []).append({name: samples[part].copy() for name, samples in piece.items()})
+            pending.setdefault(k, []).append(_part(piece, slice(max(begin - first, 0), last - first)))
             if last <= end:
                 path = folder / f"stop-{k + 1:04d}.parquet"
                 lead = float(channel_map.preparation.trigger_lead)
-                files.write_to(path, _parquet(_joined(pending.pop(k)), log.stops[k], lead))
+                files.write_to(path, _parquet(pending.pop(k), log.stops[k], lead))
                 written.append(path)
                 following = k + 1
+        if following == len(log.stops):
+            break
     return written
 
 
-def _pieces(log: Log, channel_map: ChannelMap) -> Iterator[tuple[int, dict[str, Array]]]:
+class _Part(NamedTuple):
+    """Channels of a part of a stop, and the intervals of those that had a time of their own, s."""
+
+    channels: dict[str, Array]
+    intervals: dict[str, float]
+
+
+def _part(piece: Piece, rows: slice) -> _Part:
+    channels = {name: channel.samples[rows].copy() for name, channel in piece.channels.items()}
+    return _Part({"time": piece.channels["speed"].time[rows].copy(), **channels}, piece.intervals)
+
+
+def _pieces(log: Log, channel_map: ChannelMap) -> Iterator[tuple[int, Piece]]:
     row = 0
     for path in log.files:
-        for channels in channels_of(path, channel_map, finder_only=False):
-            yield row, {"time": channels["speed"].time, **_samples(channels)}
-            row += len(channels["speed"].time)
-
-
-def _samples(channels: dict[str, RawChannel]) -> dict[str, Array]:
-    return {name: channel.samples for name, channel in channels.items() if name != "time"}
+        for piece in pieces_of(path, channel_map):
+            yield row, piece
+            row += len(piece)
 
 
 def _joined(parts: list[dict[str, Array]]) -> dict[str, Array]:
@@ -64,17 +76,20 @@ def _joined(parts: list[dict[str, Array]]) -> dict[str, Array]:
     }
 
 
-def _parquet(channels: dict[str, Array], event: LoggedEvent, lead: float) -> bytes:
+def _parquet(parts: list[_Part], event: LoggedEvent, lead: float) -> bytes:
     """Return a stop as a file; its clock is as recorded, steps included, which a recording could not hold.
 
     It states the brake command, `lead` before the brake is applied, unless it begins with the brake applied.
     """
+    channels = _joined([part.channels for part in parts])
     backwards = np.nanmedian(np.append(channels["speed"], 0.0)) < 0.0
     facts = {
         "source": event.file.name,
         "place": f"sample {event.row + 1}, {event.time:.6g} s, {event.distance:.6g} m",
         "remarks": "; ".join(event.remarks),
     }
+    if intervals := {name: each for part in parts for name, each in part.intervals.items()}:
+        facts[SAMPLE_INTERVALS] = json.dumps(intervals)
     if not event.begins_braked:
         facts[BRAKE_COMMAND_TIME] = f"{event.time - lead:.6f} s"
     units = {"time": "s", **CHANNEL_UNITS}

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import io
+import itertools
 import re
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from datetime import UTC, datetime
 from html import unescape
 from pathlib import Path
@@ -18,7 +19,7 @@ from uictest.core.recording.plausibility import STATES, state_kind
 from uictest.core.recording.recording import TIME, Contents, Group, Recording, Samples
 
 VERSION = "4.10"
-_EXTRA = "mdf"
+EXTRA = "mdf"
 _COMMENT_TEXT = re.compile(r"<TX[^>]*>(.*?)</TX>", re.DOTALL)
 # A simulated stop has no date; one that is always the same keeps files of the same stop alike.
 _NO_DATE = datetime(1970, 1, 1, tzinfo=UTC)
@@ -29,7 +30,7 @@ def read(path: Path) -> Contents:
 
     Raises MissingExtraError without asammdf; for a damaged file whatever asammdf raises.
     """
-    asammdf = required_module("asammdf", _EXTRA)
+    asammdf = required_module("asammdf", EXTRA)
     with asammdf.MDF(path, temporary_folder=Path(tempfile.gettempdir())) as mdf:
         counts = [(len(group.channels), int(group.channel_group.cycles_nr)) for group in mdf.groups]
         check_size(shape for channels, cycles in counts for shape in [(cycles,)] * channels)
@@ -43,7 +44,7 @@ def encoded(recording: Recording) -> bytes:
 
     Raises MissingExtraError without asammdf.
     """
-    asammdf = required_module("asammdf", _EXTRA)
+    asammdf = required_module("asammdf", EXTRA)
     time = np.asarray(recording[TIME], dtype=np.float64)
     signals = [
         asammdf.Signal(
@@ -74,11 +75,11 @@ def _group(mdf: Any, number: int, skipped: dict[str, str]) -> Iterator[Group]:
         if index == master:
             continue
         signal = mdf.get(group=number, index=index, ignore_invalidation_bits=True)
-        name = _distinct(str(channel.name), channels)
-        if signal.samples.ndim != 1 or signal.samples.dtype.kind not in "biufS":
+        name = distinct(str(channel.name), channels)
+        if not holds_samples(signal):
             skipped[name] = f"holds {signal.samples.dtype} of {signal.samples.ndim} dimensions"
             continue
-        channels[name] = _valid(signal)
+        channels[name] = valid_samples(signal)
         time = signal.timestamps if master is not None else None
         if signal.unit:
             units[name] = str(signal.unit)
@@ -86,13 +87,19 @@ def _group(mdf: Any, number: int, skipped: dict[str, str]) -> Iterator[Group]:
         yield Group(str(mdf.groups[number].channel_group.acq_name or ""), channels, units, time)
 
 
-def _distinct(name: str, channels: dict[str, Samples]) -> str:
+def distinct(name: str, channels: Container[str]) -> str:
+    """Return a name that is not among those of `channels`: itself, or with a number behind it."""
     if name not in channels:
         return name
-    return next(other for k in range(2, len(channels) + 3) if (other := f"{name} ({k})") not in channels)
+    return next(other for k in itertools.count(2) if (other := f"{name} ({k})") not in channels)
 
 
-def _valid(signal: Any) -> Samples:
+def holds_samples(signal: Any) -> bool:
+    """Return whether a signal of asammdf holds numbers or texts, one a record."""
+    return signal.samples.ndim == 1 and signal.samples.dtype.kind in "biufS"
+
+
+def valid_samples(signal: Any) -> Samples:
     """Return the samples as floats, those marked invalid as NaN, or as texts."""
     if signal.samples.dtype.kind == "S":
         return np.char.decode(signal.samples, "utf-8", "replace")

@@ -1,17 +1,18 @@
-"""Long files of one table, read in pieces: of the whole file only one piece is in memory."""
+"""Long files, read in pieces: of the whole file only one piece is in memory."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from uictest.core.recording.formats import csv_text, parquet
-from uictest.core.recording.formats.file_formats import UnreadableError, format_of
+from uictest.core.recording.formats.file_formats import MissingExtraError, UnreadableError, format_of
 from uictest.core.recording.formats.layout import Dialect, encoding_of, table_layout
+from uictest.core.recording.formats.streams import mdf_pieces, tdms_pieces
 from uictest.core.recording.recording import Contents, Group, Samples
 
 _BLOCK = 16 * 2**20
@@ -22,23 +23,50 @@ _SAMPLED = 200
 """Lines by which a column of text is told from one of numbers; chosen."""
 
 
-def read_pieces(path: Path, dialect: Dialect, wanted: Collection[str] | None = None) -> Iterator[Contents]:
-    """Yield a CSV or Parquet file piece by piece, with the `wanted` columns that it has; None: with all.
+def read_pieces(
+    path: Path, dialect: Dialect, wanted: Collection[str] | None = None, leading: Collection[str] = ()
+) -> Iterator[Contents]:
+    """Yield a CSV, Parquet, MDF or TDMS file piece by piece, with its `wanted` channels; None: with all.
 
-    Times that are written as dates become seconds after the first of the file.
+    Times that are written as dates become seconds after the first of the file. Of several groups with their
+    own times, the one that has a channel of `leading` comes first and is read block by block; the others have
+    what lies beside each block, and some samples around it.
 
-    Raises UnreadableError where the file is no table of this dialect, or of another format; OSError.
+    Raises UnreadableError where the file cannot be read so or is damaged; MissingExtraError; OSError.
     """
-    import pyarrow as pa
-
     kind = format_of(path)
-    if kind not in ("csv", "parquet"):
+    if kind in ("mdf", "tdms"):
+        yield from _undamaged((mdf_pieces if kind == "mdf" else tdms_pieces)(path, wanted, leading), kind)
+    elif kind in ("csv", "parquet"):
+        yield from _tables(path, dialect, wanted, _csv if kind == "csv" else _parquet)
+    else:
         raise UnreadableError(
             f"{kind} is not read in pieces; write it as Parquet: uictest export {path.name} --to parquet"
         )
+
+
+def _undamaged(pieces: Iterator[Contents], kind: str) -> Iterator[Contents]:
+    try:
+        yield from pieces
+    except (UnreadableError, MissingExtraError, OSError, GeneratorExit):
+        raise
+    # A library that meets a damaged file may raise anything at all.
+    except Exception as error:
+        reason = f"damaged, or nothing that can be read as {kind} ({type(error).__name__})"
+        raise UnreadableError(reason) from error
+
+
+Table = tuple[list[str], dict[str, str], Iterator[Any]]
+
+
+def _tables(
+    path: Path, dialect: Dialect, wanted: Collection[str] | None, opened: Callable[..., Table]
+) -> Iterator[Contents]:
+    import pyarrow as pa
+
     begin: dict[str, Any] = {}
     try:
-        names, units, batches = (_csv if kind == "csv" else _parquet)(path, dialect, wanted)
+        names, units, batches = opened(path, dialect, wanted)
         for batch in batches:
             columns = {name: _samples(name, batch.column(k), begin) for k, name in enumerate(names)}
             dated = dict.fromkeys(begin, "s")
@@ -47,9 +75,6 @@ def read_pieces(path: Path, dialect: Dialect, wanted: Collection[str] | None = N
         raise UnreadableError(f"not a table of numbers throughout: {str(error).splitlines()[0]}") from error
     except UnicodeError as error:
         raise UnreadableError(f"is not {dialect.encoding} throughout") from error
-
-
-Table = tuple[list[str], dict[str, str], Iterator[Any]]
 
 
 def _parquet(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Table:

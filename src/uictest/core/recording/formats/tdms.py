@@ -13,7 +13,7 @@ from uictest.core.recording.formats.file_formats import check_size, required_mod
 from uictest.core.recording.plausibility import STATES, state_kind
 from uictest.core.recording.recording import TIME, Contents, Group, Recording, Samples
 
-_EXTRA = "tdms"
+EXTRA = "tdms"
 _GROUP = "stop"
 _EVEN = 1e-9
 """Share of the sampling interval by which samples of an even raster may miss it."""
@@ -24,7 +24,7 @@ def read(path: Path) -> Contents:
 
     Raises MissingExtraError without npTDMS; for a damaged file whatever npTDMS raises.
     """
-    nptdms = required_module("nptdms", _EXTRA)
+    nptdms = required_module("nptdms", EXTRA)
     with nptdms.TdmsFile.open(path) as tdms:
         channels = [channel for group in tdms.groups() for channel in group.channels()]
         check_size((len(channel),) for channel in channels)
@@ -39,7 +39,7 @@ def encoded(recording: Recording) -> bytes:
 
     Raises MissingExtraError without npTDMS.
     """
-    nptdms = required_module("nptdms", _EXTRA)
+    nptdms = required_module("nptdms", EXTRA)
     raster = _waveform(recording)
     objects = [nptdms.RootObject(properties=dict(recording.metadata)), nptdms.GroupObject(_GROUP)]
     for name, samples in recording.channels.items():
@@ -70,11 +70,8 @@ def _names_of_states(name: str) -> dict[str, object]:
 
 
 def _groups(group: Any, skipped: dict[str, str]) -> Iterator[Group]:
-    rasters: dict[tuple[int, float, float], list[Any]] = {}
-    for channel in group.channels():
-        rasters.setdefault(_raster(channel), []).append(channel)
-    for (length, interval, start), channels in rasters.items():
-        read = {channel.name: _samples(channel) for channel in channels}
+    for (length, interval, start), channels in rasters_of(group).items():
+        read = {channel.name: numbers(channel[:]) for channel in channels}
         kept = {name: samples for name, samples in read.items() if samples is not None}
         skipped |= {f"{group.name}/{name}": "holds no numbers" for name in read if name not in kept}
         units = {c.name: str(u) for c in channels if (u := c.properties.get("unit_string"))}
@@ -83,15 +80,22 @@ def _groups(group: Any, skipped: dict[str, str]) -> Iterator[Group]:
             yield Group(group.name, kept, {n: u for n, u in units.items() if n in kept}, time)
 
 
-def _raster(channel: Any) -> tuple[int, float, float]:
-    interval = float(channel.properties.get("wf_increment", 0.0))
-    return len(channel), interval, float(channel.properties.get("wf_start_offset", 0.0))
+def rasters_of(group: Any) -> dict[tuple[int, float, float], list[Any]]:
+    """Return the channels of a group by length, interval and start, s; interval zero: not stated."""
+    rasters: dict[tuple[int, float, float], list[Any]] = {}
+    for channel in group.channels():
+        interval = float(channel.properties.get("wf_increment", 0.0))
+        start = float(channel.properties.get("wf_start_offset", 0.0))
+        rasters.setdefault((len(channel), interval, start), []).append(channel)
+    return rasters
 
 
-def _samples(channel: Any) -> Samples | None:
-    samples = np.asarray(channel[:])
+def numbers(data: Any, origin: Any = None) -> Samples | None:
+    """Return data of a channel as floats, stamps in s after `origin` or the first; None where it has none."""
+    samples = np.asarray(data)
     if samples.dtype.kind == "M":
-        return np.asarray((samples - samples[:1]) / np.timedelta64(1, "us") * 1e-6, dtype=np.float64)
+        since = samples - (samples[:1] if origin is None else origin)
+        return np.asarray(since / np.timedelta64(1, "us") * 1e-6, dtype=np.float64)
     if samples.ndim != 1 or samples.dtype.kind not in "biuf":
         return None
     return samples.astype(np.float64)

@@ -1,0 +1,164 @@
+"""MDF and TDMS files block by block; groups with time bases of their own go in step."""
+
+from __future__ import annotations
+
+import itertools
+import tempfile
+from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from uictest.core.recording.formats import mdf, tdms
+from uictest.core.recording.formats.file_formats import UnreadableError, required_module
+from uictest.core.recording.recording import Contents, Group
+
+_ROWS: Final = 2**17
+"""Rows of a group that are read at once; chosen."""
+_BYTES: Final = 16 * 2**20
+"""Bytes of the records of an MDF group that are read at once; chosen."""
+_OVERLAP: Final = 3
+"""Samples before and after a piece that the groups beside the leading one have, to interpolate; chosen."""
+Blocks = Iterator[Group]
+
+
+def mdf_pieces(path: Path, wanted: Collection[str] | None, leading: Collection[str]) -> Iterator[Contents]:
+    """Yield an MDF file as :func:`in_step`; see `read_pieces`."""
+    asammdf = required_module("asammdf", mdf.EXTRA)
+    with asammdf.MDF(path, temporary_folder=Path(tempfile.gettempdir())) as opened:
+        opened.configure(read_fragment_size=_BYTES)
+        streams = [_mdf_blocks(opened, k, wanted) for k in range(len(opened.groups))]
+        yield from in_step(streams, leading)
+
+
+def _mdf_blocks(opened: Any, number: int, wanted: Collection[str] | None) -> Blocks:
+    """Yield the wanted channels of a group block by block.
+
+    Every record is read and decompressed once: what asammdf's own functions read by offset and count, they
+    read from the beginning of the file each time.
+    """
+    inner, group = opened._mdf, opened.groups[number]
+    master, name = inner.masters_db.get(number), str(group.channel_group.acq_name or "")
+    named: dict[str, int] = {}
+    for index, channel in enumerate(group.channels):
+        if index != master:
+            named[mdf.distinct(str(channel.name), named)] = index
+    chosen = [(index, text) for text, index in named.items() if _is_wanted(text, name, wanted)]
+    if not chosen or not group.channel_group.cycles_nr:
+        return
+    for fragment in inner._load_data(group):
+        read = {
+            text: inner.get(group=number, index=index, data=fragment, ignore_invalidation_bits=True)
+            for index, text in chosen
+        }
+        kept = {text: signal for text, signal in read.items() if mdf.holds_samples(signal)}
+        channels = {text: mdf.valid_samples(signal) for text, signal in kept.items()}
+        units = {text: str(signal.unit) for text, signal in kept.items() if signal.unit}
+        time = None
+        if master is not None:
+            time = np.array(inner.get_master(number, data=fragment, one_piece=True), dtype=np.float64)
+        if channels:
+            yield Group(name, channels, units, time)
+
+
+def tdms_pieces(path: Path, wanted: Collection[str] | None, leading: Collection[str]) -> Iterator[Contents]:
+    """Yield a TDMS file as :func:`in_step`; see `read_pieces`."""
+    nptdms = required_module("nptdms", tdms.EXTRA)
+    with nptdms.TdmsFile.open(path) as opened:
+        streams = [
+            _tdms_blocks(group.name, raster, chosen)
+            for group in opened.groups()
+            for raster, channels in tdms.rasters_of(group).items()
+            if (chosen := [each for each in channels if _is_wanted(each.name, group.name, wanted)])
+        ]
+        yield from in_step(streams, leading)
+
+
+def _tdms_blocks(name: str, raster: tuple[int, float, float], channels: Sequence[Any]) -> Blocks:
+    length, interval, start = raster
+    units = {each.name: str(unit) for each in channels if (unit := each.properties.get("unit_string"))}
+    origins = {each.name: each[0] for each in channels if length and each.dtype.kind == "M"}
+    for first in range(0, length, _ROWS):
+        rows = np.arange(first, min(first + _ROWS, length))
+        read = {
+            each.name: tdms.numbers(each[first : first + _ROWS], origins.get(each.name)) for each in channels
+        }
+        kept = {each: samples for each, samples in read.items() if samples is not None}
+        if kept:
+            time = start + interval * rows if interval > 0.0 else None
+            yield Group(name, kept, {each: unit for each, unit in units.items() if each in kept}, time)
+
+
+def _is_wanted(channel: str, group: str, wanted: Collection[str] | None) -> bool:
+    return wanted is None or channel in wanted or f"{group}/{channel}" in wanted
+
+
+def in_step(streams: Sequence[Blocks], leading: Collection[str]) -> Iterator[Contents]:
+    """Yield the blocks of the group with a channel of `leading`, and what the other groups have meanwhile.
+
+    The others begin and end some samples before and after the block where they have them.
+
+    Raises UnreadableError where several groups have no times, or times that go back.
+    """
+    begun = [(first, stream) for stream in streams if (first := next(stream, None)) is not None]
+    begun.sort(key=lambda each: not any(_is_wanted(name, each[0].name, leading) for name in each[0].channels))
+    if not begun:
+        return
+    (first, stream), *others = begun
+    beside = [_Follower(*other) for other in others]
+    for block in itertools.chain((first,), stream):
+        if beside:
+            times = _rising(block)
+            yield Contents((block, *(each.between(times[0], times[-1]) for each in beside)))
+        else:
+            yield Contents((block,))
+
+
+class _Follower:
+    """A group of which the part beside each block of the leading group is taken, one after the other."""
+
+    def __init__(self, first: Group, following: Blocks) -> None:
+        self._held, self._following = first, following
+        _rising(first)
+
+    def between(self, begin: float, end: float) -> Group:
+        """Return the samples from `begin` to `end` (s, both rising from call to call), and a few around."""
+        while _rising(self._held)[-1] <= end and (block := next(self._following, None)) is not None:
+            self._held = _joined(self._held, block)
+        times = _rising(self._held)
+        first = max(int(np.searchsorted(times, begin)) - _OVERLAP, 0)
+        last = int(np.searchsorted(times, end, side="right")) + _OVERLAP
+        self._held = _changed(self._held, lambda samples: samples[first:])
+        return _changed(self._held, lambda samples: samples[: last - first])
+
+
+def _changed(group: Group, change: Callable[[Any], Any]) -> Group:
+    channels = {name: change(samples) for name, samples in group.channels.items()}
+    return replace(group, channels=channels, time=change(group.time))
+
+
+def _joined(one: Group, other: Group) -> Group:
+    channels = {
+        name: np.concatenate((one.channels[name], other.channels[name]))
+        for name in one.channels
+        if name in other.channels
+    }
+    time = np.concatenate((_rising(one), _rising(other)))
+    return replace(one, channels=channels, time=time)
+
+
+def _rising(group: Group) -> Any:
+    """Return the times of a group beside others. Raises UnreadableError where they do not rise."""
+    if group.time is None:
+        raise UnreadableError(
+            f"group {group.name!r} has no times of its own beside other groups: such a file is not read in"
+            " pieces; write all channels over one time"
+        )
+    if not bool(np.all(np.diff(group.time) >= 0.0)):
+        raise UnreadableError(
+            f"the times of group {group.name!r} go back, so that other groups cannot be laid beside it; write"
+            " all channels over one time"
+        )
+    return group.time
