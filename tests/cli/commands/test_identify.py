@@ -105,6 +105,23 @@ def test_cylinder_keeps_the_lines_of_its_base(call, record, workplace):
     assert found.provenance["cylinder record sha256"] == sha256
 
 
+def test_a_largest_error_above_two_per_cent_is_warned_of(call, record, workplace):
+    """Air that rings in a hose follows no lag of the third order, however small the rms error of all."""
+    assert "four-caliper" not in call("identify", "cylinder", record).err
+    recorded = read_parquet(record)
+    ringing = recorded.channels["cylinder_pressure_1"].copy()
+    bursts = np.flatnonzero(np.arange(ringing.size) % 2000 < 60)
+    ringing[bursts] += 0.15 * np.sin(bursts * 0.3)  # bar, of 4
+    path = workplace / "ringing.parquet"
+    changed = {**recorded.channels, "cylinder_pressure_1": ringing}
+    path.write_bytes(parquet_bytes(Recording(changed, recorded.units)))
+    answer = call("identify", "cylinder", path)
+    assert answer.code == 0
+    [warning] = [line for line in answer.err.splitlines() if "largest error" in line]
+    assert "above 2 %" in warning
+    assert "judge with rig.topology: four-caliper" in warning
+
+
 def test_a_result_is_never_silently_called_like_a_library_part(call, record, workplace):
     record.rename("Six Inch.parquet")
     command = ("identify", "hysteresis", "Six Inch.parquet", "-o", "other.yaml")

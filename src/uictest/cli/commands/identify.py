@@ -86,6 +86,7 @@ def hysteresis(
     acting = _wsp_acting(recorded, acting_intervals, acting_time)
     result = _hysteresis(record, recorded, acting, transition_time, held_out)
     data(identification.hysteresis_text(result))
+    _warn(result.largest_error)
     if output is not None:
         provenance = _provenance(context, record, recorded)
         text = identification.with_hysteresis(
@@ -112,6 +113,7 @@ def cylinder(
     recorded = _record(record, {"input": tank, "output": cylinder})
     result = _cylinder(record, recorded, held_out)
     data(identification.cylinder_text(result))
+    _warn(result.largest_after)
     if output is not None:
         provenance = _provenance(context, record, recorded)
         _write(output, record, identification.with_cylinder(base_part, part_name, result, provenance))
@@ -140,10 +142,16 @@ def air(
     case = rig_of_record(record, recorded.rig, overrides or (), trusted_folders())
     result = _air(record, recorded, case, held_out)
     data(identification.air_text(result))
+    _warn(result.largest_after)
     if output is not None:
         provenance = _provenance(context, record, recorded)
         _write(output, record, identification.with_air(base_part, part_name, result, provenance))
     return ExitCode.MET
+
+
+def _warn(largest_error: float) -> None:
+    if warning := identification.distrust(largest_error):
+        message(f"uictest: {warning}")
 
 
 def _air(

@@ -35,6 +35,7 @@ from .record import (
     AS_BUILT as AS_BUILT,
     RecordedChannels as RecordedChannels,
     UnsuitableRecordError as UnsuitableRecordError,
+    distrust as distrust,
     held_out as held_out,
     read_record as read_record,
     required_sampling_time as required_sampling_time,

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from uictest.core import recording
 from uictest.core.physics import FILL, HOLD, VENT
 from uictest.core.recording import ORIGIN, TIME, formats
-from uictest.core.units import BAR, KINDS
+from uictest.core.units import BAR, KINDS, PERCENT
 from uictest.rig.identification.lines import Mask, Samples, runs
 
 _SI = {"pressure": "Pa", "force": "N"}
@@ -32,6 +32,8 @@ _SPACING = 0.01
 """Time in s between the samples in which swings are looked for; chosen."""
 _SEGMENTS = 20
 """Segments of a record, some of which are held out; chosen."""
+_LARGEST_TRUSTED = 0.02
+"""Largest error, as a share, up to which what is computed stands in for a caliper; chosen."""
 
 
 class UnsuitableRecordError(ValueError):
@@ -235,6 +237,16 @@ def held_out(count: int, share: float) -> Mask:
     """Return which samples are excluded from the fit: segments spread over the whole record."""
     number = np.arange(count) * _SEGMENTS // count
     return np.asarray(np.floor((number + 1) * share) > np.floor(number * share))
+
+
+def distrust(largest_error: float) -> str:
+    """Return the warning that a largest error, a share of the largest value, calls for; empty for none."""
+    if largest_error <= _LARGEST_TRUSTED:
+        return ""
+    return (
+        f"largest error {largest_error / PERCENT:.2f} %, above {_LARGEST_TRUSTED / PERCENT:g} %: what is"
+        " computed does not follow this record, whatever its rms; judge with rig.topology: four-caliper"
+    )
 
 
 _AT_REST = 0.02
