@@ -3,19 +3,20 @@
 import gc
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 from pyarrow import csv, parquet
 
 import uictest
 from uictest.cli.entry import execute
 from uictest.core.recording.formats import UnreadableError
 from uictest.recorded.field_data import MapError, load_map, stop_in
-from uictest.recorded.service_log import find_stops, write_stops
+from uictest.recorded.service_log import find_stops, finder, write_stops
 
 STEP = 0.1
 MAP = load_map("uictest")[0]
@@ -85,9 +86,7 @@ def written_mdf(groups, path):
     with asammdf.MDF(version="4.10") as mdf:
         for columns in groups:
             time, *others = columns.items()
-            signals = [
-                asammdf.Signal(v, time[1], name=name, unit=UNITS.get(name, "m/s")) for name, v in others
-            ]
+            signals = [asammdf.Signal(v, time[1], name=k, unit=UNITS.get(k, "m/s")) for k, v in others]
             mdf.append(signals, common_timebase=True)
         mdf.save(path, compression=2)
     return path
@@ -157,22 +156,55 @@ def test_every_format_gives_the_same_places(tmp_path, small_pieces, suffix):
         assert stop["wheel_speed_3"].to_numpy() == pytest.approx(columns["wheel_speed_3"][slice(*event.rows)])
 
 
-@pytest.mark.parametrize(("write", "name"), [(written_mdf, "log.mf4"), (written_tdms, "log.tdms")])
-def test_groups_with_times_of_their_own_lie_over_the_train_speed(tmp_path, small_pieces, write, name):
+@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(st.sampled_from(sorted(PIECES)), min_size=6, max_size=12), st.integers(0, 99))
+def test_a_log_read_in_small_pieces_has_the_same_events(tmp_path_factory, monkeypatch, kinds, seed):
+    path = written(table(kinds, seed), tmp_path_factory.mktemp("log") / "log.parquet")
+    whole = find_stops([path], MAP)
+    with monkeypatch.context() as patch:
+        patch.setattr("uictest.core.recording.formats.pieces._ROWS", 130 + 7 * seed)
+        in_pieces = find_stops([path], MAP)
+    for one, other in zip(
+        (*whole.stops, *whole.passed_over), (*in_pieces.stops, *in_pieces.passed_over), strict=True
+    ):
+        assert other == replace(one, distance=other.distance)
+        assert other.distance == pytest.approx(one.distance, abs=1e-6)
+
+
+def test_the_finder_holds_no_more_than_an_application(tmp_path, monkeypatch):
+    """Nor more where the train then stands with its brake applied for long."""
+    monkeypatch.setattr("uictest.core.recording.formats.pieces._ROWS", 50)
+    held = []
+    course = finder.Course
+    monkeypatch.setattr(
+        finder, "Course", lambda rows, *others: held.append(len(rows.time)) or course(rows, *others)
+    )
+    columns = table(["stop", "drag"] * 10 + ["stop"])
+    parked = {name: np.concatenate((v, np.full(40_000, v[-1]))) for name, v in columns.items()}
+    parked["time"] = STEP * np.arange(len(parked["time"]))
+    parked["brake_command"][-40_000 - 50 :] = 1.0
+    log = find_stops([written(parked, tmp_path / "log.parquet")], MAP)
+    assert len(log.stops) == 11
+    assert log.passed_over[-1].reason == "without motion"
+    assert max(held) < 1000
+
+
+@pytest.mark.parametrize(("write", "suffix"), [(written_mdf, "mf4"), (written_tdms, "tdms")])
+def test_groups_with_times_of_their_own_lie_over_the_train_speed(tmp_path, small_pieces, write, suffix):
+    path = tmp_path / f"log.{suffix}"
     columns = table(["stop", "drag", "stop"])
     fast = {name: columns[name] for name in ("time", "speed")}
     slow = {name: columns[name][::2] for name in ("time", *(f"wheel_speed_{n}" for n in (1, 2, 3, 4)))}
     finest = STEP / 4 * np.arange(4 * len(columns["time"]))
     brake = {"time": finest, "brake_command": np.repeat(columns["brake_command"], 4)}
     coarse = {"time": finest[::40], "reservoir_pressure": 6e5 + 10.0 * finest[::40]}
-    log = find_stops([write([slow, brake, coarse, fast], tmp_path / name)], MAP)
+    log = find_stops([write([slow, brake, coarse, fast], path)], MAP)
     assert [event.row for event in log.stops] == [100, 1400]
     (_, path) = write_stops(log, MAP, tmp_path / "stops")
     stop = parquet.read_table(path)
     begin, end = log.stops[1].rows
-    assert stop["wheel_speed_1"].to_numpy()[::2] == pytest.approx(
-        slow["wheel_speed_1"][begin // 2 : (end + 1) // 2]
-    )
+    recorded = slow["wheel_speed_1"][(begin + 1) // 2 : (end + 1) // 2]
+    assert stop["wheel_speed_1"].to_numpy()[begin % 2 :: 2] == pytest.approx(recorded)
     assert stop["reservoir_pressure"].to_numpy() == pytest.approx(6e5 + STEP * 10.0 * np.arange(begin, end))
     defects = [str(defect) for defect in stop_in(path, MAP).defects if defect.kind == "coarse"]
     assert defects == [

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +17,6 @@ Array = NDArray[np.float64]
 WHEELS = of_wheelsets("wheel_speed")
 _COMMAND, _DEMAND, _LINE = ("brake_command",), ("demanded_pressure",), ("brake_line_pressure",)
 _CYLINDERS = of_wheelsets("cylinder_pressure")
-_NEEDED = (*WHEELS, *_COMMAND, *_DEMAND, *_LINE, *_CYLINDERS)
 SHOWN_BY: Final = {
     "auto": (_COMMAND, _DEMAND, _LINE, _CYLINDERS),
     "command": (_COMMAND,),
@@ -32,6 +30,8 @@ _RELEASED = 1.0
 """Percentile of a pressure at which the brake counts as released; chosen."""
 _LARGEST_OFFSET = 0.5e5
 """Pa that a sensor shows at most with the brake released; chosen."""
+_CLASS, _HIGHEST = 50.0, 20e5
+"""Pa: width of the classes in which pressures are counted, and the last of them; chosen."""
 _LEAST_STUCK = 2.0
 """s for which a speed may show one number to the last digit while the wheels change theirs; chosen."""
 _TELLING_CHANGE = 0.5
@@ -40,79 +40,84 @@ _LONGEST_INTERVAL = 60.0
 """s: a longer interval between two rows is a step of the clock or an interruption; chosen."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Signals:
-    """Rows of one log, over all of its files.
+class Rows(NamedTuple):
+    """Rows of a log.
 
     Args:
         time: as recorded, s.
-        speed: of the train with its sign, m/s; from the wheels where its own sensor is dead.
+        train: speed of the train by its own sensor with its sign, m/s.
+        wheels: speed that at least two wheelsets reach, with its sign, m/s.
         braked: whether the brake is applied.
-        unusable: whether a row could not be read in the units of the channel map.
-        files: of the log, in order.
-        first_rows: row with which each file begins, and the number of all rows.
 
     """
 
     time: Array
-    speed: Array
+    train: Array
+    wheels: Array
     braked: NDArray[np.bool_]
-    unusable: NDArray[np.bool_]
-    files: Sequence[Path]
-    first_rows: Sequence[int]
+
+    def followed_by(self, other: Rows) -> Rows:
+        """Return these rows and others behind them."""
+        joined: list[Any] = [np.concatenate(pair) for pair in zip(self, other, strict=True)]
+        return Rows(*joined)
+
+    def from_row(self, first: int) -> Rows:
+        """Return the rows from one on."""
+        kept: list[Any] = [samples[first:].copy() for samples in self]
+        return Rows(*kept)
 
 
-def read_signals(files: Sequence[Path], channel_map: ChannelMap) -> Signals:
-    """Read speed and brake of all files, piece by piece.
+def rows_of(path: Path, channel_map: ChannelMap) -> Iterator[Rows]:
+    """Yield speed and brake of a file, piece by piece.
 
-    Raises UnreadableError, MapError where a file has no speed or nothing that shows the brake; OSError.
+    Raises UnreadableError, MissingExtraError, MapError where a file has no speed or nothing that shows the
+    brake; OSError.
     """
-    columns: list[tuple[Array, ...]] = []
-    first_rows = [0]
-    for path in files:
-        try:
-            pieces = pieces_of(path, channel_map, _NEEDED)
-            rows = [_rows(piece.channels, channel_map.preparation.trigger) for piece in pieces]
-        except (UnreadableError, MapError) as error:
-            raise type(error)(f"{path}: {error}") from error
-        if not rows:
-            raise UnreadableError(f"{path}: no samples")
-        *own, command, pressure = (np.concatenate(column) for column in zip(*rows, strict=True))
-        columns.append((*own, _braked(command, pressure, float(channel_map.preparation.trigger_pressure))))
-        first_rows.append(first_rows[-1] + len(own[0]))
-    time, train, wheels, braked = (np.concatenate(column) for column in zip(*columns, strict=True))
-    speed = _reference_speed(continuous_clock(time), train, wheels)
-    return Signals(time, speed, braked > 0.0, ~np.isfinite(train), files, first_rows)
+    trigger, threshold = channel_map.preparation.trigger, None
+    alternatives = SHOWN_BY[trigger]
+    names = {*WHEELS, *(name for each in alternatives for name in each)}
+    for piece in pieces_of(path, channel_map, names):
+        shown_by = _shown_by(piece.channels, alternatives)
+        if threshold is None:
+            threshold = _ON if shown_by == _COMMAND else _threshold(path, channel_map, shown_by)
+        shown = [piece.channels[name].samples for name in shown_by if name in piece.channels]
+        speed = piece.channels["speed"]
+        wheels = [piece.channels[name].samples for name in WHEELS if name in piece.channels]
+        second = _second_largest(wheels) if len(wheels) > 1 else np.full(len(piece), np.nan)
+        yield Rows(speed.time, speed.samples, second, np.fmax.reduce(shown) > threshold)
+    if threshold is None:
+        raise UnreadableError("no samples")
 
 
-def _rows(channels: dict[str, RawChannel], trigger: str) -> tuple[Array, ...]:
-    """Return time, speeds of train and wheels, and what shows the brake: its command, else a pressure."""
-    speed = channels["speed"]
-    none = np.full(len(speed.time), np.nan)
-    wheels = [channels[name].samples for name in WHEELS if name in channels]
-    second = _second_largest(wheels) if len(wheels) > 1 else none
-    for names in SHOWN_BY[trigger]:
-        shown = [channels[name].samples for name in names if name in channels]
-        if shown and names == _COMMAND:
-            return speed.time, speed.samples, second, shown[0], none
-        if shown:
-            return speed.time, speed.samples, second, none, np.fmax.reduce(shown)
-    looked_for = ", ".join(name for names in SHOWN_BY[trigger] for name in names)
+def _shown_by(channels: Mapping[str, RawChannel], alternatives: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
+    for names in alternatives:
+        if any(name in channels for name in names):
+            return names
+    looked_for = ", ".join(name for names in alternatives for name in names)
     raise MapError(f"nothing shows when the brake is applied: map one of {looked_for}")
 
 
-def _braked(command: Array, pressure: Array, rise: float) -> Array:
-    """Return 1 where the brake of a file is applied: by its command, else where a pressure has risen.
+def _threshold(path: Path, channel_map: ChannelMap, names: Sequence[str]) -> float:
+    """Return the pressure above which the brake of a file is applied, Pa.
 
     A sensor may show some pressure with the brake released: the median of what lies within that rise of the
     lowest hundredth of the file, unless that is too much for an offset, as where the brake is hardly ever
     released.
     """
-    known = pressure[np.isfinite(pressure)]
-    lowest = float(np.percentile(known, _RELEASED)) if len(known) else 0.0
-    offset = float(np.median(known[known <= lowest + rise])) if len(known) else 0.0
-    released = offset if 0.0 < offset <= _LARGEST_OFFSET else 0.0
-    return ((command > _ON) | (pressure > released + rise)).astype(np.float64)
+    rise = float(channel_map.preparation.trigger_pressure)
+    counts = np.zeros(int(_HIGHEST / _CLASS) + 1, dtype=np.int64)
+    for piece in pieces_of(path, channel_map, names):
+        shown = np.fmax.reduce([piece.channels[name].samples for name in names if name in piece.channels])
+        classes = np.clip(shown[np.isfinite(shown)] / _CLASS, 0.0, len(counts) - 1).round().astype(np.int64)
+        counts += np.bincount(classes, minlength=len(counts))
+    lowest = _quantile(counts, 0.01 * _RELEASED)
+    offset = _CLASS * _quantile(counts[: lowest + int(rise / _CLASS) + 1], 0.5)
+    return rise + (offset if offset <= _LARGEST_OFFSET else 0.0)
+
+
+def _quantile(counts: NDArray[np.int64], share: float) -> int:
+    """Return the class in which a quantile lies."""
+    return int(np.searchsorted(np.cumsum(counts), share * counts.sum()))
 
 
 def _second_largest(wheels: Sequence[Array]) -> Array:
@@ -123,15 +128,30 @@ def _second_largest(wheels: Sequence[Array]) -> Array:
     return np.where(ordered[-2] >= 0.0, sign * ordered[-2], np.nan)
 
 
-def _reference_speed(clock: Array, train: Array, wheels: Array) -> Array:
-    """Return the train speed, and that of the wheels where its sensor shows none, zero or one number."""
+class Constant(NamedTuple):
+    """A number that the train speed shows, and the least and largest speed of the wheels meanwhile, m/s."""
+
+    number: float = np.nan
+    least: float = np.inf
+    largest: float = -np.inf
+
+
+def reference_speed(clock: Array, train: Array, wheels: Array, begun: Constant) -> tuple[Array, Constant]:
+    """Return the train speed, and that of the wheels where its sensor shows none, zero or one number.
+
+    `begun` is the number that it showed before; returned is also the one that it shows at the end.
+    """
     dead = ~np.isfinite(train) | (np.abs(train) < 0.5 * np.abs(wheels) - 1.0)
     edges = np.concatenate(([0], np.flatnonzero(np.diff(train) != 0.0) + 1, [len(train)]))
     firsts, ends = edges[:-1], edges[1:]
-    long = (clock[ends - 1] - clock[firsts] > _LEAST_STUCK) & (train[firsts] != 0.0)
-    for first, end in zip(firsts[long], ends[long], strict=True):
-        dead[first:end] |= bool(np.ptp(wheels[first:end]) > _TELLING_CHANGE)
-    return np.where(dead & np.isfinite(wheels), wheels, train)
+    least, largest = (ufunc.reduceat(wheels, firsts) for ufunc in (np.fmin, np.fmax))
+    if train[0] == begun.number:
+        least[0], largest[0] = np.fmin(least[0], begun.least), np.fmax(largest[0], begun.largest)
+    stuck = (clock[ends - 1] - clock[firsts] > _LEAST_STUCK) & (train[firsts] != 0.0)
+    stuck &= largest - least > _TELLING_CHANGE
+    dead |= np.repeat(stuck, ends - firsts)
+    last = Constant(float(train[-1]), float(least[-1]), float(largest[-1]))
+    return np.where(dead & np.isfinite(wheels), wheels, train), last
 
 
 def continuous_clock(time: Array) -> Array:

@@ -1,0 +1,147 @@
+"""The course of a stretch of a log: its clock, the speed, and the applications of the brake in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.recorded.service_log.signals import (
+    Array,
+    Constant,
+    Rows,
+    continuous_clock,
+    reference_speed,
+    steps_of_clock,
+)
+
+SHORTEST_RELEASE = 1.0
+"""s: a shorter release belongs to the application: pressures fall where the WSP vents; chosen."""
+_SHORTEST_APPLICATION = 0.1
+"""s: no brake acts so briefly, what is shorter is noise; chosen."""
+_RUN_OUT = 3.0
+"""s after the release in which a train that still moves may come to its stop; chosen."""
+_STANDS = 1.0
+"""s in which a train that stands must be slow for more than half: less is a dropout; chosen."""
+_BEFORE, _AFTER = 5.0, 3.0
+"""s that belong to a stop before the brake and after standstill; chosen."""
+_LARGEST_JUMP = 2.0
+"""m/s between two rows beside a step of the clock: more, and the recording was interrupted; chosen."""
+HELD = 0.1
+"""Share of the speed that drag braking loses at most; chosen."""
+_LONG_HELD = 20.0
+"""s for which a stop that keeps its speed after the application is remarked on; chosen."""
+ROWS_OF_SPEED = 6
+"""Rows up to the application whose median is its speed; chosen."""
+_TIE = 1e-6
+"""s by which a sum of intervals may miss the time that it stands for."""
+_REMARKED_STEPS = 3
+"""Steps of the clock that a stop names one by one; chosen."""
+
+
+class Course:
+    """The rows of a stretch with a clock without steps, the size of the speed, and the interruptions.
+
+    Args:
+        rows: of the stretch.
+        first_row: number of its first row in the log.
+        travelled: distance from the beginning of the log there, m.
+        constant: what the train speed showed before.
+
+    """
+
+    def __init__(self, rows: Rows, first_row: int, travelled: float, constant: Constant) -> None:
+        self.time, self.braked, self.first_row = rows.time, rows.braked, first_row
+        self.unusable = ~np.isfinite(rows.train)
+        self.clock = continuous_clock(rows.time)
+        self.signed, self.constant = reference_speed(self.clock, rows.train, rows.wheels, constant)
+        self.speed = np.abs(self.signed)
+        self.travelled = travelled + _distance(self.clock, self.speed)
+        self.steps = steps_of_clock(rows.time)
+        jumps = ~(np.abs(np.diff(self.speed)) <= _LARGEST_JUMP)
+        self.interruptions = self.steps[jumps[self.steps - 1]]
+
+    def row_after(self, row: int, seconds: float) -> int:
+        """Return the first row later than so many seconds after a row."""
+        return int(np.searchsorted(self.clock, self.clock[row] + seconds + _TIE, side="right"))
+
+    def speed_at(self, first: int) -> float:
+        """Return the speed at which the brake is applied in a row."""
+        before = self.speed[max(first + 1 - ROWS_OF_SPEED, 0) : first + 1]
+        return float(np.nanmedian(before)) if np.isfinite(before).any() else float("nan")
+
+    def standstill(self, first: int, end: int, level: float) -> int | None:
+        """Return the row at which a train that brakes from `first` to `end` falls to a speed and stays there.
+
+        None where it does not, or longer than `_RUN_OUT` after the release, or behind an interruption.
+        """
+        last = self.row_after(end - 1, _RUN_OUT)
+        following = self.interruptions[self.interruptions > first]
+        last = min(last, int(following[0])) if len(following) else last
+        below = self.speed[first:last] <= level
+        for k in map(int, first + np.flatnonzero(below & ~np.concatenate(([False], below[:-1])))):
+            until = min(self.row_after(k, _STANDS), last)
+            if np.nanmedian(self.speed[k:until]) <= level:
+                return k
+        return None
+
+    def rows_of(self, first: int, stop_row: int, released: int) -> tuple[int, int]:
+        """Return the rows of an event with its lead, without what lies beyond a step of the clock.
+
+        `released` is the row at which the application before ended.
+        """
+        begin = max(released, int(np.searchsorted(self.clock, self.clock[first] - _BEFORE - _TIE)))
+        end = self.row_after(stop_row, _AFTER)
+        before = self.steps[(self.steps > begin) & (self.steps <= first)]
+        after = self.steps[(self.steps > stop_row) & (self.steps < end)]
+        return (int(before[-1]) if len(before) else begin, int(after[0]) if len(after) else end)
+
+    def applications(self) -> Iterator[tuple[int, int]]:
+        """Yield first row and the row after the last of every application; an interruption ends one."""
+        pieces = list(_pieces(self.braked, self.interruptions))
+        pieces.reverse()
+        while pieces:
+            first, end = pieces.pop()
+            while pieces and self._goes_on(end, pieces[-1][0]):
+                _, end = pieces.pop()
+            last = min(end, len(self.clock) - 1)
+            if self.clock[last] - self.clock[first] >= _SHORTEST_APPLICATION:
+                yield first, end
+
+    def _goes_on(self, end: int, begin: int) -> bool:
+        """Whether the stretch from row `begin` belongs to the application that ended before row `end`."""
+        interrupted = np.any((self.interruptions >= end) & (self.interruptions <= begin))
+        return bool(self.clock[begin] - self.clock[end] < SHORTEST_RELEASE and not interrupted)
+
+    def remarks(self, rows: tuple[int, int], first: int, stop_row: int) -> Iterator[str]:
+        """Yield what is unusual about an event: its rows, where it is applied and where it ends."""
+        begin, end = rows
+        inside = self.steps[(self.steps > begin) & (self.steps < end)]
+        for row in inside[:_REMARKED_STEPS]:
+            step = self.time[row] - self.time[row - 1]
+            yield f"the clock steps by {step:+.6g} s at sample {row - begin + 1} of the stop"
+        if len(inside) > _REMARKED_STEPS:
+            yield f"{len(inside) - _REMARKED_STEPS} further steps of the clock"
+        if np.nanmedian(np.append(self.signed[begin:end], 0.0)) < 0.0:
+            yield "runs backwards: speeds are recorded with their sign changed"
+        if self.unusable[begin:end].any():
+            yield "the train speed is missing in part"
+        slower = np.flatnonzero(self.speed[first : stop_row + 1] < (1.0 - HELD) * self.speed_at(first))
+        if len(slower) and (seconds := self.clock[first + slower[0]] - self.clock[first]) > _LONG_HELD:
+            yield f"the speed is kept for {seconds:.0f} s after the brake is applied"
+
+
+def _pieces(braked: NDArray[np.bool_], interruptions: NDArray[np.intp]) -> Iterator[tuple[int, int]]:
+    """Yield every stretch with the brake applied, cut where the recording was interrupted."""
+    padded = np.concatenate(([False], braked, [False]))
+    starts, ends = np.flatnonzero(padded[1:] & ~padded[:-1]), np.flatnonzero(~padded[1:] & padded[:-1])
+    for start, end in zip(starts, ends, strict=True):
+        inside = interruptions[(interruptions > start) & (interruptions < end)]
+        yield from pairwise([int(start), *map(int, inside), int(end)])
+
+
+def _distance(clock: Array, speed: Array) -> Array:
+    known = np.nan_to_num(speed)
+    return np.concatenate(([0.0], np.cumsum(0.5 * (known[1:] + known[:-1]) * np.diff(clock))))
