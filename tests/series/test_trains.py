@@ -135,6 +135,10 @@ def test_all_stops_are_of_trains_of_one_length(of_trains):
     assert refusal(of_trains, TRAIN, "", "vehicle: crh380a") == [
         ("wet", "'wet' is a car alone, 'dry[car=1]' of a train of 2")
     ]
+    # Nothing else is said then, though the first stop is of a car alone.
+    assert refusal(of_trains, "vehicle: crh380a", "cars: all\n", TRAIN) == [
+        ("wet", "'wet[car=1]' is of a train of 2, 'dry' a car alone")
+    ]
 
 
 @pytest.mark.parametrize(

@@ -132,6 +132,7 @@ def read_stops(
                 diagnostics.extend(errors.diagnostics)
     if not diagnostics:
         diagnostics.extend(_of_other_length(listed))
+    if not diagnostics:
         diagnostics.extend(_not_for_trains(tree, file, cars_of(listed)))
     if diagnostics:
         raise ScenarioErrors(in_reading_order(list(dict.fromkeys(diagnostics))))
