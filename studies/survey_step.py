@@ -63,9 +63,12 @@ def variants() -> list[Variant]:
 
 
 def cases_of(variant: Variant, step: str) -> list[Case]:
-    """Return the cases of a variant in steps of this length, judged by all criteria of the library."""
+    """Return the cases of a variant in steps of this length, judged by all criteria of the library.
+
+    Without those of trains: no sweep runs them, and nothing else takes survey steps.
+    """
     settings = [f"simulation.time_step={step}", f"criteria=[{CRITERIA}]", *variant.settings]
-    return load([variant.path], settings)
+    return [case for case in load([variant.path], settings) if case.train is None]
 
 
 def stops_of(case: Case, count: int) -> Iterator[tuple[Any, list[Any]]]:

@@ -33,7 +33,7 @@ def test_a_run_like_its_baseline_exits_0_and_every_report_says_what_differs(call
     answer = call("run", "--baseline", baseline, "--report", "html,md", "--junitxml", "own.xml", code=1)
     assert "differs a outcome=fail" in answer.out
     assert "outcome was pass, is fail" in answer.out
-    assert "40 quantities compared with the baseline accepted: 1 out of tolerance" in answer.err
+    assert "44 quantities compared with the baseline accepted: 1 out of tolerance" in answer.err
     headline = "2 cases: 1 pass, 1 different from the baseline"
     page = Path("reports/latest/index.html").read_text()
     assert f">{headline}</h1>" in page
@@ -44,7 +44,7 @@ def test_a_run_like_its_baseline_exits_0_and_every_report_says_what_differs(call
     assert "| `a` | `outcome` | pass | fail |" in summary
     assert Path("own.xml").read_text() == Path("reports/latest/junit.xml").read_text()
     compared = json.loads(Path("reports/latest/results.json").read_text())["baseline"]
-    assert (compared["folder"], compared["agrees"], compared["compared"]) == ("accepted", False, 40)
+    assert (compared["folder"], compared["agrees"], compared["compared"]) == ("accepted", False, 44)
     assert len(compared["sha256"]) == 64
     (difference,) = compared["differences"]
     assert (difference["case"], difference["quantity"]) == ("a", "outcome")

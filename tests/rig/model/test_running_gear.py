@@ -77,7 +77,7 @@ def point(frame, ahead, above):
 def linear_vehicle(p):
     """Energy method: each spring and damper adds k b b^T and c b b^T, b being the row of its deflection."""
     frames = [p.body_mass, p.body_mass, p.body_inertia] + 2 * [p.bogie_mass, p.bogie_mass, p.bogie_inertia]
-    mass = np.diag([*frames, *4 * [p.wheelset_mass], *4 * [p.wheelset_inertia]])
+    mass = np.diag([*frames, *4 * [p.wheelset_mass], *4 * [p.rotational_inertia]])
     damping, stiffness = np.zeros((2, FREEDOMS, FREEDOMS))
     inputs = np.zeros((FREEDOMS, 4))
 
@@ -262,7 +262,7 @@ def test_weight_transfer_is_that_of_statics(steady):
     of_bogie = (
         0.5 * p.body_mass * a * height
         + a * (p.bogie_mass * p.bogie_height + 2.0 * p.wheelset_mass * p.wheel_radius)
-        + 2.0 * p.wheelset_inertia * a / p.wheel_radius
+        + 2.0 * p.rotational_inertia * a / p.wheel_radius
     ) / p.half_wheelbase
     signs = np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])
     expected = 0.5 * signs @ [between_bogies, of_bogie]

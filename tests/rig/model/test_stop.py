@@ -11,7 +11,7 @@ DRY = "initial_speed=120 km/h"
 def masses(p):
     """Mass of the car, and the mass that its kinetic energy seems to have, kg."""
     mass = p.body_mass + 2.0 * p.bogie_mass + 4.0 * p.wheelset_mass
-    return mass, mass + 4.0 * p.wheelset_inertia / p.wheel_radius**2
+    return mass, mass + 4.0 * p.rotational_inertia / p.wheel_radius**2
 
 
 def brake_force(p, trace):
