@@ -6,7 +6,6 @@ time to a temporary folder, and removed.
 """
 
 import argparse
-import os
 import resource
 import subprocess
 import sys
@@ -37,8 +36,12 @@ from uictest.recorded.service_log import find_stops, write_stops
 path, folder = map(Path, sys.argv[1:])
 mapped = load_map("uictest")[0]
 log = find_stops([path], mapped)
-print(len(write_stops(log, mapped, folder)), len(log.passed_over), log.first_rows[-1])
+cut = len(write_stops(log, mapped, folder))
+highest = next(line for line in Path("/proc/self/status").read_text().splitlines() if "VmHWM" in line)
+print(cut, log.first_rows[-1], highest.split()[1])
 """
+"""Finds and cuts out; says how many stops and rows there were, and the highest resident size in kB, which of a
+child the system counts from before it was begun."""
 Columns = dict[str, NDArray[np.float64]]
 
 
@@ -116,19 +119,14 @@ def _write_tdms(path: Path, stops: int, stop: Columns, units: dict[str, str]) ->
             )
 
 
-def timed(path: Path, folder: Path) -> tuple[str, float, float, float]:
-    """Return what was found in a log, and wall clock (s), processor time (s) and peak memory (MB) of it."""
+def timed(path: Path, folder: Path) -> tuple[list[int], float, float]:
+    """Return what a process says that finds the stops of a log, wall clock (s) and processor time (s)."""
     before, started = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     command = [sys.executable, "-c", _FIND, str(path), str(folder)]
-    child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    assert child.stdout is not None
-    found = child.stdout.read()
-    _, status, used = os.wait4(child.pid, 0)
-    if status:
-        raise RuntimeError(f"{path.name}: the finder failed")
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    said = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    seconds, after = time.perf_counter() - started, resource.getrusage(resource.RUSAGE_CHILDREN)
     processor = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return found, time.perf_counter() - started, processor, used.ru_maxrss / 1024.0
+    return list(map(int, said.split())), seconds, processor
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -148,11 +146,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
             for megabytes in map(float, chosen.megabytes.split(",")):
                 stops = max(round(megabytes / each), 1)
                 write(path, stops, stop, units)
-                found, seconds, processor, memory = timed(path, Path(folder, "stops"))
-                size, (cut, _, rows) = path.stat().st_size / 1e6, found.split()
+                (cut, rows, highest), seconds, processor = timed(path, Path(folder, "stops"))
                 print(
-                    f"{suffix:8}{size:6.0f}{stops:8}{cut:>8}{int(rows):10}"
-                    f"{seconds:6.1f}{processor:14.1f}{memory:10.0f}"
+                    f"{suffix:8}{path.stat().st_size / 1e6:6.0f}{stops:8}{cut:8}{rows:10}"
+                    f"{seconds:6.1f}{processor:14.1f}{highest / 1024.0:10.0f}"
                 )
 
 
