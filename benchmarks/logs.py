@@ -40,8 +40,8 @@ cut = len(write_stops(log, mapped, folder))
 highest = next(line for line in Path("/proc/self/status").read_text().splitlines() if "VmHWM" in line)
 print(cut, log.first_rows[-1], highest.split()[1])
 """
-"""Finds and cuts out; says how many stops and rows there were, and the highest resident size in kB, which of a
-child the system counts from before it was begun."""
+"""Finds and cuts out; says how many stops and rows there were, and the highest resident size, kB: the system
+counts that of a child from before it was begun."""
 Columns = dict[str, NDArray[np.float64]]
 
 
