@@ -1,6 +1,6 @@
 """Finds every application of the brake in a log, and which of them are stops.
 
-The log is read once, piece by piece; what is over is forgotten, so that a long log needs no more memory.
+The log is read once, piece by piece, and the rows of what is over are forgotten.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Long files, read in pieces: of the whole file only one piece is in memory."""
+"""Long files, read in pieces: one is given after the other."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def _tables(
 def _parquet(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Table:
     import pyarrow.parquet as pq
 
-    file = pq.ParquetFile(path)
+    file = pq.ParquetFile(path, pre_buffer=False)  # else all that is to be read stays in memory
     names = [name for name in file.schema_arrow.names if wanted is None or name in wanted]
     units = parquet.units_of(file.schema_arrow)
     batches: Iterator[Any] = file.iter_batches(_ROWS, columns=names, use_threads=True)
