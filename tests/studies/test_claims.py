@@ -58,10 +58,17 @@ def test_only_what_nothing_was_fitted_to_is_declared_missed():
 
 
 @pytest.mark.slow
-def test_the_readme_counts_what_the_program_finds(result):
+def test_the_pages_show_what_the_program_finds(result):
     """To the digit: console blocks are otherwise compared without their numbers."""
     results = [result(name) for name in STUDIES]
-    readme = (REPOSITORY / "README.md").read_text("utf-8")
-    block = re.search(r"^\$ \./reproduce -q\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)
-    assert block is not None
-    assert block[1].splitlines() == [line.rstrip() for line in (*misses(results), *claims(results))]
+    missed, counts = ([line.rstrip() for line in lines(results)] for lines in (misses, claims))
+    assert shown("docs/studies.md", "./reproduce -q") == missed + counts
+    assert shown("README.md", "./reproduce -q | tail -6") == counts
+
+
+def shown(page, command):
+    """The lines that a page shows below a command."""
+    text = (REPOSITORY / page).read_text("utf-8")
+    block = re.search(rf"^\$ {re.escape(command)}\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+    assert block is not None, page
+    return block[1].splitlines()
