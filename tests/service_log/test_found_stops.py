@@ -16,7 +16,7 @@ import uictest
 from uictest.cli.entry import execute
 from uictest.core.recording.formats import UnreadableError
 from uictest.recorded.field_data import MapError, load_map, stop_in
-from uictest.recorded.service_log import find_stops, finder, write_stops
+from uictest.recorded.service_log import channels, find_stops, finder, write_stops
 
 STEP = 0.1
 MAP = load_map("uictest")[0]
@@ -187,6 +187,25 @@ def test_the_finder_holds_no_more_than_an_application(tmp_path, monkeypatch):
     assert len(log.stops) == 11
     assert log.passed_over[-1].reason == "without motion"
     assert max(held) < 1000
+
+
+def test_a_long_text_is_not_read_far_ahead(tmp_path, monkeypatch):
+    """Arrow has 32 blocks of text waiting, and what is decoded."""
+    monkeypatch.setattr("uictest.core.recording.formats.pieces._BLOCK", 10_000)
+    path = written(table(["stop", "drag"] * 20), tmp_path / "log.csv")
+    before = pa.total_allocated_bytes()
+    held = [pa.total_allocated_bytes() - before for _ in channels.pieces_of(path, MAP)]
+    assert path.stat().st_size > 150 * 10_000
+    assert max(held) < 45 * 10_000
+
+
+def test_one_long_segment_is_read_as_many_short_ones(tmp_path, small_pieces):
+    columns = table(["stop", "drag", "stop"])
+    long, short = (
+        written_tdms([columns], tmp_path / f"{rows}.tdms", rows) for rows in (len(columns["time"]), 500)
+    )
+    for one, other in zip(channels.pieces_of(long, MAP), channels.pieces_of(short, MAP), strict=True):
+        assert all(np.array_equal(one.channels[k].samples, other.channels[k].samples) for k in one.channels)
 
 
 @pytest.mark.parametrize(("write", "suffix"), [(written_mdf, "mf4"), (written_tdms, "tdms")])

@@ -15,8 +15,8 @@ from uictest.core.recording.formats.layout import Dialect, encoding_of, table_la
 from uictest.core.recording.formats.streams import mdf_pieces, tdms_pieces
 from uictest.core.recording.recording import Contents, Group, Samples
 
-_BLOCK = 16 * 2**20
-"""Bytes of text that are parsed at once; chosen."""
+_BLOCK = 2 * 2**20
+"""Bytes of text that are parsed at once, of which Arrow reads up to 32 blocks ahead; chosen."""
 _ROWS = 2**17
 """Rows of a Parquet file that are decoded at once; chosen."""
 _SAMPLED = 200

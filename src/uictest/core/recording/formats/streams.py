@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import tempfile
 from collections.abc import Callable, Collection, Iterator, Sequence
@@ -11,6 +12,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from uictest.core import files
 from uictest.core.recording.formats import mdf, tdms
 from uictest.core.recording.formats.file_formats import UnreadableError, required_module
 from uictest.core.recording.recording import Contents, Group
@@ -21,13 +23,22 @@ _BYTES: Final = 16 * 2**20
 """Bytes of the records of an MDF group that are read at once; chosen."""
 _OVERLAP: Final = 3
 """Samples before and after a piece that the groups beside the leading one have, to interpolate; chosen."""
+_UNFINISHED: Final = b"UnFinMF "
+"""Beginning of an MDF file whose writer did not finish it: asammdf completes a copy of it."""
 Blocks = Iterator[Group]
 
 
 def mdf_pieces(path: Path, wanted: Collection[str] | None, leading: Collection[str]) -> Iterator[Contents]:
-    """Yield an MDF file as :func:`in_step`; see `read_pieces`."""
+    """Yield an MDF file as :func:`in_step`; see `read_pieces`.
+
+    asammdf maps what it opens by its path, and all of the file stays mapped: it gets an open file.
+    """
     asammdf = required_module("asammdf", mdf.EXTRA)
-    with asammdf.MDF(path, temporary_folder=Path(tempfile.gettempdir())) as opened:
+    with contextlib.ExitStack() as stack:
+        file: Any = stack.enter_context(path.open("rb"))
+        if file.read(8) == _UNFINISHED:
+            file = path
+        opened = stack.enter_context(asammdf.MDF(file, temporary_folder=Path(tempfile.gettempdir())))
         opened.configure(read_fragment_size=_BYTES)
         streams = [_mdf_blocks(opened, k, wanted) for k in range(len(opened.groups))]
         yield from in_step(streams, leading)
@@ -66,9 +77,9 @@ def _mdf_blocks(opened: Any, number: int, wanted: Collection[str] | None) -> Blo
 def tdms_pieces(path: Path, wanted: Collection[str] | None, leading: Collection[str]) -> Iterator[Contents]:
     """Yield a TDMS file as :func:`in_step`; see `read_pieces`."""
     nptdms = required_module("nptdms", tdms.EXTRA)
-    with nptdms.TdmsFile.open(path) as opened:
+    with files.temporary_folder() as folder, nptdms.TdmsFile.open(path) as opened:
         streams = [
-            _tdms_blocks(group.name, raster, chosen)
+            _tdms_blocks(group.name, raster, [_short_chunks(each, folder) for each in chosen])
             for group in opened.groups()
             for raster, channels in tdms.rasters_of(group).items()
             if (chosen := [each for each in channels if _is_wanted(each.name, group.name, wanted)])
@@ -79,7 +90,7 @@ def tdms_pieces(path: Path, wanted: Collection[str] | None, leading: Collection[
 def _tdms_blocks(name: str, raster: tuple[int, float, float], channels: Sequence[Any]) -> Blocks:
     length, interval, start = raster
     units = {each.name: str(unit) for each in channels if (unit := each.properties.get("unit_string"))}
-    origins = {each.name: each[0] for each in channels if length and each.dtype.kind == "M"}
+    origins = {each.name: each[0:1] for each in channels if length and each.dtype.kind == "M"}
     for first in range(0, length, _ROWS):
         rows = np.arange(first, min(first + _ROWS, length))
         read = {
@@ -89,6 +100,29 @@ def _tdms_blocks(name: str, raster: tuple[int, float, float], channels: Sequence
         if kept:
             time = start + interval * rows if interval > 0.0 else None
             yield Group(name, kept, {each: unit for each, unit in units.items() if each in kept}, time)
+
+
+class _Stored:
+    """A channel of numbers copied to a file, whose rows are read from there."""
+
+    def __init__(self, channel: Any, path: Path) -> None:
+        self.name, self.properties, self.dtype = channel.name, channel.properties, channel.dtype
+        self._path = path
+        with path.open("wb") as file:
+            for chunk in channel.data_chunks():
+                np.asarray(chunk[:], dtype=self.dtype).tofile(file)
+
+    def __getitem__(self, rows: slice) -> Any:
+        count, offset = rows.stop - rows.start, rows.start * self.dtype.itemsize
+        return np.fromfile(self._path, self.dtype, count, offset=offset)
+
+
+def _short_chunks(channel: Any, folder: Path) -> Any:
+    """Return a channel, or a copy where its chunks are long: npTDMS reads all of one for each of its rows."""
+    longest = len(next(channel.data_chunks(), ()))
+    if longest <= _ROWS or channel.dtype.kind not in "biufM":
+        return channel
+    return _Stored(channel, folder / f"{len(list(folder.iterdir()))}.raw")
 
 
 def _is_wanted(channel: str, group: str, wanted: Collection[str] | None) -> bool:
