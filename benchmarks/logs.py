@@ -29,6 +29,7 @@ _STEP = 0.01
 _COASTS, _STANDS = 60.0, 60.0
 """s before and after each stop; chosen."""
 _FIND: Final = """\
+import resource
 import sys
 from pathlib import Path
 from uictest.recorded.field_data import load_map
@@ -38,10 +39,11 @@ mapped = load_map("uictest")[0]
 log = find_stops([path], mapped)
 cut = len(write_stops(log, mapped, folder))
 highest = next(line for line in Path("/proc/self/status").read_text().splitlines() if "VmHWM" in line)
-print(cut, log.first_rows[-1], highest.split()[1])
+reader = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+print(cut, log.first_rows[-1], int(highest.split()[1]) + reader)
 """
-"""Finds and cuts out; says how many stops and rows there were, and the highest resident size, kB: the system
-counts that of a child from before it was begun."""
+"""Finds and cuts out; says how many stops and rows there were, and the highest resident size, kB, with that
+of the process that reads MDF and TDMS: the system counts that of a child from before it was begun."""
 Columns = dict[str, NDArray[np.float64]]
 
 

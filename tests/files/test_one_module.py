@@ -24,6 +24,7 @@ EXCEPTIONS = {
     "rig/external/child.py": {"fdopen": "a pipe"},
     "rig/external/guard.py": {"rmtree": CHILD},
     "core/recording/formats/reader.py": {"write_text": READER, "write_bytes": READER},
+    "core/recording/formats/streams.py": {"open": READER, "tofile": READER},
     "cli/start.py": {"open": "the null device in the place of a closed stream"},
     "cli/output.py": {"open": "the null device in the place of a closed stream"},
     "core/user_cache.py": {"open": "flags that only read"},

@@ -92,6 +92,18 @@ def test_parquet_columns_of_one_name_are_refused(tmp_path):
         read_here("parquet", tmp_path / "twice.parquet", Dialect())
 
 
+@pytest.mark.parametrize("version", ["2.14", "3.30", "4.20"])
+def test_other_versions_of_mdf_are_read(tmp_path, version):
+    asammdf = pytest.importorskip("asammdf")
+    path, time = tmp_path / "other.mdf", np.arange(5) * 0.1
+    with asammdf.MDF(version=version) as mdf:
+        mdf.append([asammdf.Signal(20.0 - time, time, name="speed", unit="m/s")])
+        mdf.save(path.with_suffix(".mf4" if version > "4" else ".mdf"))
+    (group,) = read_contents(next(tmp_path.iterdir())).groups
+    assert group.channels["speed"] == pytest.approx(20.0 - time)
+    assert group.time == pytest.approx(time)
+
+
 def test_mdf_opens_in_its_own_library(written):
     asammdf = pytest.importorskip("asammdf")
     with asammdf.MDF(written("mdf")) as mdf:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import json
 import os
 import signal
 import subprocess
 import sys
-from collections.abc import Mapping
+import threading
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -30,6 +32,8 @@ from uictest.core.recording.recording import Contents, Group
 _MODULE = "uictest.core.recording.formats.reader"
 REJECTED, EXTRA_MISSING, TOO_LARGE, NO_ROOM = 10, 11, 12, 13
 """Exit codes of the reading process, besides 0."""
+PIECE_READY = b"piece\n"
+"""What the reading process says when a piece of a long file lies in its folder; it goes on after a line."""
 _KILLED = {getattr(signal, name, None) for name in ("SIGKILL", "SIGTERM", "SIGINT", "SIGHUP")}
 """Signals that come from outside; a file that crashes its reader causes others."""
 
@@ -54,22 +58,71 @@ def read_contents(path: Path, dialect: Dialect | None = None, seconds: float = R
         return _collect(folder)
 
 
-def _read_in_process(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> int:
-    """Return the exit code of a process that reads a file into a folder."""
+def read_apart(
+    name: str, path: Path, request: Mapping[str, object], seconds: float = READING_SECONDS
+) -> Iterator[Contents]:
+    """Yield a long file piece by piece; while one is used, the next is read.
+
+    `request` has the arguments of `streams.PIECES` by name; each piece may take so many seconds.
+
+    Raises as :func:`read_contents`.
+    """
+    with files.temporary_folder() as folder:
+        command = _command(name, path, Dialect(), json.dumps(request))
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+        process: Any
+        with subprocess.Popen(command, **{**_surroundings(folder), **pipes}) as process:
+            try:
+                while _says(process, name, seconds) == PIECE_READY:
+                    contents = _collect(folder)
+                    with contextlib.suppress(BrokenPipeError):
+                        os.write(process.stdin.fileno(), b"\n")
+                    yield contents
+                _reject_failure(process.wait(), name, path, folder)
+            finally:
+                process.kill()
+
+
+def _says(process: Any, name: str, seconds: float) -> bytes:
+    """Return the next line that a process writes, nothing where it ends; it is killed where that lasts."""
+    overdue = threading.Event()
+
+    def stop() -> None:
+        overdue.set()
+        process.kill()
+
+    timer = threading.Timer(seconds, stop)
+    timer.start()
+    line: bytes = process.stdout.readline()
+    timer.cancel()
+    if overdue.is_set() and not line:
+        raise UnreadableError(_too_slow(name, seconds))
+    return line
+
+
+def _too_slow(name: str, seconds: float) -> str:
+    return f"reading it as {name} did not end within {seconds:g} s"
+
+
+def _command(name: str, path: Path, dialect: Dialect, *request: str) -> list[str]:
     # -I: neither the environment nor the working folder, where the file may lie, decides what is imported.
     # -B: on a full disk Python could leave half a compiled module, which every later reader would fail on.
     flags = ["-I", "-B", "-m", _MODULE]
-    command = [sys.executable, *flags, name, str(path.absolute()), json.dumps(asdict(dialect))]
-    done = subprocess.run(
-        command,
-        cwd=folder,
-        env={**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))},
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        timeout=seconds,
-        check=False,
-    )
+    return [sys.executable, *flags, name, str(path.absolute()), json.dumps(asdict(dialect)), *request]
+
+
+def _surroundings(folder: Path) -> dict[str, Any]:
+    return {
+        "cwd": folder,
+        "env": {**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))},
+        **dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL),
+    }
+
+
+def _read_in_process(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> int:
+    """Return the exit code of a process that reads a file into a folder."""
+    command = _command(name, path, dialect)
+    done = subprocess.run(command, **_surroundings(folder), timeout=seconds, check=False)
     return done.returncode
 
 
@@ -77,7 +130,12 @@ def _run(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) 
     try:
         code = _read_in_process(name, path, dialect, folder, seconds)
     except subprocess.TimeoutExpired as error:
-        raise UnreadableError(f"reading it as {name} did not end within {seconds:g} s") from error
+        raise UnreadableError(_too_slow(name, seconds)) from error
+    _reject_failure(code, name, path, folder)
+
+
+def _reject_failure(code: int, name: str, path: Path, folder: Path) -> None:
+    """Raise what the exit code of the reading process stands for."""
     if code == 0:
         return
     if code == EXTRA_MISSING:

@@ -84,7 +84,12 @@ def _group(mdf: Any, number: int, skipped: dict[str, str]) -> Iterator[Group]:
         if signal.unit:
             units[name] = str(signal.unit)
     if channels:
-        yield Group(str(mdf.groups[number].channel_group.acq_name or ""), channels, units, time)
+        yield Group(group_name(mdf.groups[number]), channels, units, time)
+
+
+def group_name(group: Any) -> str:
+    """Return the name of a group; version 3 has none."""
+    return str(getattr(group.channel_group, "acq_name", "") or "")
 
 
 def distinct(name: str, channels: Container[str]) -> str:

@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from uictest.core.recording.formats import csv_text, parquet
-from uictest.core.recording.formats.file_formats import MissingExtraError, UnreadableError, format_of
+from uictest.core.recording.formats import csv_text, isolation, parquet, streams
+from uictest.core.recording.formats.file_formats import UnreadableError, format_of
 from uictest.core.recording.formats.layout import Dialect, encoding_of, table_layout
-from uictest.core.recording.formats.streams import mdf_pieces, tdms_pieces
 from uictest.core.recording.recording import Contents, Group, Samples
 
 _BLOCK = 2 * 2**20
@@ -32,28 +31,21 @@ def read_pieces(
     own times, the one that has a channel of `leading` comes first and is read block by block; the others have
     what lies beside each block, and some samples around it.
 
-    Raises UnreadableError where the file cannot be read so or is damaged; MissingExtraError; OSError.
+    MDF and TDMS are read in a process of their own, as whole recordings are.
+
+    Raises as `read_contents`.
     """
     kind = format_of(path)
     if kind in ("mdf", "tdms"):
-        yield from _undamaged((mdf_pieces if kind == "mdf" else tdms_pieces)(path, wanted, leading), kind)
+        asked = None if wanted is None else sorted(wanted)
+        request = {"wanted": asked, "leading": list(leading), "at_once": streams.AT_ONCE[kind]}
+        yield from isolation.read_apart(kind, path, request)
     elif kind in ("csv", "parquet"):
         yield from _tables(path, dialect, wanted, _csv if kind == "csv" else _parquet)
     else:
         raise UnreadableError(
             f"{kind} is not read in pieces; write it as Parquet: uictest export {path.name} --to parquet"
         )
-
-
-def _undamaged(pieces: Iterator[Contents], kind: str) -> Iterator[Contents]:
-    try:
-        yield from pieces
-    except (UnreadableError, MissingExtraError, OSError, GeneratorExit):
-        raise
-    # A library that meets a damaged file may raise anything at all.
-    except Exception as error:
-        reason = f"damaged, or nothing that can be read as {kind} ({type(error).__name__})"
-        raise UnreadableError(reason) from error
 
 
 Table = tuple[list[str], dict[str, str], Iterator[Any]]

@@ -17,10 +17,8 @@ from uictest.core.recording.formats import mdf, tdms
 from uictest.core.recording.formats.file_formats import UnreadableError, required_module
 from uictest.core.recording.recording import Contents, Group
 
-_ROWS: Final = 2**17
-"""Rows of a group that are read at once; chosen."""
-_BYTES: Final = 16 * 2**20
-"""Bytes of the records of an MDF group that are read at once; chosen."""
+AT_ONCE: Final = {"mdf": 16 * 2**20, "tdms": 2**17}
+"""What is read of a group at once: bytes of the records of an MDF group, rows of a TDMS group; chosen."""
 _OVERLAP: Final = 3
 """Samples before and after a piece that the groups beside the leading one have, to interpolate; chosen."""
 _UNFINISHED: Final = b"UnFinMF "
@@ -28,7 +26,9 @@ _UNFINISHED: Final = b"UnFinMF "
 Blocks = Iterator[Group]
 
 
-def mdf_pieces(path: Path, wanted: Collection[str] | None, leading: Collection[str]) -> Iterator[Contents]:
+def mdf_pieces(
+    path: Path, wanted: Collection[str] | None, leading: Collection[str], at_once: int
+) -> Iterator[Contents]:
     """Yield an MDF file as :func:`in_step`; see `read_pieces`.
 
     asammdf maps what it opens by its path, and all of the file stays mapped: it gets an open file.
@@ -39,7 +39,7 @@ def mdf_pieces(path: Path, wanted: Collection[str] | None, leading: Collection[s
         if file.read(8) == _UNFINISHED:
             file = path
         opened = stack.enter_context(asammdf.MDF(file, temporary_folder=Path(tempfile.gettempdir())))
-        opened.configure(read_fragment_size=_BYTES)
+        opened.configure(read_fragment_size=at_once)
         streams = [_mdf_blocks(opened, k, wanted) for k in range(len(opened.groups))]
         yield from in_step(streams, leading)
 
@@ -51,7 +51,7 @@ def _mdf_blocks(opened: Any, number: int, wanted: Collection[str] | None) -> Blo
     read from the beginning of the file each time.
     """
     inner, group = opened._mdf, opened.groups[number]
-    master, name = inner.masters_db.get(number), str(group.channel_group.acq_name or "")
+    master, name = inner.masters_db.get(number), mdf.group_name(group)
     named: dict[str, int] = {}
     for index, channel in enumerate(group.channels):
         if index != master:
@@ -74,12 +74,16 @@ def _mdf_blocks(opened: Any, number: int, wanted: Collection[str] | None) -> Blo
             yield Group(name, channels, units, time)
 
 
-def tdms_pieces(path: Path, wanted: Collection[str] | None, leading: Collection[str]) -> Iterator[Contents]:
+def tdms_pieces(
+    path: Path, wanted: Collection[str] | None, leading: Collection[str], at_once: int
+) -> Iterator[Contents]:
     """Yield a TDMS file as :func:`in_step`; see `read_pieces`."""
     nptdms = required_module("nptdms", tdms.EXTRA)
     with files.temporary_folder() as folder, nptdms.TdmsFile.open(path) as opened:
         streams = [
-            _tdms_blocks(group.name, raster, [_short_chunks(each, folder) for each in chosen])
+            _tdms_blocks(
+                group.name, raster, [_short_chunks(each, folder, at_once) for each in chosen], at_once
+            )
             for group in opened.groups()
             for raster, channels in tdms.rasters_of(group).items()
             if (chosen := [each for each in channels if _is_wanted(each.name, group.name, wanted)])
@@ -87,19 +91,26 @@ def tdms_pieces(path: Path, wanted: Collection[str] | None, leading: Collection[
         yield from in_step(streams, leading)
 
 
-def _tdms_blocks(name: str, raster: tuple[int, float, float], channels: Sequence[Any]) -> Blocks:
+def _tdms_blocks(
+    name: str, raster: tuple[int, float, float], channels: Sequence[Any], at_once: int
+) -> Blocks:
     length, interval, start = raster
     units = {each.name: str(unit) for each in channels if (unit := each.properties.get("unit_string"))}
     origins = {each.name: each[0:1] for each in channels if length and each.dtype.kind == "M"}
-    for first in range(0, length, _ROWS):
-        rows = np.arange(first, min(first + _ROWS, length))
+    for first in range(0, length, at_once):
+        rows = np.arange(first, min(first + at_once, length))
         read = {
-            each.name: tdms.numbers(each[first : first + _ROWS], origins.get(each.name)) for each in channels
+            each.name: tdms.numbers(each[first : first + at_once], origins.get(each.name))
+            for each in channels
         }
         kept = {each: samples for each, samples in read.items() if samples is not None}
         if kept:
             time = start + interval * rows if interval > 0.0 else None
             yield Group(name, kept, {each: unit for each, unit in units.items() if each in kept}, time)
+
+
+PIECES: Final = {"mdf": mdf_pieces, "tdms": tdms_pieces}
+"""What reads the pieces of each format."""
 
 
 class _Stored:
@@ -117,10 +128,10 @@ class _Stored:
         return np.fromfile(self._path, self.dtype, count, offset=offset)
 
 
-def _short_chunks(channel: Any, folder: Path) -> Any:
+def _short_chunks(channel: Any, folder: Path, rows: int) -> Any:
     """Return a channel, or a copy where its chunks are long: npTDMS reads all of one for each of its rows."""
     longest = len(next(channel.data_chunks(), ()))
-    if longest <= _ROWS or channel.dtype.kind not in "biufM":
+    if longest <= rows or channel.dtype.kind not in "biufM":
         return channel
     return _Stored(channel, folder / f"{len(list(folder.iterdir()))}.raw")
 
