@@ -49,6 +49,46 @@ def test_a_changed_part_is_named_with_what_was_changed():
     assert part_sentences({"controller": PLAIN}) == {"controller": "threshold"}
 
 
+def added(key, written, mark="user"):
+    return Parameter(key, written, "", written, mark, "", differs=True)
+
+
+def test_what_a_scenario_adds_stands_as_its_file_writes_it_without_defaults():
+    brake = EffectivePart(
+        *("scenario.brake", "brake", "", None),
+        (
+            added("brake.dynamic.force", "40 kN"),
+            added("brake.dynamic.wheelsets.0", "1"),
+            added("brake.dynamic.wheelsets.1", "2"),
+            added("brake.dynamic.response_time", "0.3 s", "default"),
+            added("brake.command.0.at", "0 s"),
+            added("brake.command.0.value", "60 %"),
+            added("brake.command.1.at", "8 s"),
+            added("brake.command.1.position", "emergency"),
+            Parameter("brake.position", "G", "", "G", "user", "", True, "R", "R"),
+        ),
+    )
+    assert changed_parameters({"scenario.brake": brake}) == [
+        "brake.dynamic {force: 40 kN, wheelsets: [1, 2]}",
+        "brake.command [{at: 0 s, value: 60 %}, {at: 8 s, position: emergency}]",
+        "brake.position G (default: R)",
+    ]
+    sanders = EffectivePart("scenario", "", "", None, (added("sanders.0.wheelset", "1"),))
+    assert changed_parameters({"scenario": sanders}) == ["sanders [{wheelset: 1}]"]
+
+
+def test_a_page_tells_sections_of_scenarios_apart_and_keeps_those_of_a_kind_together():
+    first, second = (
+        EffectivePart("scenario.rail", "rail", "", None, (added("rail.friction", value),))
+        for value in ("0.03", "0.08")
+    )
+    shown = shown_parts([{"rail": first, "controller": PLAIN}, {"rail": second}])
+    assert shown.parts == [first, second, PLAIN]
+    content = make_content(*(make_result(id=each.id, parts={"rail": each}) for each in (first, second)))
+    headings = [line for line in page_html(content).splitlines() if "<summary>scenario.rail" in line]
+    assert ["0.03" in line for line in headings] == [True, False]
+
+
 def test_what_a_users_own_file_has_instead_is_not_called_the_librarys():
     own = dataclasses.replace(CONTROLLER, based_on="mine.yaml", removed=("controller.gone",))
     assert changed_parameters({"controller": own}) == [

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from functools import cache
+from functools import cache, partial
+from itertools import groupby
 from typing import Final
 
 from uictest import controllers
@@ -165,13 +166,45 @@ def _differences(part: evaluation.EffectivePart, varied: Collection[str], told: 
 
 def _changes(part: evaluation.EffectivePart, above: str, varied: Collection[str] = ()) -> Iterator[str]:
     yield from fault_sentences(part.changed, varied)
-    for parameter in part.changed:
-        if parameter.key in varied or parameter.key.startswith("faults."):
+    changed = (each for each in part.changed if each.key not in varied and not each.key.startswith("faults."))
+    for place, members in groupby(changed, partial(_added_place, part.kind)):
+        if place:
+            yield from _addition(place, tuple(members))
             continue
-        key = parameter.key.removeprefix(f"{above}.")
-        yield f"{key} {parameter.written} ({base_word(part)}: {parameter.library_written or 'none'})"
+        for parameter in members:
+            key = parameter.key.removeprefix(f"{above}.")
+            yield f"{key} {parameter.written} ({base_word(part)}: {parameter.library_written or 'none'})"
     for key in part.removed:
         yield f"{key.removeprefix(f'{above}.')} removed"
+
+
+def _added_place(kind: str, parameter: evaluation.Parameter) -> str:
+    """Return the key of the section or list of a scenario that a parameter was added with; else empty."""
+    depth = 1 + kind.count(".")
+    names = parameter.key.split(".")
+    is_added = kind.startswith("scenario") and not parameter.library_written and len(names) > depth
+    return ".".join(names[:depth]) if is_added else ""
+
+
+def _addition(place: str, members: Sequence[evaluation.Parameter]) -> Iterator[str]:
+    """Yield a section that a scenario adds as its file writes it, without what it leaves at a default."""
+    first = len(place) + 1
+    stated = [(each.key[first:].split("."), each.written) for each in members if each.mark != "default"]
+    if stated:
+        yield f"{place} {_as_yaml(stated)}"
+
+
+def _as_yaml(entries: Sequence[tuple[Sequence[str], str]]) -> str:
+    """Return values below their keys in the flow style of YAML: `{force: 40 kN, wheelsets: [1, 2]}`."""
+    if not entries[0][0]:
+        return entries[0][1]
+    inner = {
+        name: _as_yaml([(key[1:], text) for key, text in own])
+        for name, own in groupby(entries, lambda entry: entry[0][0])
+    }
+    if all(name.isdigit() for name in inner):
+        return f"[{', '.join(inner.values())}]"
+    return f"{{{', '.join(f'{name}: {text}' for name, text in inner.items())}}}"
 
 
 def _setting(parts: Mapping[str, evaluation.EffectivePart]) -> str:

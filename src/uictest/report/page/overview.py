@@ -74,6 +74,8 @@ class ShownParts:
 
 
 def shown_parts(cases: Iterable[Mapping[str, evaluation.EffectivePart]]) -> ShownParts:
-    """Return the distinct parts of some cases in the order of their first use, for a page to show."""
-    parts = list(evaluation.parts_table(cases).values())
-    return ShownParts(parts[:_MOST], max(len(parts) - _MOST, 0))
+    """Return the distinct parts of some cases for a page to show: by kind, each in the order of first use."""
+    table = evaluation.parts_table(cases)
+    parts = list(table.values())[:_MOST]
+    kinds = list(dict.fromkeys(part.kind for part in parts))
+    return ShownParts(sorted(parts, key=lambda part: kinds.index(part.kind)), len(table) - len(parts))
