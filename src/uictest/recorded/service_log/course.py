@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 
 from uictest.recorded.service_log.signals import (
     Array,
-    Constant,
+    Before,
     Rows,
+    constant_before,
     continuous_clock,
+    last_interval,
     reference_speed,
     steps_of_clock,
 )
@@ -46,22 +48,39 @@ class Course:
 
     Args:
         rows: of the stretch.
-        first_row: number of its first row in the log.
-        travelled: distance from the beginning of the log there, m.
-        constant: what the train speed showed before.
+        before: what they follow. A clock and a distance that go on from it have the same bits wherever the
+            stretch begins.
 
     """
 
-    def __init__(self, rows: Rows, first_row: int, travelled: float, constant: Constant) -> None:
-        self.time, self.braked, self.first_row = rows.time, rows.braked, first_row
+    def __init__(self, rows: Rows, before: Before) -> None:
+        self._rows, self._before = rows, before
+        self.time, self.braked, self.first_row = rows.time, rows.braked, before.row
         self.unusable = ~np.isfinite(rows.train)
-        self.clock = continuous_clock(rows.time)
-        self.signed, self.constant = reference_speed(self.clock, rows.train, rows.wheels, constant)
+        self.clock = continuous_clock(rows.time, before)
+        self.signed = reference_speed(self.clock, rows.train, rows.wheels, before.constant)
         self.speed = np.abs(self.signed)
-        self.travelled = travelled + _distance(self.clock, self.speed)
+        self.travelled = _distance(self.clock, self.speed, before.travelled)
         self.steps = steps_of_clock(rows.time)
         jumps = ~(np.abs(np.diff(self.speed)) <= _LARGEST_JUMP)
         self.interruptions = self.steps[jumps[self.steps - 1]]
+
+    def before(self, row: int) -> Before:
+        """Return what a stretch follows that begins at a row."""
+        if row == 0:
+            return self._before
+        _, train, wheels, _ = self._rows
+        return Before(
+            self.first_row + row,
+            float(self.clock[row]),
+            last_interval(self.time[: row + 1], self._before),
+            float(self.travelled[row]),
+            constant_before(row, self.clock, train, wheels, self._before.constant),
+        )
+
+    def row_before(self, row: int, seconds: float) -> int:
+        """Return the first row at most so many seconds before a row."""
+        return int(np.searchsorted(self.clock, self.clock[row] - seconds - _TIE))
 
     def row_after(self, row: int, seconds: float) -> int:
         """Return the first row later than so many seconds after a row."""
@@ -92,7 +111,7 @@ class Course:
 
         `released` is the row at which the application before ended.
         """
-        begin = max(released, int(np.searchsorted(self.clock, self.clock[first] - _BEFORE - _TIE)))
+        begin = max(released, self.row_before(first, _BEFORE))
         end = self.row_after(stop_row, _AFTER)
         before = self.steps[(self.steps > begin) & (self.steps <= first)]
         after = self.steps[(self.steps > stop_row) & (self.steps < end)]
@@ -107,7 +126,7 @@ class Course:
             while pieces and self._goes_on(end, pieces[-1][0]):
                 _, end = pieces.pop()
             last = min(end, len(self.clock) - 1)
-            if self.clock[last] - self.clock[first] >= _SHORTEST_APPLICATION:
+            if self.clock[last] - self.clock[first] >= _SHORTEST_APPLICATION - _TIE:
                 yield first, end
 
     def _goes_on(self, end: int, begin: int) -> bool:
@@ -142,6 +161,6 @@ def _pieces(braked: NDArray[np.bool_], interruptions: NDArray[np.intp]) -> Itera
         yield from pairwise([int(start), *map(int, inside), int(end)])
 
 
-def _distance(clock: Array, speed: Array) -> Array:
+def _distance(clock: Array, speed: Array, travelled: float) -> Array:
     known = np.nan_to_num(speed)
-    return np.concatenate(([0.0], np.cumsum(0.5 * (known[1:] + known[:-1]) * np.diff(clock))))
+    return np.cumsum(np.concatenate(([travelled], 0.5 * (known[1:] + known[:-1]) * np.diff(clock))))

@@ -16,13 +16,17 @@ from uictest.core.recording.formats import UnreadableError
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.recorded.field_data import ChannelMap, MapError
 from uictest.recorded.service_log.course import HELD, ROWS_OF_SPEED, SHORTEST_RELEASE, Course
-from uictest.recorded.service_log.signals import Constant, Rows, rows_of
+from uictest.recorded.service_log.signals import Before, Rows, rows_of
 
-_SETTLED = 10.0
+_SETTLED = 15.0
 """s after its end, or after standstill, nothing that follows changes what an application was: more than an
-event has after it, and than the next has before it; chosen."""
+event has after it and a stuck speed before it; chosen."""
+_LEAD = 15.0
+"""s before an application in which nothing may be forgotten: more than an event has before it; chosen."""
 _CALM = 2.0 * SHORTEST_RELEASE
-"""s without the brake: what begins later belongs to nothing before; chosen."""
+"""s after which it is known whether an application begins in a row; chosen."""
+_LONGEST = 3600.0
+"""s: an application without standstill that lasts longer is no braking, its signal is stuck; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,14 +123,17 @@ class _Begin(NamedTuple):
 
 
 class _Finder:
-    """Finds events while a log is read, and holds its rows only as long as they may matter."""
+    """Finds events while a log is read, and holds its rows only as long as they may matter.
+
+    An event is reported once no row that follows can change it: it is the same wherever a piece ends.
+    """
 
     def __init__(self, settings: FinderSettings, standstill: float) -> None:
         self._settings, self._lowest = settings, max(settings.to_speed, standstill)
         self.begun: list[_Begin] = []
         self.rows = 0
         self._held = Rows(np.zeros(0), np.zeros(0), np.zeros(0), np.zeros(0, dtype=np.bool_))
-        self._first, self._travelled, self._constant = 0, 0.0, Constant()
+        self._before = Before()
         self._looked_at, self._released = 0, 0
 
     def begin(self, path: Path) -> None:
@@ -134,83 +141,86 @@ class _Finder:
         self.begun.append(_Begin(path, self.rows))
 
     def add(self, rows: Rows) -> list[LoggedEvent]:
-        """Return the events that are over once these rows are known."""
+        """Return the events that are known once these rows are."""
         self._held = self._held.followed_by(rows)
         self.rows += len(rows.time)
-        course = Course(self._held, self._first, self._travelled, self._constant)
-        if not self._is_settled(course):
+        if not self.rows:
             return []
-        events = list(self._events(course))
-        self._forget(course)
+        course = Course(self._held, self._before)
+        events = list(self._events(course, all_of_them=False))
+        row = self._looked_at - self._before.row
+        kept = max(min(course.row_before(row, _LEAD), row - ROWS_OF_SPEED), 0)
+        self._held, self._before = self._held.from_row(kept), course.before(kept)
         return events
 
     def rest(self) -> list[LoggedEvent]:
         """Return the events at the end of the log."""
-        return list(self._events(Course(self._held, self._first, self._travelled, self._constant)))
+        return list(self._events(Course(self._held, self._before), all_of_them=True)) if self.rows else []
 
-    def _is_settled(self, course: Course) -> bool:
-        """Return whether nothing that follows a course changes what its applications are."""
-        now, braked = course.clock[-1], np.flatnonzero(course.braked)
-        applications = list(course.applications())
-        if applications and applications[-1][1] == len(course.clock):
-            stands = course.standstill(*applications[-1], self._lowest)
-            return stands is not None and bool(now - course.clock[stands] >= _SETTLED)
-        over = not applications or now - course.clock[applications[-1][1]] >= _SETTLED
-        return bool(over and (not len(braked) or now - course.clock[braked[-1]] >= _CALM))
-
-    def _forget(self, course: Course) -> None:
-        """Keep the last rows only, as the lead of what follows."""
-        late = int(np.searchsorted(course.clock, course.clock[-1] - _SETTLED))
-        kept = max(min(late, len(course.clock) - 1 - ROWS_OF_SPEED), 0)
-        self._held = self._held.from_row(kept)
-        self._first, self._travelled = self._first + kept, float(course.travelled[kept])
-        self._constant, self._looked_at = course.constant, self.rows
-
-    def _events(self, course: Course) -> Iterator[LoggedEvent]:
+    def _events(self, course: Course, *, all_of_them: bool) -> Iterator[LoggedEvent]:
+        """Yield the events that are known, and note up to which row all have been reported."""
+        held = self._before.row
         self.begun = [
-            begin._replace(distance=float(course.travelled[begin.row - self._first]))
-            if self._first <= begin.row < self.rows
+            begin._replace(distance=float(course.travelled[begin.row - held]))
+            if held <= begin.row < self.rows
             else begin
             for begin in self.begun
         ]
+        looked_at = course.row_before(-1, _CALM)
         for first, end in course.applications():
-            if self._first + first >= self._looked_at:
+            if held + first >= self._looked_at:
+                if not all_of_them and not self._is_settled(course, first, end):
+                    looked_at = min(looked_at, first)
+                    break
                 yield self._event(course, first, end)
-            self._released = self._first + end
+            self._released = held + end
+        self._looked_at = max(self._looked_at, held + looked_at)
+
+    def _is_settled(self, course: Course, first: int, end: int) -> bool:
+        """Return whether nothing that follows a course changes what an application in it is."""
+        now = course.clock[-1]
+        if now - course.clock[first] >= _LONGEST + _SETTLED:
+            return True
+        stands = course.standstill(first, end, self._lowest)
+        over = end if stands is None else stands
+        return bool(over < len(course.clock) and now - course.clock[over] >= _SETTLED)
 
     def _event(self, course: Course, first: int, end: int) -> LoggedEvent:
+        longest = course.row_after(first, _LONGEST)
+        too_long, end = end > longest, min(end, longest)
         rest = course.standstill(first, end, self._lowest)
         stop_row = end - 1 if rest is None else rest
-        rows = course.rows_of(first, stop_row, max(self._released - self._first, 0))
+        rows = course.rows_of(first, stop_row, max(self._released - course.first_row, 0))
         initial, final = course.speed_at(first), float(course.speed[stop_row])
         whole = end < len(course.clock) and end not in course.interruptions
-        begin = next(each for each in reversed(self.begun) if each.row <= self._first + first)
+        begin = next(each for each in reversed(self.begun) if each.row <= course.first_row + first)
         is_stop = rest is not None and initial >= self._settings.from_speed
         return LoggedEvent(
             begin.file,
-            self._first + first - begin.row,
+            course.first_row + first - begin.row,
             float(course.time[first]),
             float(course.travelled[first]) - begin.distance,
             initial,
             final,
-            (self._first + rows[0], self._first + rows[1]),
+            (course.first_row + rows[0], course.first_row + rows[1]),
             rows[0] == first,
-            "" if is_stop else _reason(initial, final, whole, self._lowest, self._settings),
+            "" if is_stop else self._reason(initial, final, whole=whole, too_long=too_long),
             tuple(course.remarks(rows, first, stop_row)),
         )
 
-
-def _reason(initial: float, final: float, whole: bool, lowest: float, settings: FinderSettings) -> str:
-    """Return why an application of the brake is no stop."""
-    kmh = KILOMETRE_PER_HOUR
-    if not np.isfinite(initial):
-        return "the speed is not known when the brake is applied"
-    if initial <= lowest:
-        return "without motion"
-    if initial < settings.from_speed:
-        return f"from {initial / kmh:.1f} km/h, below {settings.from_speed / kmh:g} km/h"
-    if not whole:
-        return f"the recording ends or is interrupted at {final / kmh:.1f} km/h"
-    if final > (1.0 - HELD) * initial:
-        return f"drag braking: released at {final / kmh:.1f} of {initial / kmh:.1f} km/h"
-    return f"released at {final / kmh:.1f} km/h"
+    def _reason(self, initial: float, final: float, *, whole: bool, too_long: bool) -> str:
+        """Return why an application of the brake is no stop."""
+        kmh = KILOMETRE_PER_HOUR
+        if not np.isfinite(initial):
+            return "the speed is not known when the brake is applied"
+        if initial <= self._lowest:
+            return "without motion"
+        if initial < self._settings.from_speed:
+            return f"from {initial / kmh:.1f} km/h, below {self._settings.from_speed / kmh:g} km/h"
+        if too_long:
+            return f"longer than {_LONGEST / 60.0:g} min without standstill: the brake signal may be stuck"
+        if not whole:
+            return f"the recording ends or is interrupted at {final / kmh:.1f} km/h"
+        if final > (1.0 - HELD) * initial:
+            return f"drag braking: released at {final / kmh:.1f} of {initial / kmh:.1f} km/h"
+        return f"released at {final / kmh:.1f} km/h"

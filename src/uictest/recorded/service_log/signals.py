@@ -36,6 +36,8 @@ _LEAST_STUCK = 2.0
 """s for which a speed may show one number to the last digit while the wheels change theirs; chosen."""
 _TELLING_CHANGE = 0.5
 """m/s by which the wheels must change meanwhile; chosen."""
+STUCK_BEFORE = 5.0
+"""s before a speed is known to be stuck from which it counts as stuck; chosen."""
 _LONGEST_INTERVAL = 60.0
 """s: a longer interval between two rows is a step of the clock or an interruption; chosen."""
 
@@ -129,37 +131,89 @@ def _second_largest(wheels: Sequence[Array]) -> Array:
 
 
 class Constant(NamedTuple):
-    """A number that the train speed shows, and the least and largest speed of the wheels meanwhile, m/s."""
+    """A number that the train speed shows, since when, s, and the wheel speeds since, m/s."""
 
     number: float = np.nan
-    least: float = np.inf
-    largest: float = -np.inf
+    since: float = 0.0
+    least: float = np.nan
+    largest: float = np.nan
 
 
-def reference_speed(clock: Array, train: Array, wheels: Array, begun: Constant) -> tuple[Array, Constant]:
+class Before(NamedTuple):
+    """What a stretch of a log follows: all that its own rows do not show.
+
+    Args:
+        row: number of its first row in the log.
+        clock: of that row, without steps, s.
+        interval: last one of the recorded clock that was no step, s.
+        travelled: distance from the beginning of the log, m.
+        constant: what the train speed showed up to it.
+
+    """
+
+    row: int = 0
+    clock: float = 0.0
+    interval: float = 1.0
+    travelled: float = 0.0
+    constant: Constant = Constant()
+
+
+def reference_speed(clock: Array, train: Array, wheels: Array, begun: Constant) -> Array:
     """Return the train speed, and that of the wheels where its sensor shows none, zero or one number.
 
-    `begun` is the number that it showed before; returned is also the one that it shows at the end.
+    A sensor that shows one number is known to be stuck once the wheels have changed meanwhile, and counts as
+    stuck from `STUCK_BEFORE` before. `begun` is what it showed before.
     """
     dead = ~np.isfinite(train) | (np.abs(train) < 0.5 * np.abs(wheels) - 1.0)
+    for first, end, since, least, largest in _constants(clock, train, wheels, begun):
+        if clock[end - 1] - since <= _LEAST_STUCK or train[first] == 0.0:
+            continue
+        lowest = np.fmin.accumulate(np.append(least, wheels[first:end]))[1:]
+        highest = np.fmax.accumulate(np.append(largest, wheels[first:end]))[1:]
+        known = (highest - lowest > _TELLING_CHANGE) & (clock[first:end] - since > _LEAST_STUCK)
+        if known.any():
+            before = np.searchsorted(clock, clock[first + int(np.argmax(known))] - STUCK_BEFORE)
+            dead[max(first, int(before)) : end] = True
+    return np.where(dead & np.isfinite(wheels), wheels, train)
+
+
+def constant_before(row: int, clock: Array, train: Array, wheels: Array, begun: Constant) -> Constant:
+    """Return what the train speed shows up to a row, without it."""
+    *_, (first, end, since, least, largest) = _constants(clock[:row], train[:row], wheels[:row], begun)
+    low, high = (f.reduce(wheels[first:end]) for f in (np.fmin, np.fmax))
+    return Constant(float(train[first]), since, float(np.fmin(low, least)), float(np.fmax(high, largest)))
+
+
+def _constants(
+    clock: Array, train: Array, wheels: Array, begun: Constant
+) -> Iterator[tuple[int, int, float, float, float]]:
+    """Yield the rows over which the train speed shows one number, if for long, and last of all the last ones.
+
+    With them, since when it does, and between which speeds the wheels ran before the first row.
+    """
     edges = np.concatenate(([0], np.flatnonzero(np.diff(train) != 0.0) + 1, [len(train)]))
-    firsts, ends = edges[:-1], edges[1:]
-    least, largest = (ufunc.reduceat(wheels, firsts) for ufunc in (np.fmin, np.fmax))
-    if train[0] == begun.number:
-        least[0], largest[0] = np.fmin(least[0], begun.least), np.fmax(largest[0], begun.largest)
-    stuck = (clock[ends - 1] - clock[firsts] > _LEAST_STUCK) & (train[firsts] != 0.0)
-    stuck &= largest - least > _TELLING_CHANGE
-    dead |= np.repeat(stuck, ends - firsts)
-    last = Constant(float(train[-1]), float(least[-1]), float(largest[-1]))
-    return np.where(dead & np.isfinite(wheels), wheels, train), last
+    long = clock[edges[1:] - 1] - clock[edges[:-1]] > _LEAST_STUCK
+    long[[0, -1]] = True
+    for k in np.flatnonzero(long):
+        first, end = int(edges[k]), int(edges[k + 1])
+        if k == 0 and train[0] == begun.number:
+            yield first, end, *begun[1:]
+        else:
+            yield first, end, float(clock[first]), np.nan, np.nan
 
 
-def continuous_clock(time: Array) -> Array:
-    """Return a clock that runs on where the recorded one steps: there it takes the usual interval."""
-    intervals = np.diff(time)
+def continuous_clock(time: Array, before: Before) -> Array:
+    """Return a clock that runs on where the recorded one steps: there it takes the last interval before."""
+    intervals = np.concatenate(([before.interval], np.diff(time)))
     sound = _runs_on(intervals)
-    usual = float(np.median(intervals[sound])) if sound.any() else 1.0
-    return np.concatenate(([0.0], np.cumsum(np.where(sound, intervals, usual))))
+    last = np.maximum.accumulate(np.where(sound, np.arange(len(intervals)), 0))
+    return np.cumsum(np.concatenate(([before.clock], intervals[last][1:])))
+
+
+def last_interval(time: Array, before: Before) -> float:
+    """Return the last interval of the recorded clock that is no step, s."""
+    sound = np.flatnonzero(_runs_on(np.diff(time)))
+    return float(time[sound[-1] + 1] - time[sound[-1]]) if len(sound) else before.interval
 
 
 def steps_of_clock(time: Array) -> NDArray[np.intp]:

@@ -1,0 +1,86 @@
+"""What is found depends on the log alone, and not on where its pieces begin."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, strategies as st
+
+from uictest.recorded.service_log import finder
+from uictest.recorded.service_log.signals import Rows
+
+STEP = 0.1
+
+
+def random_rows(seed):
+    """Return rows at random: speeds and brake know nothing of each other, and defects may lie anywhere."""
+    draw = np.random.default_rng(seed)
+    rows = int(draw.integers(2000, 9000))
+    time = STEP * np.arange(rows)
+    knots = np.concatenate(([0.0], np.sort(draw.uniform(0.0, time[-1], draw.integers(5, 40))), time[-1:]))
+    speeds = np.where(draw.random(len(knots)) < 0.35, 0.0, draw.uniform(0.0, 40.0, len(knots)))
+    speed = np.interp(time, knots, speeds)
+    wheels = speed + draw.normal(0.0, 0.02, rows)
+    train = speed + draw.normal(0.0, 0.02, rows) * (speed != 0.0)
+    braked, begin = np.zeros(rows, dtype=np.bool_), 0
+    while begin < rows:
+        begin += 1 + int(draw.exponential(draw.choice([3, 30, 300])))
+        end = begin + 1 + int(draw.exponential(draw.choice([0.5, 30, 300, 3000])))
+        braked[begin:end], begin = True, end
+    kept = np.ones(rows, dtype=np.bool_)
+    for _ in range(draw.integers(0, 6)):
+        first = int(draw.integers(0, rows))
+        part = slice(first, first + 1 + int(draw.exponential(400)))
+        defect = draw.integers(6)
+        if defect < 3:
+            train[part] = (np.nan, 0.0, train[first])[defect]
+        elif defect == 3:
+            wheels[part] = np.nan
+        elif defect == 4:
+            time[first:] += draw.choice([-500.0, 4000.0, -0.05, 70.0, 3.0, 1e6])
+        else:
+            kept[part] = False
+    return Rows(time[kept], train[kept], wheels[kept], braked[kept])
+
+
+def found(rows, cuts):
+    """Return the events of rows that come in pieces, as texts, and how many rows were held at most."""
+    search, held, events = finder._Finder(finder.FinderSettings(), 1.0 / 3.6), [0], []
+    search.begin(Path("log"))
+    for begin, end in zip([0, *cuts], [*cuts, len(rows.time)], strict=True):
+        events += search.add(Rows(*(samples[begin:end] for samples in rows)))
+        held.append(len(search._held.time))
+    return [repr(event) for event in (*events, *search.rest())], max(held)
+
+
+@pytest.mark.parametrize("longest", [120.0, 3600.0])
+@given(st.integers(0, 10**6), st.integers(20, 1500))
+def test_pieces_of_any_length_give_the_same_events(longest, seed, length):
+    rows = random_rows(seed)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(finder, "_LONGEST", longest)
+        cuts = range(length, len(rows.time), length)
+        assert found(rows, cuts)[0] == found(rows, [])[0]
+
+
+def test_a_brake_signal_that_is_stuck_is_said_and_does_not_fill_the_memory():
+    """Two hours of running under way; the train then stops twice, once with its brake signal mended."""
+    running = np.full(round(7200.0 / STEP), 30.0)
+    stop = np.concatenate((np.linspace(30.0, 0.0, 300), np.zeros(300), np.linspace(0.0, 30.0, 300)))
+    speed = np.concatenate((running, stop, running[:600], stop))
+    braked = np.ones(len(speed), dtype=np.bool_)
+    braked[-1500:-900] = False
+    rows = Rows(STEP * np.arange(len(speed)), speed, np.full(len(speed), np.nan), braked)
+    events, held = found(rows, range(500, len(speed), 500))
+    assert len(events) == 2
+    assert "longer than 60 min without standstill: the brake signal may be stuck" in events[0]
+    assert "reason=''" in events[1]
+    assert held < 3700.0 / STEP
+
+
+def test_short_applications_one_after_the_other_do_not_fill_the_memory():
+    rows = 50_000
+    speed, braked = np.full(rows, 30.0), np.arange(rows) % 50 < 20
+    events, held = found(Rows(STEP * np.arange(rows), speed, speed, braked), range(200, rows, 200))
+    assert len(events) == rows // 50
+    assert held < 700
