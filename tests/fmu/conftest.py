@@ -75,6 +75,13 @@ class Instance:
     def four(self, name):
         return [self[f"{name}_{number}"] for number in (1, 2, 3, 4)]
 
+    def set_all(self, **values):
+        """Set inputs by name: numbers and truth values."""
+        for name, value in values.items():
+            truth = isinstance(value, bool)
+            real = self.fmu.setReal if self.version == 2 else self.fmu.setFloat64
+            (self.fmu.setBoolean if truth else real)([self.variables[name].valueReference], [value])
+
     def step(self, hold=(0,) * 4, vent=(0,) * 4, size=CYCLE):
         names = [f"{magnet}_{number}" for magnet in ("hold", "vent") for number in (1, 2, 3, 4)]
         references = [self.variables[name].valueReference for name in names]

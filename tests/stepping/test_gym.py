@@ -80,3 +80,31 @@ def test_a_stop_without_a_locked_wheelset_costs_its_distance():
     locked = RigState(1.01, 10.2, 20.0, (0.0, 0.0, 20.0, 20.0), *[(0.0,) * 4] * 5, 8e5)
     assert uictest.gym.distance_and_locks(before, after) == pytest.approx(-0.2)
     assert uictest.gym.distance_and_locks(before, locked) == pytest.approx(-0.4)
+
+
+MOTORS = "brake: {dynamic: {force: 60 kN, power: 1.6 MW}, track: {attraction: 50 kN, when: requested}}\n"
+
+
+def test_with_contract_2_an_action_reduces_the_dynamic_brake_and_asks_for_the_track_brake(write_scenario):
+    from gymnasium.utils.env_checker import check_env
+
+    env = made(write_scenario(MOTORS), contract=2)
+    check_env(env)
+    env.reset(seed=1)
+    action = {
+        "valves": np.zeros(4, int),
+        "dynamic_reduction": np.array([0.0, 1.0, 0.0, 0.0]),
+        "sand_request": np.zeros(4, np.int8),
+        "track_brake_request": 1,
+    }
+    for _ in range(200):
+        observation, *_ = env.step(action)
+    assert observation.shape == (15,)
+    motors, (axle_load, command) = observation[9:13], observation[13:]
+    assert motors[1] == 0.0
+    assert min(motors[[0, 2, 3]]) > 0.5
+    assert 50e3 < axle_load < 200e3
+    assert command == 1.0
+    for wrong in (action | {"dynamic_reduction": [0.0, 2.0, 0.0, 0.0]}, {"valves": [0] * 4}, [0] * 4):
+        with pytest.raises(ValueError, match=r"is no action|expected 0 to 1"):
+            env.step(wrong)

@@ -10,11 +10,11 @@ TWO_CASES = "matrix:\n  brake.command: [80 %, 90 %]\n"
 
 @pytest.fixture
 def built(monkeypatch):
-    """What would be built: case and version. The rig's own tests build FMUs."""
+    """What would be built: case, version and contract. The rig's own tests build FMUs."""
     made = []
 
-    def build(case, version, compiler):
-        made.append((case.id, version))
+    def build(case, version, compiler, contract):
+        made.append((case.id, version, contract))
         return b"an FMU"
 
     monkeypatch.setattr(fmu, "usable_compiler", lambda: "cc")
@@ -26,7 +26,7 @@ def test_the_only_case_is_written_and_force_replaces_a_file(call, scenario, buil
     answer = call("export-rig", scenario("stop"), "-o", "out.fmu")
     assert (answer.code, answer.out, answer.err) == (0, "out.fmu\n", "")
     assert Path("out.fmu").read_bytes() == b"an FMU"
-    assert built == [("stop", 2)]
+    assert built == [("stop", 2, 1)]
     Path("rig.fmu").write_text("older")
     assert call("export-rig", scenario("stop"), "--force").code == 0
     assert Path("rig.fmu").read_bytes() == b"an FMU"
@@ -34,8 +34,8 @@ def test_the_only_case_is_written_and_force_replaces_a_file(call, scenario, buil
 
 def test_one_of_several_cases_is_chosen(call, scenario, built):
     case = ("--case", "stop[command=90]")
-    assert call("export-rig", scenario("stop", TWO_CASES), *case, "--fmi", "3").code == 0
-    assert built == [("stop[command=90]", 3)]
+    assert call("export-rig", scenario("stop", TWO_CASES), *case, "--fmi", "3", "--contract", "2").code == 0
+    assert built == [("stop[command=90]", 3, 2)]
 
 
 def test_several_cases_are_refused_with_their_ids_and_an_unknown_one_exits_5(call, scenario, built):

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from html import escape
 from importlib import metadata
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, Literal
 
 import numpy as np
 
@@ -22,23 +22,24 @@ from uictest.plans import scenario
 from uictest.rig import STEP, STOP_MEMORY, StopInputs, bench
 
 INSTANCE_MEMORY: Final[Any] = np.dtype(
-    [("stop", STOP_MEMORY), ("time", "f8"), ("ended", "i8"), ("hold", "i4", 4), ("vent", "i4", 4)]
+    [
+        *(("stop", STOP_MEMORY), ("time", "f8"), ("ended", "i8"), ("hold", "i4", 4), ("vent", "i4", 4)),
+        *(("dynamic_reduction", "f8", 4), ("sand_request", "i4", 4), ("track_brake_request", "i4")),
+    ]
 )
 """A stop, the time of the simulation, whether the stop has ended, and the commands as last set."""
+
+
+def _command(name: str, description: str, kind: Literal["real", "boolean"] = "boolean") -> Variable:
+    start = "false" if kind == "boolean" else "0.0"
+    return Variable(name, name, description, "", kind, "input", start=start)
+
 
 VARIABLES: Final = (
     Variable("time", "time", "Time of the simulation", "s", causality="independent"),
     *of_wheelsets(
-        Variable("hold", "hold", "Holding magnet energised", "", "boolean", "input", start="false"),
-        Variable(
-            "vent",
-            "vent",
-            "Venting magnet energised; forbidden without the holding magnet",
-            "",
-            "boolean",
-            "input",
-            start="false",
-        ),
+        _command("hold", "Holding magnet energised"),
+        _command("vent", "Venting magnet energised; forbidden without the holding magnet"),
         Variable(
             "wheel_speed", "stop.exchange.wheel_speed", "Circumferential, as its sensor shows it", "m/s"
         ),
@@ -84,6 +85,25 @@ VARIABLES: Final = (
     Variable("seed", "stop.parameters.seed", "Seed of noise and random rails", "", "integer", "parameter"),
 )
 """In the order of their value references, from 0."""
+VARIABLES_2: Final = (
+    *of_wheelsets(
+        _command("dynamic_reduction", "Share that is taken off the dynamic brake, 0 to 1", "real"),
+        _command("sand_request", "Asks for sand; obeyed by sanders with `when: requested`"),
+        Variable(
+            "dynamic_brake",
+            "stop.exchange.dynamic_brake",
+            "What the motor gives of what it could at its speed; 0 without a motor",
+        ),
+    ),
+    _command("track_brake_request", "Asks for the track brake; obeyed with `when: requested`"),
+    Variable("axle_load", "stop.exchange.axle_load", "Of one axle at rest", "N"),
+    Variable(
+        "brake_command",
+        "stop.exchange.brake_command",
+        "Share of full service, before the delays of the brake",
+    ),
+)
+"""Further ones of a rig whose commands keep version 2 of the contract of controllers."""
 
 _PLACES: Final = {
     "PARAMETERS_AT": "stop.parameters",
@@ -96,6 +116,12 @@ _PLACES: Final = {
     "ENDED_AT": "ended",
     "HOLD_AT": "hold",
     "VENT_AT": "vent",
+    "COMMANDED_REDUCTION_AT": "stop.exchange.dynamic_reduction",
+    "COMMANDED_SAND_AT": "stop.exchange.sand_request",
+    "COMMANDED_TRACK_BRAKE_AT": "stop.exchange.track_brake_request",
+    "REDUCTION_AT": "dynamic_reduction",
+    "SAND_AT": "sand_request",
+    "TRACK_BRAKE_AT": "track_brake_request",
 }
 """Name in C -> field of the memory of an instance."""
 _TARGET: Final = rig.Target("x86-64-v3", in_library=True)
@@ -105,13 +131,14 @@ _LARGEST_SEED: Final = {2: 2**31 - 1, 3: 2**32 - 1}
 _PACKAGES: Final = ("numba", "llvmlite", "numpy")
 
 
-def build_fmu(case: scenario.Case, version: FmiVersion, compiler: str) -> bytes:
+def build_fmu(case: scenario.Case, version: FmiVersion, compiler: str, contract: int = 1) -> bytes:
     """Return the FMU of a case as the bytes of its file.
 
     Args:
         case: the case; its controller plays no part, but its cycle time holds.
         version: of FMI.
         compiler: as :func:`~uictest.api.fmu.usable_compiler` gives it.
+        contract: version of the contract of controllers that the commands keep, as for :class:`uictest.Rig`.
 
     Raises:
         ValueError: the seed of the case is too large for the version.
@@ -119,8 +146,10 @@ def build_fmu(case: scenario.Case, version: FmiVersion, compiler: str) -> bytes:
     """
     case = bench.identified(case)
     inputs = rig.assemble(case)
-    variables = (*VARIABLES[:-1], _seed(int(inputs.parameters["seed"]), version))
-    header, code = _case_header(inputs), rig.stepping_code(_TARGET)
+    inputs.parameters["controller_contract"] = contract
+    seed = _seed(int(inputs.parameters["seed"]), version)
+    variables = (*VARIABLES[:-1], seed, *(VARIABLES_2 if contract > 1 else ()))
+    header, code = _case_header(inputs, contract), rig.stepping_code(_TARGET)
     cycle_time = float(inputs.parameters["cycle_time"])
     model = Model(
         name=f"rig {case.id}",
@@ -143,7 +172,7 @@ def build_fmu(case: scenario.Case, version: FmiVersion, compiler: str) -> bytes:
         generated={"model.h": places.encode(), "case.h": header.encode(), "code.o": code},
         inputs=["code.o"],
         others={
-            "documentation/index.html": page(f"Brake rig: {case.id}", *_page(case, parts)),
+            "documentation/index.html": page(f"Brake rig: {case.id}", *_page(case, parts, variables)),
             "resources/case.json": _provenance(case, parts),
         },
     )
@@ -154,7 +183,7 @@ def _seed(start: int, version: FmiVersion) -> Variable:
     if start > largest:
         raise ValueError(
             f"seed {start} is above {largest}, the largest whole number of"
-            f" FMI {version}.0: choose another with --seed"
+            f" FMI {version}.0: choose another with --set seed="
         )
     return replace(VARIABLES[-1], start=str(start), range=(0, largest))
 
@@ -166,10 +195,11 @@ def _parts_inside(case: scenario.Case) -> dict[str, evaluation.EffectivePart]:
     return {role: part for role, part in parts.items() if role.partition(".")[0] not in outside}
 
 
-def _case_header(inputs: StopInputs) -> str:
+def _case_header(inputs: StopInputs, contract: int) -> str:
     """Return `case.h`: the records of the case, and the call of the machine code."""
     lines = [
         f"#define STOP_SIZE {STOP_MEMORY.itemsize}",
+        f"#define CONTRACT {contract}",
         f"#define CYCLE_TIME {float(inputs.parameters['cycle_time']).hex()}",
         *c_words("PARAMETERS", inputs.parameters),
         *c_words("WHEELSET_PARAMETERS", inputs.wheelset_parameters),
@@ -204,7 +234,9 @@ def _provenance(case: scenario.Case, parts: dict[str, evaluation.EffectivePart])
     return json.dumps(content, indent=1, ensure_ascii=False).encode() + b"\n"
 
 
-def _page(case: scenario.Case, parts: dict[str, evaluation.EffectivePart]) -> Iterator[str]:
+def _page(
+    case: scenario.Case, parts: dict[str, evaluation.EffectivePart], variables: Sequence[Variable]
+) -> Iterator[str]:
     yield f"<p>{escape(case.scenario.title)}</p>"
     cycle = case.scenario.controller.cycle_time.text
     yield (
@@ -212,7 +244,7 @@ def _page(case: scenario.Case, parts: dict[str, evaluation.EffectivePart]) -> It
         f" communication step is the controller cycle, {escape(cycle)}; any other is an error. Outputs do not"
         " depend on inputs of the same instant. After the end of the stop the outputs stay.</p>"
     )
-    yield from table_of_variables(VARIABLES)
+    yield from table_of_variables(variables)
     yield "<h2>Versions</h2>"
     versions = [("uictest", __version__), *((name, metadata.version(name)) for name in _PACKAGES)]
     yield from table(("program", "version"), versions)

@@ -15,6 +15,7 @@ from uictest.cli.cases import case_lines
 from uictest.cli.options import Overrides, trusted_folders
 from uictest.cli.output import ExitCode, data, message
 from uictest.cli.progress import compilation_shown
+from uictest.controllers import CONTRACTS
 from uictest.core import files
 from uictest.plans import scenario
 
@@ -23,12 +24,25 @@ CaseId = Annotated[
     str | None, typer.Option("--case", metavar="ID", help="Id of the case, where the file has several.")
 ]
 
+Contract = Annotated[
+    int,
+    typer.Option(
+        "--contract",
+        metavar="VERSION",
+        min=min(CONTRACTS),
+        max=max(CONTRACTS),
+        help="Version of the contract of controllers that the commands keep: 2 reduces the dynamic brake and "
+        "asks for sand and track brake.",
+    ),
+]
+
 
 def export_rig(
     path: ScenarioFile,
     output: fmu_options.Output = Path("rig.fmu"),
     version: fmu_options.Version = fmu_options.Fmi.TWO,
     case_id: CaseId = None,
+    contract: Contract = 1,
     overrides: Overrides = None,
     force: fmu_options.Force = False,
 ) -> ExitCode:
@@ -48,7 +62,7 @@ def export_rig(
     compiler = fmu_options.compiler()
     try:
         with compilation_shown():
-            content = fmu.build_fmu(case, version.number, compiler)
+            content = fmu.build_fmu(case, version.number, compiler, contract)
     except ValueError as error:
         raise runs.InvalidInputError(f"{error}") from error
     files.write_to(output, content)

@@ -28,7 +28,7 @@ typedef struct {
 /* Everything that changes in a simulation. Where CAN_SAVE is 1 it holds no address: a copy of it is a copy of
  * the simulation. */
 typedef struct {
-    uint64_t memory[MEMORY_SIZE / 8];
+    uint64_t memory[(MEMORY_SIZE + 7) / 8];
     enum { INSTANTIATED, INITIALIZING, STEPPING, TERMINATED } phase;
     double start_time;
     int64_t steps; /* since start_time */

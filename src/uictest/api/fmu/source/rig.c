@@ -58,12 +58,32 @@ static int command_valves(Instance *instance)
     return 1;
 }
 
+#if CONTRACT > 1
+static int command_other_brakes(Instance *instance)
+{
+    const double *reduction = at(instance, REDUCTION_AT);
+    for (int i = 0; i < 4; i++)
+        if (!(reduction[i] >= 0.0 && reduction[i] <= 1.0))
+            return fail(instance, "dynamic_reduction_%d is %g, expected 0 to 1", i + 1, reduction[i]);
+    memcpy(at(instance, COMMANDED_REDUCTION_AT), reduction, 4 * sizeof *reduction);
+    memcpy(at(instance, COMMANDED_SAND_AT), at(instance, SAND_AT), 4 * sizeof(int32_t));
+    memcpy(at(instance, COMMANDED_TRACK_BRAKE_AT), at(instance, TRACK_BRAKE_AT), sizeof(int32_t));
+    return 1;
+}
+#else
+static int command_other_brakes(Instance *instance)
+{
+    (void)instance;
+    return 1;
+}
+#endif
+
 int carry_out(Instance *instance)
 {
     unsigned char *memory = at(instance, 0);
     if (has_ended(instance))
         return 1;
-    if (!command_valves(instance))
+    if (!command_valves(instance) || !command_other_brakes(instance))
         return 0;
     CARRY_OUT(memory);
     *(int64_t *)at(instance, ENDED_AT) = has_ended(instance);
