@@ -129,6 +129,12 @@ class Course:
             if self.clock[last] - self.clock[first] >= _SHORTEST_APPLICATION - _TIE:
                 yield first, end
 
+    def is_whole(self, end: int) -> bool:
+        """Return whether the record shows what follows an application that ends before row `end`."""
+        if end == len(self.clock) or end in self.interruptions:
+            return False
+        return bool(self.clock[end] - self.clock[end - 1] <= _RUN_OUT)
+
     def _goes_on(self, end: int, begin: int) -> bool:
         """Whether the stretch from row `begin` belongs to the application that ended before row `end`."""
         interrupted = np.any((self.interruptions >= end) & (self.interruptions <= begin))

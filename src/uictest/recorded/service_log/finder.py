@@ -192,7 +192,6 @@ class _Finder:
         stop_row = end - 1 if rest is None else rest
         rows = course.rows_of(first, stop_row, max(self._released - course.first_row, 0))
         initial, final = course.speed_at(first), float(course.speed[stop_row])
-        whole = end < len(course.clock) and end not in course.interruptions
         begin = next(each for each in reversed(self.begun) if each.row <= course.first_row + first)
         is_stop = rest is not None and initial >= self._settings.from_speed
         return LoggedEvent(
@@ -204,7 +203,7 @@ class _Finder:
             final,
             (course.first_row + rows[0], course.first_row + rows[1]),
             rows[0] == first,
-            "" if is_stop else self._reason(initial, final, whole=whole, too_long=too_long),
+            "" if is_stop else self._reason(initial, final, whole=course.is_whole(end), too_long=too_long),
             tuple(course.remarks(rows, first, stop_row)),
         )
 
