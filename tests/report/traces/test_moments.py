@@ -26,7 +26,6 @@ DEFINED |= {
     "monitored_speed": 50 / 3.6,
     "monitored_share": 0.3,
 }
-DEFINED |= {"monitored_speed": 50 / 3.6, "monitored_share": 0.3}
 
 
 def _verdict(measure, value=None, **definitions):
@@ -54,19 +53,47 @@ def faulty_stop():
     return simulate(case, record_every=0.01)
 
 
+@pytest.fixture(scope="module")
+def reported(faulty_stop):
+    """The recording of the stop with a diagnosis: of wheelset 2, whose sensor fails at 5 s, from 8 s on, of
+    wheelset 4 from 9 s on."""
+    recording = faulty_stop.recording
+    time, bits = recording["time"], np.zeros(len(recording["time"]))
+    bits[time >= 8.0] = 0b0010
+    bits[time >= 9.0] = 0b1010
+    channels = {**recording.channels, "diagnosis": bits}
+    return Recording(channels, {**recording.units, "diagnosis": "1"}, recording.metadata)
+
+
 def test_every_measure_says_when_it_is_decided_and_where_that_is_shown():
     plots = {plot.key for plot in (*PANELS, *STRIPS)}
     decided = {name: measure.decided for name, measure in MEASURES.items()}
     assert {own.plot for own in decided.values() if own is not None} <= plots
-    # How far the rig is from that which its compensation was identified for is no matter of a stop, and no
-    # plot shows what a controller reports.
-    of_reports = ["required_report_time", "report_time", "false_reports"]
-    assert [name for name, own in decided.items() if own is None] == ["compensation_misfit", *of_reports]
+    # How far the rig is from that which its compensation was identified for is no matter of a stop.
+    assert [name for name, own in decided.items() if own is None] == ["compensation_misfit"]
+
+
+@pytest.mark.parametrize("measure", ["report_time", "required_report_time"])
+def test_a_report_is_late_from_the_fault_of_its_wheelset_to_the_first_that_says_so(reported, measure):
+    verdict = _verdict(measure, 3.0, **DEFINED)
+    moments = moments_of([verdict], reported)["it"]
+    [(start, end)] = moments.intervals[2]
+    assert (start, end) == pytest.approx((5.0, 8.0), abs=0.021)
+    assert moments.intervals.keys() == {2}
+    assert moments.wheelset == 2
+
+
+def test_a_false_report_lasts_from_the_first_on(reported):
+    moments = moments_of([_verdict("false_reports", 1.0, **DEFINED)], reported)["it"]
+    [(start, end)] = moments.intervals[4]
+    assert start == pytest.approx(9.0, abs=0.021)
+    assert end == reported["time"][-1]
+    assert moments.intervals.keys() == {4}
 
 
 @pytest.mark.parametrize("measure", [name for name, measure in MEASURES.items() if measure.decided])
-def test_a_criterion_is_drawn_whatever_it_measures(faulty_stop, measure):
-    record = faulty_stop.recording
+def test_a_criterion_is_drawn_whatever_it_measures(faulty_stop, reported, measure):
+    record = reported if measure == "false_reports" else faulty_stop.recording
     verdict = replace(_verdict(measure, 1.0, **DEFINED), status="fail")
     trace = trace_of(record, [verdict], _reported(faulty_stop))
     taken, marks = taken_at(verdict, trace), marks_of([verdict], trace)

@@ -36,7 +36,13 @@ from .registry import (
     stop_column_values as stop_column_values,
     wheelset_column_values as wheelset_column_values,
 )
-from .replay import Cell as Cell, Faults as Faults, Replay as Replay, samples_of as samples_of
+from .replay import (
+    FAULT_COLUMNS as FAULT_COLUMNS,
+    Cell as Cell,
+    Faults as Faults,
+    Replay as Replay,
+    samples_of as samples_of,
+)
 from .train import (
     begin_build_up as begin_build_up,
     begin_train as begin_train,

@@ -77,8 +77,11 @@ def note_samples(
         bits = 0 if samples[k, 7] != samples[k, 7] else int(samples[k, 7])
         for i in range(4):
             wheelset, own = wheelset_measures[i], wheelset_samples[k, i]
+            required = faults[k, 9 + i] if len(faults) > 0 else 0.0
             reported = reports_wheelset(bits, i)
-            observe_monitoring(wheelset, measures, definition, reported, wheelset.faulty, 0.0, own[8], own[9])
+            observe_monitoring(
+                wheelset, measures, definition, reported, wheelset.faulty, required, own[8], own[9]
+            )
         for j in range(len(places)):
             noted[k - 1, j] = numbers[places[j]]
     return len(samples)

@@ -38,15 +38,17 @@ from uictest.core.physics import FILL, VENT
 
 Array = NDArray[np.float64]
 Channels = Mapping[str, Array]
-Faults = tuple[Array, Array, Array]
-"""At every sample whether any has begun, shape (n,); whether a part of each wheelset has had one, and whether
-its speed sensor has one, shape (n, 4)."""
+Faults = tuple[Array, Array, Array, Array]
+"""At every sample whether any has begun, shape (n,); whether a part of each wheelset has had one, whether its
+speed sensor has one, and whether it has had one that is to be reported, shape (n, 4)."""
+FAULT_COLUMNS: Final = 13
 Cell = tuple[str, int, int | None]
 """A number in the records: field, number of the wheelset or 0 for the train, place where the field is a
 table."""
 _WHEELSETS: Final = (1, 2, 3, 4)
 _WHEELS: Final = 2.0
 """Of a wheelset: adhesion and wheel load are those of one."""
+_NONE_REQUIRED: Final = (0.0,) * len(_WHEELSETS)
 
 
 class Samples(NamedTuple):
@@ -60,7 +62,7 @@ class Samples(NamedTuple):
             heat, the highest force that they could transmit, the speed that its sensor shows, and whether its
             valve is commanded to fill; shape (n, 4, 10).
         faults: whether any has begun, then what else :data:`Faults` hold, for one wheelset after the other;
-            shape (n, 9), or (0, 9) where none were recorded.
+            shape (n, 13), or (0, 13) where none were recorded.
 
     """
 
@@ -108,7 +110,7 @@ def samples_of(
     return Samples(
         np.stack(train, axis=1),
         np.stack(wheelsets, axis=2),
-        np.empty((0, 9)) if faults is None else np.column_stack(faults),
+        np.empty((0, FAULT_COLUMNS)) if faults is None else np.column_stack(faults),
     )
 
 
@@ -205,7 +207,7 @@ class Replay:
             if faults:
                 self._observe_faults(faults[k], [own[2] for own in own_samples], reference_speed)
             if reports:
-                self._observe_reports(diagnosis, own_samples)
+                self._observe_reports(diagnosis, own_samples, faults[k][-4:] if faults else _NONE_REQUIRED)
             yield time
 
     def numbers(self, cells: Sequence[Cell]) -> list[float]:
@@ -247,18 +249,21 @@ class Replay:
             own = of_wheelsets[i], of_wheelsets[len(forces) + i], forces[i]
             observe_reaction(wheelset, train, definition, *own, largest)
 
-    def _observe_reports(self, diagnosis: float, samples: list[list[float]]) -> None:
+    def _observe_reports(
+        self, diagnosis: float, samples: list[list[float]], required: Sequence[float]
+    ) -> None:
         bits = 0 if isnan(diagnosis) else int(diagnosis)
         for i, wheelset in enumerate(self.wheelsets):
-            reported, (*_, shown_speed, fills) = reports_wheelset(bits, i), samples[i]
-            observe_monitoring(
-                wheelset, self.train, self.definition, reported, wheelset.faulty, 0.0, shown_speed, fills
-            )
+            *_, shown_speed, fills = samples[i]
+            own = reports_wheelset(bits, i), wheelset.faulty, required[i], shown_speed, fills
+            observe_monitoring(wheelset, self.train, self.definition, *own)
 
 
 _OF_CONTACTS: Final = frozenset({"slid_distance", "contact_energy", "exploited_work", "available_work"})
 _OF_SLIDES: Final = frozenset({"maximum_slide_above"})
 _OF_PRESSURES: Final = frozenset({"reservoir_margin", "rise_time", "build_up_time"})
-_OF_REPORTS: Final = frozenset({"deviation", "unfilled"})
+_OF_REPORTS: Final = frozenset(
+    {"deviation", "unfilled", "report_delay", "required_delay", "falsely_reported"}
+)
 _TABLES: Final = frozenset({"speed_after_sliding", "reached_time", "half_slow_time", "slow_time"})
 """Fields whose accumulators are left out where nobody asks for them: they take half of the time."""

@@ -23,13 +23,14 @@ from uictest.report.page.stop.overlay_view import packed, panel_form, script_jso
 from uictest.report.part_wording import slide_speed
 from uictest.report.repeat_wording import band_text
 from uictest.report.traces.quantities import (
-    COMPARED,
     LOOPS,
+    ORDINARY_CREEP,
     PANELS,
     PLOT_QUANTITIES,
     STRIPS,
     VENT,
     WHEELSETS,
+    Panel,
     key_of,
     loop_lines,
     panel_lines,
@@ -37,6 +38,16 @@ from uictest.report.traces.quantities import (
 from uictest.report.traces.trace import BINS, MOST_SAMPLES, Curve, PlotTrace
 from uictest.report.traces.vent_cycles import VentCycle
 from uictest.report.verdict_sentences import real_time_sentences
+
+_COMPARED = (
+    Panel("speed", "Speed of train (bold) and wheelset", "km/h", ("wheel_speed", "speed"), 1.5),
+    Panel("slide", "Slide", "%", ("slide",), include=(0.0, ORDINARY_CREEP)),
+    Panel("pressure", "Tank pressure", "bar", ("tank_pressure",)),
+    Panel("force", "Clamping force of one caliper", "kN", ("clamping_force",)),
+    Panel("deceleration", "Deceleration", "g", ("deceleration",)),
+    Panel("adhesion", "Adhesion", "dimensionless", ("adhesion",)),
+)
+"""Panels of two stops laid over each other, from top to bottom; the valves stand below the first."""
 
 EDGES = ("lowest", "highest")
 """What stands before the name of a line whose band these edges have."""
@@ -185,7 +196,7 @@ def plots_json() -> str:
     ]
     quantities = {key: quantity._asdict() for key, quantity in PLOT_QUANTITIES.items()}
     strips = [dataclasses.asdict(strip) | {"heading": strip.heading, "rows": strip.rows} for strip in STRIPS]
-    compared = [panel_form(panel, panel_lines(panel)) for panel in COMPARED]
+    compared = [panel_form(panel, panel_lines(panel)) for panel in _COMPARED]
     return script_json(
         {
             "panels": panels,

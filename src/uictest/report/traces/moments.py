@@ -27,7 +27,7 @@ from uictest.core.record import fields_of
 from uictest.core.recording import Recording
 from uictest.core.units import SIZES, in_unit
 from uictest.judging import evaluation
-from uictest.plans.faults import SPEED_SENSOR
+from uictest.plans.faults import FAULT_KINDS, SPEED_SENSOR
 from uictest.report.traces.quantities import PANELS, WHEELSETS
 
 Interval = tuple[float, float]
@@ -37,6 +37,8 @@ Extreme = tuple[float, float]
 
 TRAIN: Final = 0
 """The number that the train has among the wheelsets 1 .. 4."""
+_REQUIRED: Final = [f"{row.part}-{row.name}" for row in FAULT_KINDS.values() if row.report == "required"]
+"""Beginnings of the labels of faults that a controller is to report, whatever they cause."""
 _UNITS: Final = {panel.key: panel.unit for panel in PANELS}
 
 
@@ -122,14 +124,19 @@ def _faults(record: Recording) -> Faults | None:
     active = np.nan_to_num(record["active_faults"]).astype(np.int64)
     begun = np.bitwise_or.accumulate(active)
 
-    def of_wheelsets(bits: NDArray[np.int64], part: str = "") -> NDArray[np.float64]:
+    def of_wheelsets(bits: NDArray[np.int64], kinds: str = ".*") -> NDArray[np.float64]:
         own = [
-            [1 << k for k, label in enumerate(labels.split(", ")) if re.fullmatch(rf"{part}.*-{n}", label)]
+            [1 << k for k, label in enumerate(labels.split(", ")) if re.fullmatch(rf"{kinds}-{n}", label)]
             for n in WHEELSETS
         ]
         return np.stack([(bits & sum(each)) != 0 for each in own], axis=1).astype(np.float64)
 
-    return np.asarray(begun != 0, float), of_wheelsets(begun), of_wheelsets(active, SPEED_SENSOR)
+    return (
+        np.asarray(begun != 0, float),
+        of_wheelsets(begun),
+        of_wheelsets(active, f"{SPEED_SENSOR}.*"),
+        of_wheelsets(begun, f"({'|'.join(_REQUIRED)})"),
+    )
 
 
 def _cells(verdict: evaluation.Verdict, measure: Measure) -> list[Cell]:

@@ -46,6 +46,7 @@ PLOT_QUANTITIES = {
     "cylinder_pressure": PlotQuantity("cylinder", "bar", BAR, of_wheelsets=True, decimals=2),
     "clamping_force": PlotQuantity("clamping force", "kN", KILONEWTON, of_wheelsets=True, decimals=2),
     "dynamic_torque": PlotQuantity("dynamic brake", "N m", of_wheelsets=True, decimals=0),
+    "dynamic_reduction": PlotQuantity("reduction", "%", PERCENT, of_wheelsets=True, decimals=0),
     "track_brake_force": PlotQuantity("track brake", "kN", KILONEWTON),
     "deceleration": PlotQuantity("deceleration", "g", decimals=3),
     "adhesion": PlotQuantity("adhesion", "1", of_wheelsets=True, decimals=3),
@@ -90,6 +91,13 @@ PANELS = (
     ),
     Panel("force", "Clamping force of one caliper", "kN", ("clamping_force",)),
     Panel("torque", "Torque of the dynamic brake on one wheelset", "N m", ("dynamic_torque",)),
+    Panel(
+        "reduction",
+        "Reduction of the dynamic brake by the WSP",
+        "%",
+        ("dynamic_reduction",),
+        include=(0.0, 100.0),
+    ),
     Panel("track", "Force of the track brake", "kN", ("track_brake_force",)),
     Panel("deceleration", "Deceleration (bold) and adhesion", "g", ("adhesion", "deceleration"), 1.2),
     Panel("rail", "Friction met (cleaned share dotted)", "dimensionless", ("cleaned_share", "friction")),
@@ -253,17 +261,6 @@ def loop_lines(loop: PlotLoop) -> list[tuple[str, PlotLine]]:
 def panel_lines(panel: Panel) -> tuple[PlotLine, ...]:
     """Return the lines of a panel, the last one in front."""
     return tuple(line for key in panel.quantities for line in lines_of(key))
-
-
-COMPARED = (
-    Panel("speed", "Speed of train (bold) and wheelset", "km/h", ("wheel_speed", "speed"), 1.5),
-    Panel("slide", "Slide", "%", ("slide",), include=(0.0, ORDINARY_CREEP)),
-    Panel("pressure", "Tank pressure", "bar", ("tank_pressure",)),
-    Panel("force", "Clamping force of one caliper", "kN", ("clamping_force",)),
-    Panel("deceleration", "Deceleration", "g", ("deceleration",)),
-    Panel("adhesion", "Adhesion", "dimensionless", ("adhesion",)),
-)
-"""Panels over time from top to bottom; the valves stand below the first."""
 
 
 _KEYS: Final = MappingProxyType({name: key for key in PLOT_QUANTITIES for name in channel_names(key)})

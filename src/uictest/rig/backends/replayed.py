@@ -38,7 +38,7 @@ def noted_numbers(replay: Replay, cells: Sequence[Cell]) -> NDArray[np.float64]:
         address(parameters[0], PARAMETERS),
         *(address(samples.train, _NUMBER, (len(samples.train), 8)), len(samples.train)),
         address(samples.wheelsets, _NUMBER, (len(samples.train), 4, 10)),
-        *(address(samples.faults, _NUMBER, (len(samples.faults), 9)), len(samples.faults)),
+        *(address(samples.faults, _NUMBER, samples.faults.shape), len(samples.faults)),
         *(address(numbers, _NUMBER, (len(numbers),)), len(numbers)),
         *(address(places, np.dtype("i8"), (len(cells),)), len(cells)),
         address(noted, _NUMBER, noted.shape),

@@ -4,7 +4,7 @@ from typing import Any, Final
 
 from uictest.controllers import EXCHANGE
 from uictest.core.lanes import translate
-from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.core.measures import FAULT_COLUMNS, STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.compiled import compile_inner, compiled_operations, compiler, with_controllers
 from uictest.rig.backends.machine_code import Entries, Unit
 from uictest.rig.model.controller import CHOICES
@@ -158,7 +158,7 @@ def _note_on_addresses(entry: Any) -> Any:
             carray(definition, 1)[0],
             carray(samples, (rows, 8)),
             carray(wheelset_samples, (rows, 4, 10)),
-            carray(faults, (rows_with_faults, 9)),
+            carray(faults, (rows_with_faults, FAULT_COLUMNS)),
             carray(numbers, size),
             carray(places, noted_numbers),
             carray(noted, (rows - 1, noted_numbers)),

@@ -87,6 +87,7 @@ MEASURES = (
         course="grows",
         meaning="longest time from a fault of a kind that is to be reported to the report of its wheelset",
         read=lambda stop, wheelsets, definition: required_report_time(stop, wheelsets),
+        decided=ShownWhen(how="longest", plot="speed", field="required_delay"),
         observed_by=("moving_speed",),
         of_faults=True,
         recorded=_FAULTS,
@@ -98,6 +99,7 @@ MEASURES = (
         course="grows",
         meaning="longest time from a fault of any kind to the report of its wheelset",
         read=lambda stop, wheelsets, definition: report_time(stop, wheelsets),
+        decided=ShownWhen(how="longest", plot="speed", field="report_delay"),
         observed_by=("moving_speed",),
         of_faults=True,
         recorded=_FAULTS,
@@ -110,6 +112,7 @@ MEASURES = (
         meaning="wheelsets reported that before had no fault, never locked and never deviated by more than"
         " A + B v",
         read=lambda stop, wheelsets, definition: false_reports(stop, wheelsets),
+        decided=ShownWhen(how="outer", plot="valves", field="falsely_reported"),
         observed_by=(*_RULE, "locked_speed"),
         recorded=_FAULTS,
     ),

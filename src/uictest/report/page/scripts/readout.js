@@ -1,5 +1,5 @@
 /* What the plots of a stop read at the cursor and, once one is pinned, between the two. */
-const rowsRead = ["wheel_speed", "slide", "tank_pressure", "cylinder_pressure", "clamping_force", "dynamic_torque", "adhesion", "friction",
+const rowsRead = ["wheel_speed", "slide", "tank_pressure", "cylinder_pressure", "clamping_force", "dynamic_torque", "dynamic_reduction", "adhesion", "friction",
   "cleaned_share", "sand_density", "disc_surface_temperature", "disc_temperature"];
 const trainRead = ["speed", "reference_speed", "distance", "deceleration", "track_brake_force", "brake_line_pressure", "reservoir_pressure"];
 const quantityText = ({ label, unit }) => (unit === "1" ? label : `${label}, ${unit.replace("degC", "°C")}`);
