@@ -236,3 +236,13 @@ def test_a_stop_of_a_few_samples_has_no_friction(recorded, samples):
     short = replace(stop, recording=Recording(kept, stop.recording.units), standstill=None)
     (table,) = [each for each in surveyed(short, case).tables if each.name == "friction"]
     assert [row["standing"] for row in table.data.rows] != ["found"]
+
+
+def test_the_table_of_stops_begins_with_those_that_fail(sound):
+    stops = list(csv.DictReader((sound / "stops.csv").read_text("utf-8").splitlines()))
+    results = json.loads((sound / "results.json").read_text("utf-8"))["cases"]
+    assert [row["outcome"] for row in stops] == sorted(
+        (each["outcome"] for each in results), key=["fail", "inconclusive", "pass"].index
+    )
+    margins = [float(row["narrowest_margin_percent"]) for row in stops if row["outcome"] == "pass"]
+    assert margins == sorted(margins)

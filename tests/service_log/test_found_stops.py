@@ -440,3 +440,28 @@ def test_settings_that_find_nothing_are_refused(tmp_path, monkeypatch, capsys, a
     assert execute(["log", "day.parquet", *STATED, *arguments]) == 4
     assert told in capsys.readouterr().err
     assert not (tmp_path / "stops").exists()
+
+
+def test_stops_of_an_earlier_log_go_and_what_is_not_ours_stays(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    written(table(["stop", "stop", "stop"]), tmp_path / "long.parquet")
+    written(table(["stop"]), tmp_path / "short.parquet")
+    assert execute(["log", "long.parquet", "-q", *STATED]) == 0
+    assert execute(["log", "short.parquet", "-q", *STATED]) == 0
+    assert [path.name for path in Path("stops").glob("*.parquet")] == ["stop-0001.parquet"]
+    Path("stops/note.txt").write_text("mine", "utf-8")
+    before = Path("stops/stop-0001.parquet").read_bytes()
+    assert execute(["log", "long.parquet", "-q", *STATED]) == 4
+    assert "stops: note.txt: uictest did not write it" in capsys.readouterr().err
+    assert {path.name for path in Path("stops").iterdir()} >= {"stop-0001.parquet", "note.txt"}
+    assert Path("stops/stop-0001.parquet").read_bytes() == before
+
+
+def test_a_log_that_cannot_be_read_to_its_end_leaves_the_stops_as_they_were(tmp_path):
+    log = find_stops([written(table(["stop"]), tmp_path / "log.parquet")], MAP)
+    write_stops(log, MAP, tmp_path / "stops")
+    before = {path.name: path.read_bytes() for path in (tmp_path / "stops").iterdir()}
+    (tmp_path / "log.parquet").unlink()
+    with pytest.raises(OSError, match=r"log\.parquet"):
+        write_stops(log, MAP, tmp_path / "stops")
+    assert {path.name: path.read_bytes() for path in (tmp_path / "stops").iterdir()} == before

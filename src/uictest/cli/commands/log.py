@@ -21,6 +21,7 @@ from uictest.core import files as file_system
 from uictest.core.document import Lines, Table
 from uictest.core.recording import formats
 from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.judging import evaluation
 from uictest.plans import scenario as scenarios
 from uictest.plans.scenario import yaml
 from uictest.recorded import field_data, service_log
@@ -94,7 +95,8 @@ def log(
     published = run_display.publish_and_show(batch, output, ("html",), junit, display)
     if published is None:
         return ExitCode.INTERRUPTED
-    file_system.write(published.place, runs.STOPS_OF_LOG, _table(found))
+    table = _table(named, found.passed_over, published.content.ranked)
+    file_system.write(published.place, runs.STOPS_OF_LOG, table)
     if shown is options.Format.TEXT and not quiet:
         _show_together(published.content.campaign)
     return of_run(published)
@@ -173,8 +175,16 @@ def _stops(
         return found, service_log.write_stops(found, mapped, place)
     except (formats.UnreadableError, formats.MissingExtraError, field_data.MapError) as error:
         raise runs.InvalidInputError(str(error)) from error
+    except (file_system.ForeignFileError, file_system.FolderInUseError) as error:
+        raise runs.InvalidInputError(_not_replaced(place, error, "--recordings")) from error
     except OSError as error:
         raise runs.InvalidInputError(f"{error.filename}: {error.strerror or error}") from error
+
+
+def _not_replaced(place: Path, error: Exception, name: str) -> str:
+    if isinstance(error, file_system.FolderInUseError):
+        return str(error)
+    return f"{place}: {error}: uictest did not write it, or it has changed: name another folder with {name}"
 
 
 def _canonical(mapped: field_data.ChannelMap) -> field_data.ChannelMap:
@@ -205,21 +215,26 @@ def _place(event: service_log.LoggedEvent) -> str:
     return f"{event.file} at {event.time:.6g} s (sample {event.row + 1}, {event.distance:.0f} m)"
 
 
-def _table(found: service_log.Log) -> str:
-    """Return stops.csv: every application of the brake, stops first."""
+def _table(
+    stops: Mapping[str, service_log.LoggedEvent],
+    passed_over: Sequence[service_log.LoggedEvent],
+    ranked: Sequence[evaluation.CaseResult],
+) -> str:
+    """Return stops.csv: the stops, the worst first, and then every other application of the brake."""
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(
-        ["stop", "file", "sample", "time_s", "distance_m", "speed_kmh", "end_speed_kmh", "reason", "remarks"]
-    )
-    for number, event in enumerate((*found.stops, *found.passed_over), start=1):
-        speeds = [f"{speed / KILOMETRE_PER_HOUR:.2f}" for speed in (event.speed, event.end_speed)]
-        place = [
-            report.printable(str(event.file)),
-            event.row + 1,
-            f"{event.time:.6g}",
-            f"{event.distance:.1f}",
-        ]
-        name = "" if event.reason else f"stop-{number:04d}"
-        writer.writerow([name, *place, *speeds, event.reason, "; ".join(event.remarks)])
+    heading = ["stop", "outcome", "narrowest_margin_percent", "criterion", "file", "sample", "time_s"]
+    writer.writerow([*heading, "distance_m", "speed_kmh", "end_speed_kmh", "reason", "remarks"])
+    for result in ranked:
+        margin, criterion = evaluation.narrowest_margin(result)
+        verdict = [result.outcome, "" if margin is None else f"{100.0 * margin:.1f}", criterion]
+        writer.writerow([result.id, *verdict, *_row(stops[result.id])])
+    for event in passed_over:
+        writer.writerow(["", "", "", "", *_row(event)])
     return text.getvalue()
+
+
+def _row(event: service_log.LoggedEvent) -> list[str]:
+    speeds = [f"{speed / KILOMETRE_PER_HOUR:.2f}" for speed in (event.speed, event.end_speed)]
+    place = [report.printable(str(event.file)), str(event.row + 1), f"{event.time:.6g}"]
+    return [*place, f"{event.distance:.1f}", *speeds, event.reason, "; ".join(event.remarks)]

@@ -7,6 +7,7 @@ from .run_folder import (
     latest_run as latest_run,
     point_latest as point_latest,
     remove_run as remove_run,
+    replaced_folder as replaced_folder,
 )
 from .writing import (
     append as append,

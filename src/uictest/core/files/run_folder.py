@@ -11,7 +11,7 @@ import itertools
 import logging
 import os
 from collections.abc import Iterator
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Final, Self
@@ -82,9 +82,11 @@ class RunFolder:
         """The name that the folder gets, which its reports state."""
         return self._name
 
-    def publish(self) -> Path:
-        """Give the folder its name, and return where it stands now. Raises OSError."""
-        names = itertools.chain([self._name], _names(self._wanted))  # somebody may have taken it meanwhile
+    def publish(self, name: str = "") -> Path:
+        """Give the folder its name, or another one, and return where it stands now. Raises OSError."""
+        names = itertools.chain(
+            [name or self._name], _names(self._wanted)
+        )  # somebody may have taken it meanwhile
         self._name = next(name for name in names if _renamed(self._place, self._hidden, name))
         self._published = True
         self.path = self._parent / self._name
@@ -132,6 +134,31 @@ def remove_run(parent: Path, name: str) -> None:
             lock.leaves_file = not _renamed(place, hidden, name)
             raise ForeignFileError(stay[0])
         os.rmdir(hidden, dir_fd=place)
+
+
+@contextmanager
+def replaced_folder(folder: Path) -> Iterator[Path]:
+    """Lend a folder to fill that takes the place of `folder` at once if the block succeeds.
+
+    Files are written into it as into a run folder, and listed.
+
+    Raises:
+        ForeignFileError: `folder` holds something else than listed files as they were written; it stays.
+        FolderInUseError: another process works in it.
+        OSError: it cannot be written or removed.
+
+    """
+    folder = folder.resolve()
+    with suppress(FileNotFoundError, NotADirectoryError), opened(folder) as place:
+        if names_in(place) and (foreign := next(foreign_paths(place, LOCK), "")):
+            raise ForeignFileError(foreign)
+    with RunFolder(folder.parent, folder.name) as new:
+        yield new.path
+        with suppress(OSError):  # it is missing, or holds something
+            folder.rmdir()
+        if os.path.lexists(folder):
+            remove_run(folder.parent, folder.name)
+        new.publish(folder.name)
 
 
 def _remove_abandoned(parent: Path, place: int) -> None:

@@ -22,12 +22,19 @@ _SIGNED = ("speed", "distance", *WHEELS)
 def write_stops(log: Log, channel_map: ChannelMap, folder: Path) -> list[Path]:
     """Write every stop as Parquet, in SI under the canonical names, and return the files in order.
 
-    Raises UnreadableError, MapError, OSError.
+    They take the place of earlier stops in the folder at once.
+
+    Raises UnreadableError, MapError, OSError; ForeignFileError where the folder holds something else.
     """
+    with files.replaced_folder(folder) as new:
+        return [folder / name for name in _written(log, channel_map, new)]
+
+
+def _written(log: Log, channel_map: ChannelMap, folder: Path) -> Iterator[str]:
+    """Write every stop, and yield the names of the files in order."""
     pending: dict[int, list[_Part]] = {}
-    written: list[Path] = []
+    lead = float(channel_map.preparation.trigger_lead)
     following = 0
-    files.make_folder(folder)
     for first, piece in _pieces(log, channel_map):
         end = first + len(piece)
         for k in range(following, len(log.stops)):
@@ -36,14 +43,12 @@ def write_stops(log: Log, channel_map: ChannelMap, folder: Path) -> list[Path]:
                 break
             pending.setdefault(k, []).append(_part(piece, slice(max(begin - first, 0), last - first)))
             if last <= end:
-                path = folder / f"stop-{k + 1:04d}.parquet"
-                lead = float(channel_map.preparation.trigger_lead)
-                files.write_to(path, _parquet(pending.pop(k), log.stops[k], lead))
-                written.append(path)
+                name = f"stop-{k + 1:04d}.parquet"
+                files.write(folder, name, _parquet(pending.pop(k), log.stops[k], lead))
+                yield name
                 following = k + 1
         if following == len(log.stops):
             break
-    return written
 
 
 class _Part(NamedTuple):
