@@ -22,22 +22,24 @@ def random_rows(seed):
     speed = np.interp(time, knots, speeds)
     wheels = speed + draw.normal(0.0, 0.02, rows)
     train = speed + draw.normal(0.0, 0.02, rows) * (speed != 0.0)
-    braked, begin = np.zeros(rows, dtype=np.bool_), 0
+    braked, begin = np.zeros(rows), 0
     while begin < rows:
         begin += 1 + int(draw.exponential(draw.choice([3, 30, 300])))
         end = begin + 1 + int(draw.exponential(draw.choice([0.5, 30, 300, 3000])))
-        braked[begin:end], begin = True, end
+        braked[begin:end], begin = 1.0, end
     kept = np.ones(rows, dtype=np.bool_)
     for _ in range(draw.integers(0, 6)):
         first = int(draw.integers(0, rows))
         part = slice(first, first + 1 + int(draw.exponential(400)))
-        defect = draw.integers(6)
+        defect = draw.integers(7)
         if defect < 3:
             train[part] = (np.nan, 0.0, train[first])[defect]
         elif defect == 3:
             wheels[part] = np.nan
         elif defect == 4:
             time[first:] += draw.choice([-500.0, 4000.0, -0.05, 70.0, 3.0, 1e6])
+        elif defect == 5:
+            braked[part] = np.nan
         else:
             kept[part] = False
     return Rows(time[kept], train[kept], wheels[kept], braked[kept])
@@ -64,23 +66,24 @@ def test_pieces_of_any_length_give_the_same_events(longest, seed, length):
 
 
 def test_a_brake_signal_that_is_stuck_is_said_and_does_not_fill_the_memory():
-    """Two hours of running under way; the train then stops twice, once with its brake signal mended."""
+    """Two hours of running; then the train stops, its signal is mended, and it stops and goes on."""
     running = np.full(round(7200.0 / STEP), 30.0)
     stop = np.concatenate((np.linspace(30.0, 0.0, 300), np.zeros(300), np.linspace(0.0, 30.0, 300)))
     speed = np.concatenate((running, stop, running[:600], stop))
-    braked = np.ones(len(speed), dtype=np.bool_)
-    braked[-1500:-900] = False
+    braked = np.ones(len(speed))
+    braked[-1500:-900] = 0.0
     rows = Rows(STEP * np.arange(len(speed)), speed, np.full(len(speed), np.nan), braked)
     events, held = found(rows, range(500, len(speed), 500))
-    assert len(events) == 2
+    assert len(events) == 3
     assert "longer than 60 min without standstill: the brake signal may be stuck" in events[0]
     assert "reason=''" in events[1]
+    assert "runs again with the brake still applied" in events[2]
     assert held < 3700.0 / STEP
 
 
 def test_short_applications_one_after_the_other_do_not_fill_the_memory():
     rows = 50_000
-    speed, braked = np.full(rows, 30.0), np.arange(rows) % 50 < 20
+    speed, braked = np.full(rows, 30.0), 1.0 * (np.arange(rows) % 50 < 20)
     events, held = found(Rows(STEP * np.arange(rows), speed, speed, braked), range(200, rows, 200))
     assert len(events) == rows // 50
     assert held < 700

@@ -14,10 +14,9 @@ import numpy as np
 from uictest import report
 from uictest.analysis.logged_stops.stop_groups import LoggedStop, deviations, dry_groups, extensions
 from uictest.core.document import Cell
+from uictest.recorded.service_log import EARLIEST_DATE
 
 _DAY: Final = 86_400.0
-_EARLIEST: Final = 946_684_800.0
-"""s: 2000-01-01 as Unix time; a clock that shows less counts from somewhere else."""
 _FEWEST: Final = 5
 """Stops without which no slope is told; chosen."""
 _LEAST_CHANGE: Final = 3.0
@@ -57,7 +56,7 @@ def drifts(stops: Sequence[LoggedStop], friction: Mapping[str, float]) -> list[D
     """Return the slopes of dry and wet distances and of the friction; `friction` by the name of the stop."""
     places = {stop.result.id: float(number) for number, stop in enumerate(stops)}
     over = "stop"
-    if all(stop.time >= _EARLIEST for stop in stops) and stops:
+    if all(stop.time >= EARLIEST_DATE for stop in stops) and stops:
         first = min(stop.time for stop in stops)
         places, over = {stop.result.id: (stop.time - first) / _DAY for stop in stops}, "day"
     series = [each for each in _quantities(stops, friction) if each[2]]

@@ -212,7 +212,7 @@ def _sentence(event: service_log.LoggedEvent) -> str:
 
 
 def _place(event: service_log.LoggedEvent) -> str:
-    return f"{event.file} at {event.time:.6g} s (sample {event.row + 1}, {event.distance:.0f} m)"
+    return f"{event.file} at {event.time:.12g} s (sample {event.row + 1}, {event.distance:.0f} m)"
 
 
 def _table(
@@ -236,5 +236,5 @@ def _table(
 
 def _row(event: service_log.LoggedEvent) -> list[str]:
     speeds = [f"{speed / KILOMETRE_PER_HOUR:.2f}" for speed in (event.speed, event.end_speed)]
-    place = [report.printable(str(event.file)), str(event.row + 1), f"{event.time:.6g}"]
+    place = [report.printable(str(event.file)), str(event.row + 1), f"{event.time:.12g}"]
     return [*place, f"{event.distance:.1f}", *speeds, event.reason, "; ".join(event.remarks)]

@@ -1,4 +1,5 @@
 from .finder import (
+    EARLIEST_DATE as EARLIEST_DATE,
     FinderSettings as FinderSettings,
     Log as Log,
     LoggedEvent as LoggedEvent,

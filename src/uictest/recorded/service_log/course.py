@@ -36,7 +36,9 @@ HELD = 0.1
 _LONG_HELD = 20.0
 """s for which a stop that keeps its speed after the application is remarked on; chosen."""
 ROWS_OF_SPEED = 6
-"""Rows up to the application whose median is its speed; chosen."""
+"""Most rows up to the application whose median is its speed; chosen."""
+_SECONDS_OF_SPEED = 1.0
+"""s that these rows span at most; chosen."""
 _TIE = 1e-6
 """s by which a sum of intervals may miss the time that it stands for."""
 _REMARKED_STEPS = 3
@@ -55,9 +57,10 @@ class Course:
 
     def __init__(self, rows: Rows, before: Before) -> None:
         self._rows, self._before = rows, before
-        self.time, self.braked, self.first_row = rows.time, rows.braked, before.row
+        self.time, self.first_row = rows.time, before.row
         self.unusable = ~np.isfinite(rows.train)
         self.clock = continuous_clock(rows.time, before)
+        self.braked, self.unknown = _applied(self.clock, rows.braked)
         self.signed = reference_speed(self.clock, rows.train, rows.wheels, before.constant)
         self.speed = np.abs(self.signed)
         self.travelled = _distance(self.clock, self.speed, before.travelled)
@@ -88,7 +91,8 @@ class Course:
 
     def speed_at(self, first: int) -> float:
         """Return the speed at which the brake is applied in a row."""
-        before = self.speed[max(first + 1 - ROWS_OF_SPEED, 0) : first + 1]
+        begin = max(first + 1 - ROWS_OF_SPEED, self.row_before(first, _SECONDS_OF_SPEED))
+        before = self.speed[begin : first + 1]
         return float(np.nanmedian(before)) if np.isfinite(before).any() else float("nan")
 
     def standstill(self, first: int, end: int, level: float) -> int | None:
@@ -153,9 +157,23 @@ class Course:
             yield "runs backwards: speeds are recorded with their sign changed"
         if self.unusable[begin:end].any():
             yield "the train speed is missing in part"
+        if self.unknown[begin:end].any():
+            yield "the brake signal is missing in part"
         slower = np.flatnonzero(self.speed[first : stop_row + 1] < (1.0 - HELD) * self.speed_at(first))
         if len(slower) and (seconds := self.clock[first + slower[0]] - self.clock[first]) > _LONG_HELD:
             yield f"the speed is kept for {seconds:.0f} s after the brake is applied"
+
+
+def _applied(clock: Array, signal: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return whether the brake counts as applied, and whether its signal is missing for long.
+
+    A signal that is missing for less than a release is held; for longer the brake may be applied at any time.
+    """
+    rows, known = np.arange(len(signal)), np.isfinite(signal)
+    before = np.maximum.accumulate(np.where(known, rows, 0))
+    after = np.minimum.accumulate(np.where(known, rows, len(rows) - 1)[::-1])[::-1]
+    unknown = ~known & (clock[after] - clock[before] > SHORTEST_RELEASE)
+    return (signal[before] > 0.0) | unknown, unknown
 
 
 def _pieces(braked: NDArray[np.bool_], interruptions: NDArray[np.intp]) -> Iterator[tuple[int, int]]:

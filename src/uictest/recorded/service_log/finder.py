@@ -5,10 +5,11 @@ The log is read once, piece by piece, and the rows of what is over are forgotten
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -27,6 +28,12 @@ _CALM = 2.0 * SHORTEST_RELEASE
 """s after which it is known whether an application begins in a row; chosen."""
 _LONGEST = 3600.0
 """s: an application without standstill that lasts longer is no braking, its signal is stuck; chosen."""
+
+
+EARLIEST_DATE: Final = 946_684_800.0
+"""s: 2000-01-01 as Unix time; a clock that shows less counts from somewhere else."""
+_LARGEST_OVERLAP = 60.0
+"""s by which a clock may have been put right between two files; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,15 +103,22 @@ def find_stops(files: Sequence[Path], channel_map: ChannelMap, settings: FinderS
 
     Raises UnreadableError, MissingExtraError, MapError, OSError.
     """
+    if twice := next((path for path in files if files.count(path) > 1), None):
+        raise UnreadableError(f"{twice}: named twice, its stops would be found twice")
     finder = _Finder(settings or FinderSettings(), float(channel_map.preparation.standstill_speed))
     events: list[LoggedEvent] = []
+    spans: dict[Path, tuple[float, float]] = {}
     for path in files:
         finder.begin(path)
+        begin: float | None = None
         try:
             for rows in rows_of(path, channel_map):
                 events += finder.add(rows)
+                begin, end = float(rows.time[0]) if begin is None else begin, float(rows.time[-1])
+                spans[path] = begin, end
         except (UnreadableError, MapError) as error:
             raise type(error)(f"{path}: {error}") from error
+    _reject_overlaps(spans)
     events += finder.rest()
     return Log(
         files,
@@ -112,6 +126,20 @@ def find_stops(files: Sequence[Path], channel_map: ChannelMap, settings: FinderS
         tuple(event for event in events if not event.reason),
         tuple(event for event in events if event.reason),
     )
+
+
+def _reject_overlaps(spans: Mapping[Path, tuple[float, float]]) -> None:
+    """Raise UnreadableError where files have the same rows: their stops would be found twice.
+
+    Only dates tell it; other clocks may begin anew in each file.
+    """
+    dated = sorted((*span, path) for path, span in spans.items() if min(span) > EARLIEST_DATE)
+    for (_, end, path), (begin, _, following) in pairwise(dated):
+        if end - begin > _LARGEST_OVERLAP:
+            raise UnreadableError(
+                f"{following}: begins {end - begin:.0f} s before {path} ends, its stops would be found twice:"
+                " cut one of them, or find the stops of each by itself"
+            )
 
 
 class _Begin(NamedTuple):
@@ -132,9 +160,9 @@ class _Finder:
         self._settings, self._lowest = settings, max(settings.to_speed, standstill)
         self.begun: list[_Begin] = []
         self.rows = 0
-        self._held = Rows(np.zeros(0), np.zeros(0), np.zeros(0), np.zeros(0, dtype=np.bool_))
+        self._held = Rows(*np.zeros((4, 0)))
         self._before = Before()
-        self._looked_at, self._released = 0, 0
+        self._looked_at, self._released, self._stood = 0, 0, -1
 
     def begin(self, path: Path) -> None:
         """Begin a file."""
@@ -173,6 +201,8 @@ class _Finder:
                     looked_at = min(looked_at, first)
                     break
                 yield self._event(course, first, end)
+            if self._stood >= 0:
+                yield from self._running_on(course, max(self._stood - held, 0), end, all_of_them=all_of_them)
             self._released = held + end
         self._looked_at = max(self._looked_at, held + looked_at)
 
@@ -185,25 +215,47 @@ class _Finder:
         over = end if stands is None else stands
         return bool(over < len(course.clock) and now - course.clock[over] >= _SETTLED)
 
+    def _running_on(
+        self, course: Course, stood: int, end: int, *, all_of_them: bool
+    ) -> Iterator[LoggedEvent]:
+        """Yield an event where a train runs again with the brake applied since it stood in a row."""
+        running = course.speed >= self._settings.from_speed
+        running &= running[np.minimum(np.searchsorted(course.clock, course.clock + 1.0), len(running) - 1)]
+        rows = stood + np.flatnonzero(running[stood:end])
+        if len(rows) and (all_of_them or course.clock[-1] - course.clock[rows[0]] >= _SETTLED):
+            self._stood = -1
+            reason = "runs again with the brake still applied: its signal may be stuck or inverted"
+            first = int(rows[0])
+            yield self._noted(course, first, first, first, reason)
+
     def _event(self, course: Course, first: int, end: int) -> LoggedEvent:
         longest = course.row_after(first, _LONGEST)
         too_long, end = end > longest, min(end, longest)
         rest = course.standstill(first, end, self._lowest)
         stop_row = end - 1 if rest is None else rest
-        rows = course.rows_of(first, stop_row, max(self._released - course.first_row, 0))
+        self._stood = -1 if rest is None else course.first_row + rest
         initial, final = course.speed_at(first), float(course.speed[stop_row])
+        if course.unknown[first]:
+            reason = "the brake signal is missing"
+        elif rest is not None and initial >= self._settings.from_speed:
+            reason = ""
+        else:
+            reason = self._reason(initial, final, whole=course.is_whole(end), too_long=too_long)
+        return self._noted(course, max(self._released - course.first_row, 0), first, stop_row, reason)
+
+    def _noted(self, course: Course, begin_row: int, first: int, stop_row: int, reason: str) -> LoggedEvent:
+        rows = course.rows_of(first, stop_row, begin_row)
         begin = next(each for each in reversed(self.begun) if each.row <= course.first_row + first)
-        is_stop = rest is not None and initial >= self._settings.from_speed
         return LoggedEvent(
             begin.file,
             course.first_row + first - begin.row,
             float(course.time[first]),
             float(course.travelled[first]) - begin.distance,
-            initial,
-            final,
+            course.speed_at(first),
+            float(course.speed[stop_row]),
             (course.first_row + rows[0], course.first_row + rows[1]),
             rows[0] == first,
-            "" if is_stop else self._reason(initial, final, whole=course.is_whole(end), too_long=too_long),
+            reason,
             tuple(course.remarks(rows, first, stop_row)),
         )
 

@@ -49,14 +49,14 @@ class Rows(NamedTuple):
         time: as recorded, s.
         train: speed of the train by its own sensor with its sign, m/s.
         wheels: speed that at least two wheelsets reach, with its sign, m/s.
-        braked: whether the brake is applied.
+        braked: 1 where the brake is applied, 0 where it is not, NaN where nothing shows it.
 
     """
 
     time: Array
     train: Array
     wheels: Array
-    braked: NDArray[np.bool_]
+    braked: Array
 
     def followed_by(self, other: Rows) -> Rows:
         """Return these rows and others behind them."""
@@ -86,7 +86,9 @@ def rows_of(path: Path, channel_map: ChannelMap) -> Iterator[Rows]:
         speed = piece.channels["speed"]
         wheels = [piece.channels[name].samples for name in WHEELS if name in piece.channels]
         second = _second_largest(wheels) if len(wheels) > 1 else np.full(len(piece), np.nan)
-        yield Rows(speed.time, speed.samples, second, np.fmax.reduce(shown) > threshold)
+        pressed = np.fmax.reduce(shown)
+        braked = np.where(np.isfinite(pressed), pressed > threshold, np.nan)
+        yield Rows(speed.time, speed.samples, second, braked)
     if threshold is None:
         raise UnreadableError("no samples")
 

@@ -90,7 +90,7 @@ def _parquet(parts: list[_Part], event: LoggedEvent, lead: float) -> bytes:
     backwards = np.nanmedian(np.append(channels["speed"], 0.0)) < 0.0
     facts = {
         "source": event.file.name,
-        "place": f"sample {event.row + 1}, {event.time:.6g} s, {event.distance:.6g} m",
+        "place": f"sample {event.row + 1}, {event.time:.12g} s, {event.distance:.6g} m",
         "remarks": "; ".join(event.remarks),
     }
     if intervals := {name: each for part in parts for name, each in part.intervals.items()}:

@@ -27,11 +27,9 @@ def read_pieces(
 ) -> Iterator[Contents]:
     """Yield a CSV, Parquet, MDF or TDMS file piece by piece, with its `wanted` channels; None: with all.
 
-    Times that are written as dates become seconds after the first of the file. Of several groups with their
-    own times, the one that has a channel of `leading` comes first and is read block by block; the others have
-    what lies beside each block, and some samples around it.
-
-    MDF and TDMS are read in a process of their own, as whole recordings are.
+    Times that are written as dates become Unix time, s. Of several groups with their own times, the one that
+    has a channel of `leading` comes first and is read block by block; the others have what lies beside each
+    block, and some samples around it. MDF and TDMS are read in a process of their own.
 
     Raises as `read_contents`.
     """
@@ -56,13 +54,12 @@ def _tables(
 ) -> Iterator[Contents]:
     import pyarrow as pa
 
-    begin: dict[str, Any] = {}
+    dated: set[str] = set()
     try:
         names, units, batches = opened(path, dialect, wanted)
         for batch in batches:
-            columns = {name: _samples(name, batch.column(k), begin) for k, name in enumerate(names)}
-            dated = dict.fromkeys(begin, "s")
-            yield Contents((Group("", columns, {**units, **dated}),))
+            columns = {name: _samples(name, batch.column(k), dated) for k, name in enumerate(names)}
+            yield Contents((Group("", columns, {**units, **dict.fromkeys(dated, "s")}),))
     except pa.ArrowException as error:
         raise UnreadableError(f"not a table of numbers throughout: {str(error).splitlines()[0]}") from error
     except UnicodeError as error:
@@ -124,17 +121,19 @@ def _kind(cells: Sequence[str]) -> bool:
     return True
 
 
-def _samples(name: str, column: Any, begin: dict[str, Any]) -> Samples:
-    """Return the samples of a column; `begin` remembers the first date of each column of dates."""
+def _samples(name: str, column: Any, dated: set[str]) -> Samples:
+    """Return the samples of a column; `dated` remembers which columns are texts of dates."""
     import pandas as pd
     import pyarrow as pa
 
+    if pa.types.is_duration(column.type):
+        return parquet.samples_of_column(column)
     texts = parquet.holds_texts(column.type)
     if not texts and not parquet.holds_times(column.type):
         return np.asarray(column.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False))
     first = next((value for value in itertools.islice(column, _SAMPLED) if value.is_valid), None)
-    if texts and name not in begin and (first is None or not csv_text.is_date(first.as_py())):
+    if texts and name not in dated and (first is None or not csv_text.is_date(first.as_py())):
         return parquet.samples_of_column(column)
+    dated.add(name)
     stamps = pd.to_datetime(pd.Series(column.to_pandas()), format="ISO8601", errors="coerce", utc=True)
-    begin.setdefault(name, stamps.dropna().iloc[0] if len(stamps.dropna()) else pd.Timestamp(0, tz="UTC"))
-    return np.asarray((stamps - begin[name]).dt.total_seconds(), dtype=np.float64)
+    return np.asarray((stamps - pd.Timestamp(0, tz="UTC")).dt.total_seconds(), dtype=np.float64)

@@ -96,11 +96,10 @@ def _tdms_blocks(
 ) -> Blocks:
     length, interval, start = raster
     units = {each.name: str(unit) for each in channels if (unit := each.properties.get("unit_string"))}
-    origins = {each.name: each[0:1] for each in channels if length and each.dtype.kind == "M"}
     for first in range(0, length, at_once):
         rows = np.arange(first, min(first + at_once, length))
         read = {
-            each.name: tdms.numbers(each[first : first + at_once], origins.get(each.name))
+            each.name: tdms.numbers(each[first : first + at_once], np.datetime64(0, "us"))
             for each in channels
         }
         kept = {each: samples for each, samples in read.items() if samples is not None}

@@ -1,0 +1,135 @@
+"""Logs as they come: what cannot be known is said."""
+
+from datetime import UTC, datetime, timedelta, timezone
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from pyarrow import parquet
+
+from tests.service_log.test_found_stops import MAP, STEP, table, written
+from uictest.core.recording.formats import UnreadableError
+from uictest.recorded.field_data import load_map, stop_in
+from uictest.recorded.service_log import find_stops, write_stops
+
+KINDS = ["stop", "drag", "stop", "shunting", "released", "parked"]
+PLACES = [100, 1400]
+BEGIN = datetime(2026, 3, 29, 0, 59, 50, tzinfo=UTC)
+
+
+def found(columns, path, channel_map=MAP):
+    log = find_stops([written(columns, path)], channel_map)
+    return log, [event.row for event in log.stops], [event.reason for event in log.passed_over]
+
+
+def mapped(folder, text):
+    (folder / "own.yaml").write_text(f"schema: uictest/channel-map/1\nname: own\nextends: uictest\n{text}")
+    return load_map(str(folder / "own.yaml"))[0]
+
+
+@pytest.mark.parametrize("seconds", [0.5, 1.5, 5.0])
+def test_a_brake_signal_missing_within_a_stop_does_not_cut_it(tmp_path, seconds):
+    columns = table(KINDS)
+    columns["brake_command"][200 : 200 + round(seconds / STEP)] = np.nan
+    log, places, _ = found(columns, tmp_path / "log.parquet")
+    assert places == PLACES
+    told = "the brake signal is missing in part"
+    assert log.stops[0].remarks == ((told,) if seconds > 1.0 else ())
+
+
+def test_stops_without_a_brake_signal_are_told_as_such(tmp_path):
+    columns = table(KINDS)
+    columns["brake_command"][50:450] = np.nan
+    _, places, reasons = found(columns, tmp_path / "log.parquet")
+    assert places == PLACES[1:]
+    assert reasons[0] == "the brake signal is missing"
+
+
+def test_a_brake_pipe_has_to_be_turned_round_and_says_so(tmp_path):
+    """It has 5 bar released and 3.5 bar applied; scale and offset of the map turn it round."""
+    columns = table(KINDS)
+    columns["brake_line_pressure"] = 5e5 - 1.5e5 * columns.pop("brake_command")
+    _, _, reasons = found(columns, tmp_path / "log.parquet")
+    assert any("stuck or inverted" in reason for reason in reasons)
+    pipe = "channels:\n  brake_line_pressure: {source: brake_line_pressure, scale: -1, offset: 500000}\n"
+    assert found(columns, tmp_path / "log.parquet", mapped(tmp_path, pipe))[1] == PLACES
+
+
+@pytest.mark.parametrize("unit", ["time [km/h]", "by map"])
+def test_speeds_in_kmh_are_told_by_heading_or_map(tmp_path, unit):
+    columns = {name: 3.6 * v if "speed" in name else v for name, v in table(KINDS).items()}
+    heads = [name if unit == "by map" or "speed" not in name else f"{name} [km/h]" for name in columns]
+    heads = [{"time": "time [s]", "brake_command": "brake_command [1]"}.get(head, head) for head in heads]
+    pa.csv.write_csv(pa.table(list(columns.values()), names=heads), tmp_path / "log.csv")
+    wheels = '"wheel_speed_{n}": {source: "wheel_speed_{n}", unit: km/h}'
+    text = f"channels:\n  speed: {{source: speed, unit: km/h}}\n  {wheels}\n" if unit == "by map" else ""
+    channel_map = mapped(tmp_path, text)
+    log = find_stops([tmp_path / "log.csv"], channel_map)
+    (first, _) = write_stops(log, channel_map, tmp_path / "stops")
+    assert stop_in(first, MAP).standstill == pytest.approx((30.0, 450.0), rel=0.02)
+
+
+@pytest.mark.parametrize("form", ["text", "stamps"])
+def test_dates_are_unix_time_over_a_change_to_summer_time(tmp_path, form):
+    columns = table(KINDS)
+    seconds = columns["time"].tolist()
+    dates = [BEGIN + timedelta(seconds=each) for each in seconds]
+    # 01:00 UTC is the beginning of the first stop: from then on local time is two hours ahead.
+    local = [each.astimezone(timezone(timedelta(hours=1 + (each.hour >= 1)))).isoformat() for each in dates]
+    time = local if form == "text" else pa.array(dates, pa.timestamp("us", "UTC"))
+    arrays = {"time": pa.array(time), **{k: pa.array(v) for k, v in columns.items() if k != "time"}}
+    fields = [
+        pa.field(k, v.type, metadata={"unit": "m/s"} if "speed" in k else None) for k, v in arrays.items()
+    ]
+    parquet.write_table(pa.table(list(arrays.values()), schema=pa.schema(fields)), tmp_path / "log.parquet")
+    log = find_stops([tmp_path / "log.parquet"], MAP)
+    assert [event.row for event in log.stops] == PLACES
+    assert log.stops[0].time == pytest.approx(BEGIN.timestamp() + 10.0)
+    assert log.stops[0].remarks == ()
+
+
+def test_files_that_overlap_are_refused(tmp_path):
+    columns = table(KINDS)
+    columns["time"] += 1.75e9
+    early, late, rest = (
+        written({k: v[part] for k, v in columns.items()}, tmp_path / f"{name}.parquet")
+        for name, part in (
+            ("early", slice(0, 1900)),
+            ("late", slice(1000, None)),
+            ("rest", slice(1900, None)),
+        )
+    )
+    for files in ([early, late], [late, early]):
+        with pytest.raises(UnreadableError, match=r"late\.parquet: begins 90 s before .*early\.parquet ends"):
+            find_stops(files, MAP)
+    with pytest.raises(UnreadableError, match="named twice"):
+        find_stops([early, rest, early], MAP)
+    assert len(find_stops([early, rest], MAP).stops) == 2
+    assert len(find_stops([rest, early], MAP).stops) == 2
+
+
+def test_a_second_file_that_is_empty_is_named(tmp_path):
+    first = written(table(KINDS), tmp_path / "log.csv")
+    (tmp_path / "empty.csv").write_text(first.read_text("utf-8").partition("\n")[0] + "\n", "utf-8")
+    with pytest.raises(UnreadableError, match=r"empty\.csv: no samples"):
+        find_stops([first, tmp_path / "empty.csv"], MAP)
+
+
+@pytest.mark.parametrize("defect", ["quantised", "overshoot", "spikes", "wheels dead", "two wheels", "noise"])
+def test_a_poor_speed_hides_no_stop_and_invents_none(tmp_path, defect):
+    columns, draw = table(KINDS), np.random.default_rng(2)
+    speed = columns["speed"]
+    if defect == "quantised":
+        columns |= {k: np.round(3.6 * v) / 3.6 for k, v in columns.items() if "speed" in k}
+    elif defect == "overshoot":
+        speed[400:420] -= 0.5 * np.exp(-np.arange(20) / 5.0)
+    elif defect == "spikes":
+        speed[250:256], speed[300:304] = 0.0, 120.0
+    elif defect == "noise":
+        speed[100:400] += draw.normal(0.0, 1.0, 300)
+    else:
+        for n in (1, 2, 3, 4) if defect == "wheels dead" else (3, 4):
+            columns[f"wheel_speed_{n}"][:] = np.nan
+    _, places, reasons = found(columns, tmp_path / "log.parquet")
+    assert places == PLACES
+    assert len(reasons) == 4
