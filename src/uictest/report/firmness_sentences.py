@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final, NamedTuple
 
@@ -71,21 +71,38 @@ class FirmPair(NamedTuple):
 
     def document(self) -> Document:
         """Return which comes to less of each quantity, what turns that, and the numbers by their effect."""
+        told = [
+            f"{self.second} against {self.first}, under the same noise and the same draws",
+            *map(self._sentence, self.firmness.criteria),
+        ]
+        lines = [*map(printable, told), *self.remarks()]
+        return Document("Firm or not", [Lines(lines), firmness_table(self.firmness)])
+
+    def remarks(self) -> list[str]:
+        """Return what is not decided, which draws do not count, and what was run otherwise."""
         neither = (f"{each}: neither comes to less, or one came to no standstill" for each in self.undecided)
-        sentences = [*map(self._sentence, self.firmness.criteria), *neither, *_remarks(self.firmness)]
-        told = [f"{self.second} against {self.first}, under the same noise and the same draws", *sentences]
-        return Document(
-            "Firm or not", [Lines([printable(each) for each in told]), firmness_table(self.firmness)]
-        )
+        return [printable(each) for each in (*neither, *_remarks(self.firmness))]
+
+    def quantities(self) -> Table:
+        """Return a row for each quantity, with A and B for the first and the second stop."""
+        return Table(_QUANTITIES, [(each, self.firmness) for each in self.firmness.criteria])
 
     def _sentence(self, verdict: VerdictFirmness) -> str:
-        words = {"pass": f"less with {self.first}", "fail": f"less with {self.second}", "same": "the same"}
+        words = _lesser(self.first, self.second)
         by = "" if verdict.margin is None else f" by {_percent(abs(verdict.margin))} of {self.first}"
         said = (
             f"{verdict.criterion}: {words[verdict.nominal]}{by}, which is {_status(verdict, self.firmness)}"
         )
-        turns = tuple(replace(turn, to=words[turn.to]) for turn in verdict.turned_by)
-        return "; ".join([said, *_turns(replace(verdict, turned_by=turns))])
+        return "; ".join([said, *_turns(_worded(verdict, words))])
+
+
+def _lesser(first: str, second: str) -> Mapping[str, str]:
+    """Return in words what the statuses of a quantity say."""
+    return {"pass": f"less with {first}", "fail": f"less with {second}", "same": "the same"}
+
+
+def _worded(verdict: VerdictFirmness, words: Mapping[str, str]) -> VerdictFirmness:
+    return replace(verdict, turned_by=tuple(replace(turn, to=words[turn.to]) for turn in verdict.turned_by))
 
 
 def _status(verdict: VerdictFirmness, firmness: Firmness) -> str:
@@ -186,6 +203,34 @@ _COLUMNS: Final[Sequence[Column[_Row]]] = (
     Column(heading="mark", text=lambda row: row.number.mark, rank=4),
     Column(heading="why this range", text=lambda row: row.number.reason, rank=5, wraps=True),
 )
+
+
+_Quantity = tuple["VerdictFirmness", "Firmness"]
+_SIDES: Final = {"pass": "A", "fail": "B", "same": "neither"}
+_AB: Final = _lesser("A", "B")
+_QUANTITIES: Final[Sequence[Column[_Quantity]]] = (
+    Column(heading="quantity", text=lambda row: row[0].criterion, literal=True),
+    Column(heading="less with", text=lambda row: _SIDES[row[0].nominal]),
+    Column(heading="B - A\n% of A", text=lambda row: _share(row[0].margin), right=True),
+    Column(
+        heading="firm or not",
+        text=lambda row: _WORDS[row[0].status].partition(":")[0],
+        tone=lambda row: "good" if row[0].status == "firm" else "odd",
+    ),
+    Column(heading="stands in\n% of draws", text=lambda row: _share(row[0].share), right=True),
+    Column(heading="draws", text=lambda row: str(row[0].counted), right=True),
+    Column(
+        heading="calibrated\n%",
+        text=lambda row: "" if row[0].calibrated is None else _share(row[0].calibrated.share),
+        right=True,
+    ),
+    Column(heading="what turns it", text=lambda row: "; ".join(_reasons(row[0])), wraps=True),
+)
+
+
+def _reasons(verdict: VerdictFirmness) -> Iterator[str]:
+    _, _, noise = _WORDS[verdict.status].partition(": ")
+    yield from filter(None, (noise, *_turns(_worded(verdict, _AB))))
 
 
 def firmness_rows(name: str, firmness: Firmness) -> Iterator[dict[str, Cell]]:

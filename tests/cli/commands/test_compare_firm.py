@@ -3,6 +3,7 @@
 import json
 import math
 import re
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -14,6 +15,7 @@ PAD = "brake.system.disc.pad_friction"
 VARIANTS = (
     f"rail: {{condition: dry}}\nmatrix: {{{PAD}: ['0.36', {{value: '0.38', range: ['0.30', '0.42']}}]}}\n"
 )
+FIRM = ("--over", PAD, "--firm")
 
 
 @pytest.fixture(autouse=True)
@@ -62,6 +64,24 @@ def test_the_text_names_both_sides_and_the_value(call, scenario):
     [line] = [line for line in text.splitlines() if line.startswith("braking distance: less with pads[")]
     assert re.search(rf"turned by {PAD} below 0\.3(59|6)", line)
     assert "not firm" in line
+
+
+def test_the_page_says_of_each_quantity_how_firm_it_is_and_draws_the_numbers(call, scenario):
+    """Every share on the page is that of the JSON; text of the user is escaped."""
+    page, document = Path("pair.html"), call("compare", scenario("pads", VARIANTS), *FIRM, "--format", "json")
+    [pair] = json.loads(document.out)["pairs"]
+    assert call("compare", scenario("pads", VARIANTS), *FIRM, "--html", str(page)).code == 0
+    html = page.read_text("utf-8")
+    rows = dict(re.findall(r"<tr[^>]*><th[^>]*>(.*?)</th>(.*?)</tr>", html))
+    for quantity in pair["quantities"]:
+        cells = [re.sub("<[^>]+>", "", cell) for cell in rows[quantity["criterion"]].split("</td>")]
+        side = {"pass": "A", "fail": "B", "same": "neither"}[quantity["nominal"]]
+        assert cells[0] == side
+        assert float(cells[1]) == pytest.approx(100.0 * quantity["margin"], rel=0.01)
+        assert float(cells[3]) == pytest.approx(100.0 * quantity["share"], rel=0.01)
+    assert "<svg" in html
+    assert f"{len(pair['numbers'])} numbers with a plausible range" in html
+    assert "http://" not in re.sub(r"http://www.w3.org/\S+", "", html)
 
 
 def test_other_values_pair_only_with_equal_ones(call, scenario):

@@ -38,6 +38,12 @@ def test_one_of_several_cases_is_chosen(call, scenario, built):
     assert built == [("stop[command=90]", 3, 2)]
 
 
+def test_a_contract_that_there_is_not_is_refused(call, scenario, built):
+    answer = call("export-rig", scenario("stop"), "--contract", "3", code=4)
+    assert "3 is no version, expected 1 or 2" in answer.err
+    assert built == []
+
+
 def test_several_cases_are_refused_with_their_ids_and_an_unknown_one_exits_5(call, scenario, built):
     answer = call("export-rig", scenario("stop", TWO_CASES), code=4)
     assert answer.err == (

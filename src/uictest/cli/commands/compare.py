@@ -28,6 +28,7 @@ from uictest.cli.options import (
 from uictest.cli.output import ExitCode, data, message, terminal_width
 from uictest.cli.progress import TerminalObserver
 from uictest.core import files
+from uictest.report import page as pages
 from uictest.running import campaign
 
 
@@ -205,20 +206,23 @@ def compare_firmly(
         raise typer.BadParameter(
             "say which variants: --over KEY, such as --over controller", param_hint="--firm"
         )
-    if second is not None or page is not None:
-        raise typer.BadParameter("takes one scenario and writes no page", param_hint="--firm")
+    if second is not None:
+        raise typer.BadParameter("takes one scenario; leave B out", param_hint="--firm")
     if not runs.why_no_run(place):
         raise runs.InvalidInputError(
             f"{place}: --firm runs stops anew: name a scenario, not the folder of a run"
         )
     cases = runs.load_cases([place], overrides)
-    pairs = runs.firm_pairs(cases, keys, settings, TerminalObserver())
+    pairs = []
+    for pair in runs.firm_pairs(cases, keys, settings, TerminalObserver()):
+        pairs.append(pair)
+        if shown is PlainFormat.TEXT:
+            for line in report.document_lines(pair.document(), terminal_width(sys.stdout)):
+                data(line)
     if shown is PlainFormat.JSON:
-        data(runs.firm_pairs_json(list(pairs)))
-        return ExitCode.MET
-    for pair in pairs:
-        for line in report.document_lines(pair.document(), terminal_width(sys.stdout)):
-            data(line)
+        data(runs.firm_pairs_json(pairs))
+    if page is not None:
+        files.write_to(page, pages.firm_pairs_html(place.name, pairs))
     return ExitCode.MET
 
 
