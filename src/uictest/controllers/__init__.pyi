@@ -28,6 +28,7 @@ from .contract import (
     TrainMemory as TrainMemory,
 )
 from .declared import (
+    CONTRACTS as CONTRACTS,
     HEADER as HEADER,
     LONGEST_VERSION as LONGEST_VERSION,
     ControllerProgram as ControllerProgram,
@@ -42,7 +43,6 @@ from .declared import (
 )
 from .interface import (
     CLOSING as CLOSING,
-    CONTRACTS as CONTRACTS,
     EXCHANGE as EXCHANGE,
     FORBIDDEN_COMMAND as FORBIDDEN_COMMAND,
     GUARD as GUARD,

@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple, Protocol
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
+CONTRACTS: Final = (1, 2)
+"""Versions of the contract. What version 2 adds lies behind what version 1 has, in inputs and outputs."""
 _SHOWN: Final = 8
 """Names that a message lists at most; chosen."""
 

@@ -111,8 +111,6 @@ class PythonController(Protocol):
 
 
 WHEELSETS: Final = 4
-CONTRACTS: Final = (1, 2)
-"""Versions of the contract. What version 2 adds lies behind what version 1 has, in inputs and outputs."""
 
 INPUTS: Final = np.dtype(
     [

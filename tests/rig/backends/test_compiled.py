@@ -265,7 +265,7 @@ def test_every_translated_function_decides_whether_code_is_compiled_anew():
     assert {f"{each.name.replace('-', '_')}.py" for each in CONTROLLERS.values()} < {
         file.name for file in files
     }
-    assert files <= set(sources())
+    assert files <= set(map(Path, sources()))
 
 
 @pytest.mark.parametrize("controller", CHOICES, ids=lambda controller: controller.name)

@@ -12,8 +12,8 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from uictest.controllers.declared import ControllerProgram, nothing_declared, parameter_problems
-from uictest.controllers.interface import CONTRACTS, INPUTS, OUTPUTS, WHEELSETS, Inputs, Outputs
+from uictest.controllers.declared import CONTRACTS, ControllerProgram, nothing_declared, parameter_problems
+from uictest.controllers.interface import INPUTS, OUTPUTS, WHEELSETS, Inputs, Outputs
 
 STEP: Final = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 """`uictest_step`."""

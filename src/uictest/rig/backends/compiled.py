@@ -6,16 +6,18 @@ Floating point is strict: nothing is contracted but what the source writes as on
 reassociated, so that compiled and plain code give the same bits.
 """
 
+import hashlib
 import importlib
+import os
 import sys
 from collections.abc import Callable, Sequence
 from functools import cache
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 from uictest.controllers import EXCHANGE, OUTPUTS_AT, Controller
 from uictest.core import lanes
+from uictest.core.distributions import distribution_version
 from uictest.core.lanes import translate
 from uictest.core.physics import fma
 from uictest.rig.model.controller import begin, call_step, decide, exchange_at
@@ -112,15 +114,25 @@ def compiler() -> Any:
 
 @cache
 def compiler_inputs() -> bytes:
-    """Return everything that code depends on before it is made for a processor."""
-    versions = (sys.version_info[:2], *(metadata.version(name) for name in ("numba", "llvmlite", "numpy")))
-    return b"".join(
-        [repr((OPTIONS, lanes.fuses(), versions)).encode(), *(source.read_bytes() for source in sources())]
-    )
+    """Return a digest of everything that code depends on before it is made for a processor."""
+    versions = (sys.version_info[:2], *map(distribution_version, ("numba", "llvmlite", "numpy")))
+    digest = hashlib.sha256(repr((OPTIONS, lanes.fuses(), versions)).encode())
+    for source in sources():
+        with open(source, "rb") as file:  # noqa: PTH123 - a warm start reads them all
+            digest.update(hashlib.sha256(file.read()).digest())
+    return digest.digest()
 
 
-def sources() -> list[Path]:
-    """Return the files that compiled code is made from."""
-    package = Path(__file__).parents[2]
-    places = [package / name for name in _SOURCES]
-    return [file for place in places for file in (sorted(place.rglob("*.py")) if place.is_dir() else [place])]
+def sources() -> list[str]:
+    """Return the paths of the files that compiled code is made from."""
+    package = str(Path(__file__).parents[2])
+    places = [os.path.join(package, *name.split("/")) for name in _SOURCES]  # noqa: PTH118
+    return [path for place in places for path in ([place] if place.endswith(".py") else _modules_in(place))]
+
+
+def _modules_in(folder: str) -> list[str]:
+    """Return the modules in a folder and below, in an order that is the same everywhere."""
+    with os.scandir(folder) as entries:
+        below = sorted((entry.path, entry.is_dir()) for entry in entries if entry.name != "__pycache__")
+    inner = (_modules_in(path) if is_folder else [path] for path, is_folder in below)
+    return [path for paths in inner for path in paths if path.endswith(".py")]
