@@ -20,7 +20,7 @@ from uictest.core import lanes
 from uictest.core.distributions import distribution_version
 from uictest.core.lanes import translate
 from uictest.core.physics import fma
-from uictest.rig.model.controller import begin, call_step, decide, exchange_at
+from uictest.rig.model.controller import CHOICES, begin, call_step, decide, exchange_at
 
 Function = Callable[..., Any]
 Wrap = Callable[[Function], Any]
@@ -63,6 +63,15 @@ def step_by_address() -> Any:
         return call(step, handle, exchange, exchange + OUTPUTS_AT)
 
     return compile_inner(call_at)
+
+
+@cache
+def scalar_model() -> dict[Function, Any]:
+    """Return what is translated of the model for one rig at a time, with the controllers in their place.
+
+    Translations are added to it: what one unit of a process has compiled, the next one does not again.
+    """
+    return with_controllers(CHOICES, compile_inner, compiled_operations())
 
 
 def with_controllers(

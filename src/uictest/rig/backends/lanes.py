@@ -1,7 +1,7 @@
 """Many stops on one core, several at a time in the lanes of a SIMD register."""
 
 from collections.abc import Callable
-from functools import partial
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,6 +20,7 @@ from uictest.rig.backends.compiled import (
 )
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.model.controller import CHOICES
+from uictest.rig.model.couplers import account_for_coupler, pull_cars, release_couplers
 from uictest.rig.model.cycle import command_valves, read_pole_wheels, read_sensors
 from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.dynamic_brake import brake_dynamically
@@ -138,7 +139,7 @@ def _entries(width: int) -> Entries:
     from uictest.rig.backends.lane_stops import Cases, Lanes, RigRecords, run_queue  # loads numba
 
     carray = compiler().carray
-    run = translated_for_lanes(run_queue)
+    run = translate(run_queue, compile_inner, lane_model())
 
     def on_addresses(
         parameters: Any,
@@ -190,11 +191,12 @@ def _entries(width: int) -> Entries:
     return {_name(width): (on_addresses, arguments)}
 
 
-def translated_for_lanes(run: Function, *without_branches: Function) -> Any:
-    """Return a loop over a queue, translated.
+@cache
+def lane_model() -> dict[Function, Any]:
+    """Return what is translated of the model for lanes, to which :func:`translate` adds.
 
-    Functions without branches, those of a rig and ``without_branches``, are translated for all lanes at once,
-    the others for one lane.
+    Functions without branches are translated for all lanes at once, the controllers for one lane. What one
+    unit of a process has compiled, the next one does not again.
     """
     in_lanes: dict[Function, Any] = {
         **compiled_operations(),
@@ -204,7 +206,7 @@ def translated_for_lanes(run: Function, *without_branches: Function) -> Any:
         sqrt: vector_functions.sqrt,
         floor: vector_functions.floor,
     }
-    of_rig: tuple[Function, ...] = (
+    without_branches: tuple[Function, ...] = (
         read_sensors,
         read_pole_wheels,
         command_valves,
@@ -216,9 +218,9 @@ def translated_for_lanes(run: Function, *without_branches: Function) -> Any:
         step,
         warm_discs,
         observe_cycle,
+        release_couplers,
+        pull_cars,
+        account_for_coupler,
     )
-    wide = {
-        function: translate(function, compile_inner, in_lanes) for function in (*of_rig, *without_branches)
-    }
-    scalar = with_controllers(CHOICES, compile_inner, compiled_operations())
-    return translate(run, compile_inner, {**scalar, **wide})
+    wide = {function: translate(function, compile_inner, in_lanes) for function in without_branches}
+    return {**with_controllers(CHOICES, compile_inner, compiled_operations()), **wide}

@@ -5,9 +5,8 @@ from typing import Any, Final
 from uictest.controllers import EXCHANGE
 from uictest.core.lanes import translate
 from uictest.core.measures import FAULT_COLUMNS, STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.compiled import compile_inner, compiled_operations, compiler, with_controllers
+from uictest.rig.backends.compiled import compile_inner, compiler, scalar_model
 from uictest.rig.backends.machine_code import Entries, Unit
-from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import RAIL_MEMORY, ROWS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
@@ -44,9 +43,8 @@ def _entries() -> Entries:
     from uictest.core.measures import note_samples
     from uictest.rig.model.stop import run_stop, step_stop  # a warm start does not load what it would compile
 
-    model = with_controllers(CHOICES, compile_inner, compiled_operations())
     run, step, note = (
-        translate(function, compile_inner, model) for function in (run_stop, step_stop, note_samples)
+        translate(function, compile_inner, scalar_model()) for function in (run_stop, step_stop, note_samples)
     )
     return {
         RUN: (_run_on_addresses(run), RUN_ARGUMENTS),

@@ -7,12 +7,12 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.lanes import block, register_width
+from uictest.core.lanes import block, register_width, translate
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.compiled import compiler
-from uictest.rig.backends.lanes import BLOCKS, RIG, longest_first, translated_for_lanes
+from uictest.rig.backends.compiled import compile_inner, compiler
+from uictest.rig.backends.lanes import BLOCKS, RIG, lane_model, longest_first
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
-from uictest.rig.model.couplers import COUPLER, account_for_coupler, pull_cars, release_couplers
+from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import RAIL_MEMORY, ROWS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
@@ -127,7 +127,7 @@ def _entries(width: int) -> Entries:
     from uictest.rig.backends.lane_trains import Trains, run_train_queue
 
     carray = compiler().carray
-    run_queue = translated_for_lanes(run_train_queue, release_couplers, pull_cars, account_for_coupler)
+    run_queue = translate(run_train_queue, compile_inner, lane_model())
 
     def on_addresses(
         parameters: Any,

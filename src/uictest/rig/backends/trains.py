@@ -5,14 +5,8 @@ from typing import Any, Final
 
 from uictest.core.lanes import translate
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.compiled import (
-    compile_inner,
-    compiled_operations,
-    compiler,
-    with_controllers,
-)
+from uictest.rig.backends.compiled import compile_inner, compiler, scalar_model
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
-from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import RAIL_MEMORY, ROWS
@@ -57,8 +51,7 @@ def _entries() -> Entries:
     from uictest.rig.model.train import run_train
 
     carray = compiler().carray
-    model = with_controllers(CHOICES, compile_inner, compiled_operations())
-    entry = translate(run_train, compile_inner, model)
+    entry = translate(run_train, compile_inner, scalar_model())
 
     def on_addresses(
         cars: Any,
