@@ -17,7 +17,7 @@ from .backends.machine_code import (
     compilation_watched as compilation_watched,
 )
 from .backends.native import compiled_stop as compiled_stop, stop_is_compiled as stop_is_compiled
-from .backends.replayed import noted_numbers as noted_numbers
+from .backends.replayed import noted_numbers as noted_numbers, pass_samples as pass_samples
 from .backends.scalar import STEP as STEP, STEP_ARGUMENTS as STEP_ARGUMENTS
 from .backends.stepped import (
     STOP_MEMORY as STOP_MEMORY,

@@ -8,7 +8,7 @@ import pytest
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES, MeasureDefinition, Replay, samples_of
 from uictest.core.record import fields_of
 from uictest.plans.scenario import load
-from uictest.rig import noted_numbers, simulate
+from uictest.rig import noted_numbers, pass_samples, simulate
 
 CELLS = [
     (name, number, place)
@@ -50,5 +50,15 @@ def test_compiled_code_and_plain_python_note_the_same_bits(slipping, gap, with_f
     noted = noted_numbers(compiled, CELLS)
     assert noted.tobytes() == plain.noted(CELLS).tobytes()
     assert len(noted) == len(recording["time"]) - 1
+    assert repr(compiled.train) == repr(plain.train)
+    assert repr(compiled.wheelsets) == repr(plain.wheelsets)
+
+
+def test_samples_from_the_end_on_are_not_fed(slipping):
+    recording, definition = slipping
+    time = recording["time"]
+    plain, compiled = (replace(_replay(recording, definition, with_faults=True), end=time[800]) for _ in "ab")
+    assert list(plain.pass_samples()) == time[1:800].tolist()
+    pass_samples(compiled)
     assert repr(compiled.train) == repr(plain.train)
     assert repr(compiled.wheelsets) == repr(plain.wheelsets)

@@ -70,6 +70,11 @@ class Samples(NamedTuple):
     wheelsets: Array
     faults: Array
 
+    def before(self, end: float) -> Samples:
+        """Return the samples before a time, s, of which the first is always one."""
+        count = max(int(np.searchsorted(self.train[:, 0], end)), 1)
+        return Samples(self.train[:count], self.wheelsets[:count], self.faults[:count])
+
 
 def samples_of(
     channels: Channels, highest_force: Array | None = None, faults: Faults | None = None
@@ -135,12 +140,14 @@ class Replay:
         samples: of the recording.
         definition: how samples become measures.
         commanded_pressure: of the brake line, gauge, Pa.
+        end: time of the first sample that is not fed, s.
 
     """
 
     samples: Samples
     definition: Any
     commanded_pressure: float
+    end: float = inf
     train: Any = field(
         default_factory=lambda: SimpleNamespace(
             speed_after_sliding=[0.0] * (WINDOW_SECONDS + 1),
@@ -168,8 +175,8 @@ class Replay:
             begin_contact(wheelset)
             begin_slides(wheelset)
 
-    def pass_samples(self, end: float = inf, fields: Collection[str] | None = None) -> Iterator[float]:
-        """Feed the samples before `end` (s), and yield the time of each; the first one has begun the records.
+    def pass_samples(self, fields: Collection[str] | None = None) -> Iterator[float]:
+        """Feed the samples before the end, and yield the time of each; the first one has begun the records.
 
         Only `fields` need to hold their numbers afterwards; None: all of them.
         """
@@ -178,12 +185,11 @@ class Replay:
             fields is None or not own.isdisjoint(fields)
             for own in (_OF_CONTACTS, _OF_SLIDES, _OF_PRESSURES, _TABLES, _OF_REPORTS)
         )
-        faults = self.samples.faults[1:].tolist()
-        samples = zip(self.samples.train[1:].tolist(), self.samples.wheelsets[1:].tolist(), strict=True)
+        fed = self.samples.before(self.end)
+        faults = fed.faults[1:].tolist()
+        samples = zip(fed.train[1:].tolist(), fed.wheelsets[1:].tolist(), strict=True)
         for k, (sample, own_samples) in enumerate(samples):
             time, distance, speed, reservoir, line, cylinder, reference_speed, diagnosis = sample
-            if time >= end:
-                break
             for n, wheelset, own in zip(_WHEELSETS, self.wheelsets, own_samples, strict=True):
                 wheel_speed, venting, force, temperature, tank, rail_work, loss, highest, *_ = own
                 observe_wheelset(

@@ -31,7 +31,7 @@ from uictest.plans.scenario import Case, Scenario
 from uictest.recorded.field_data.channel_map import CHANNEL_UNITS, WHEELSETS
 from uictest.recorded.field_data.recorded_stop import RecordedStop
 from uictest.recorded.field_data.support import coverage_of
-from uictest.rig import highest_creep_forces
+from uictest.rig import highest_creep_forces, pass_samples
 
 Array = NDArray[np.float64]
 _WHEELS: Final = 2.0
@@ -90,13 +90,10 @@ def observe(stop: RecordedStop, judged_under: scenario.Scenario) -> Observed:
         **{name: float(getattr(measures, name)) for name in fields_of(MeasureDefinition)}
     )
     highest_forces = _highest_forces(recording, judged_under)
-    replay = Replay(
-        samples_of(recording.channels, highest_forces),
-        definition,
-        judged_under.developed_pressure,
-    )
-    for _ in replay.pass_samples(inf if stop.standstill is None else stop.standstill[0]):
-        pass
+    samples = samples_of(recording.channels, highest_forces)
+    end = inf if stop.standstill is None else stop.standstill[0]
+    replay = Replay(samples, definition, judged_under.developed_pressure, end)
+    pass_samples(replay)
     if stop.standstill is not None:
         replay.stop_at(*stop.standstill)
     train, wheelsets = replay.train, replay.wheelsets

@@ -1,6 +1,6 @@
 """A recording fed to the measures by machine code, where a stop has been loaded together with it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,10 +18,26 @@ _NUMBER = np.dtype("f8")
 
 def noted_numbers(replay: Replay, cells: Sequence[Cell]) -> NDArray[np.float64]:
     """Let the samples pass as :meth:`.Replay.noted` does, compiled if a stop was run in this process."""
-    note = loaded_beside(RUN, NOTE, len(NOTE_ARGUMENTS))
-    if note is None:
-        return replay.noted(cells)
-    samples = replay.samples
+    note = _compiled()
+    return replay.noted(cells) if note is None else _noted(note, replay, cells)
+
+
+def pass_samples(replay: Replay) -> None:
+    """Let all samples pass, compiled if a stop was run in this process."""
+    note = _compiled()
+    if note is not None:
+        _noted(note, replay, ())
+        return
+    for _ in replay.pass_samples():
+        pass
+
+
+def _compiled() -> Callable[..., int] | None:
+    return loaded_beside(RUN, NOTE, len(NOTE_ARGUMENTS))
+
+
+def _noted(note: Callable[..., int], replay: Replay, cells: Sequence[Cell]) -> NDArray[np.float64]:
+    samples = replay.samples.before(replay.end)
     records, parameters = np.zeros(1, _RECORDS), np.zeros(1, PARAMETERS)
     train, wheelsets = records["train"][0], records["wheelsets"][0]
     for name in fields_of(MeasureDefinition):
