@@ -3,6 +3,7 @@
 import ctypes
 import gc
 import os
+import sys
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
@@ -69,6 +70,16 @@ settings.register_profile("search", deadline=None, max_examples=1000)
 # The suite tries the same examples everywhere, so that no run fails by chance; HYPOTHESIS_PROFILE=search
 # tries others.
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
+
+
+def pytest_configure():
+    """Keep byte code, whatever the shell says.
+
+    Else each process of tests would compile every file of tests at each run, and each of the hundreds of
+    processes that they start what it imports of the sources.
+    """
+    sys.dont_write_bytecode = False
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 
 def pytest_collection():

@@ -23,7 +23,7 @@ def here(monkeypatch):
 def examine(tmp_path):
     """Examine the first controller in Python with one stretch of its text replaced by another.
 
-    Its cycles take twice as long as those of the library, so that each drive has half as many.
+    Its cycles take four times as long as those of the library, so that each drive has a quarter as many.
     """
 
     def changed(before="", after="", time_limit="60 s"):
@@ -31,7 +31,7 @@ def examine(tmp_path):
         assert before in files["my_wsp.py"]
         (tmp_path / "my_wsp.py").write_text(files["my_wsp.py"].replace(before, after, 1), "utf-8")
         part = tmp_path / "my-wsp.yaml"
-        part.write_text(f"{files['my-wsp.yaml']}cycle_time: 20 ms\ntime_limit: {time_limit}\n", "utf-8")
+        part.write_text(f"{files['my-wsp.yaml']}cycle_time: 40 ms\ntime_limit: {time_limit}\n", "utf-8")
         return conformance.examine(conformance.subject_of("changed", load_controller(str(part))))
 
     return changed

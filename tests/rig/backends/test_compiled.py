@@ -165,9 +165,21 @@ def quickly(*arguments):
     stop = translate(run_stop, lambda copy: copy, with_controllers(CHOICES, lambda copy: copy, {}))
     records = [each for each in arguments if getattr(each, "dtype", None) is not None and each.dtype.names]
     plain = {id(each): _numbers(each) for each in records}
+    *_, trace, _ = arguments
+    plain[id(trace)] = samples = type(trace)(*map(_blank_samples, trace))
     stop(*(plain.get(id(each), each) for each in arguments))
     for record in records:
         _write_back(plain[id(record)], record)
+    for table, own in zip(trace, samples, strict=True):
+        for name in table.dtype.names:
+            table[name] = np.reshape([getattr(each, name, 0.0) for each in own.flat], table.shape)
+
+
+def _blank_samples(table):
+    """Rows for samples that are written once each."""
+    rows = np.empty(table.shape, object)
+    rows.flat = [SimpleNamespace() for _ in range(table.size)]
+    return rows
 
 
 def _numbers(record):
