@@ -33,7 +33,7 @@ def _replay(recording, definition, *, with_faults):
     rows = len(recording["time"])
     begun = np.arange(rows) > rows // 3
     of_one = np.tile([0.0, 0.0, 1.0, 0.0], (rows, 1)) * begun[:, None]
-    faults = (begun.astype(float), of_one, of_one) if with_faults else None
+    faults = (begun.astype(float), of_one, of_one, of_one) if with_faults else None
     force = np.full((rows, 4), 9e3)
     return Replay(samples_of(recording.channels, force, faults), definition, 3.8e5)
 

@@ -6,7 +6,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES, Cell, MeasureDefinition, Replay
+from uictest.core.measures import (
+    FAULT_COLUMNS,
+    STOP_MEASURES,
+    WHEELSET_MEASURES,
+    Cell,
+    MeasureDefinition,
+    Replay,
+)
 from uictest.core.record import fields_of
 from uictest.rig.backends.machine_code import address, loaded_beside
 from uictest.rig.backends.scalar import NOTE, NOTE_ARGUMENTS, RUN
@@ -54,7 +61,7 @@ def _noted(note: Callable[..., int], replay: Replay, cells: Sequence[Cell]) -> N
         address(parameters[0], PARAMETERS),
         *(address(samples.train, _NUMBER, (len(samples.train), 8)), len(samples.train)),
         address(samples.wheelsets, _NUMBER, (len(samples.train), 4, 10)),
-        *(address(samples.faults, _NUMBER, samples.faults.shape), len(samples.faults)),
+        *(address(samples.faults, _NUMBER, (len(samples.faults), FAULT_COLUMNS)), len(samples.faults)),
         *(address(numbers, _NUMBER, (len(numbers),)), len(numbers)),
         *(address(places, np.dtype("i8"), (len(cells),)), len(cells)),
         address(noted, _NUMBER, noted.shape),
