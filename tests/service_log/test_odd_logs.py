@@ -133,3 +133,24 @@ def test_a_poor_speed_hides_no_stop_and_invents_none(tmp_path, defect):
     _, places, reasons = found(columns, tmp_path / "log.parquet")
     assert places == PLACES
     assert len(reasons) == 4
+
+
+def test_implausible_numbers_are_not_believed_wherever_they_stand(tmp_path, monkeypatch):
+    """Nor do sound samples beside them suffer: pieces of every length give the same."""
+    columns = table(KINDS * 2)
+    columns["speed"][250:330] = 6553.5
+    columns["brake_command"] = np.where(columns["brake_command"] > 0.0, "on", "off")
+    columns["brake_command"][3100:3104] = "?"
+    states = 'channels:\n  brake_command: {source: brake_command, states: {"off": 0, "on": 1}}\n'
+    channel_map = mapped(tmp_path, states)
+    fields = [pa.field(k, pa.array(v[:1]).type, metadata={"unit": "m/s"}) for k, v in columns.items()]
+    fields[0] = fields[0].with_metadata({"unit": "s"})
+    parquet.write_table(pa.table(list(columns.values()), schema=pa.schema(fields)), tmp_path / "log.parquet")
+    found_in = []
+    for length in (2000, 2650):
+        monkeypatch.setattr("uictest.core.recording.formats.pieces._ROWS", length)
+        log = find_stops([tmp_path / "log.parquet"], channel_map)
+        found_in.append([repr(event) for event in (*log.stops, *log.passed_over)])
+        assert [event.row for event in log.stops] == [*PLACES, 3020, 4320]
+        assert log.stops[0].remarks == ("the train speed is missing in part",)
+    assert found_in[0] == found_in[1]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -56,11 +57,12 @@ class RawChannel:
 
 
 def select_channels(
-    contents: Contents, channel_map: ChannelMap, longest: float = LONGEST_RECORD.value
+    contents: Contents, channel_map: ChannelMap, longest: float | None = LONGEST_RECORD.value
 ) -> dict[str, RawChannel]:
     """Return the channels of a file that a map selects; a channel without a source in the file is omitted.
 
-    Its times may span `longest`, s.
+    Its times may span `longest`, s; None: these are a part of a file whose units are known, all numbers are
+    taken as they are, and a text that is no state is NaN.
 
     Raises MapError where a name stands for several channels, a unit is unknown or not the channel's, a text
     is no state, or a channel has no time axis.
@@ -74,7 +76,7 @@ def select_channels(
         place = _find(contents, name, source)
         if place is not None:
             group, original = place
-            samples = _in_si(name, source, original, group)
+            samples = _in_si(name, source, original, group, longest)
             if id(group) not in times:
                 times[id(group)] = _time_of(group, sources.get(TIME), original, longest)
             selected[name] = RawChannel(name, original, times[id(group)], samples)
@@ -111,10 +113,10 @@ def _matches(contents: Contents, alias: str) -> Iterator[tuple[Group, str]]:
                 yield group, name
 
 
-def _time_of(group: Group, source: ChannelSource | None, beside: str, longest: float) -> Array:
+def _time_of(group: Group, source: ChannelSource | None, beside: str, longest: float | None) -> Array:
     if group.time is not None:
         time = np.asarray(group.time, dtype=np.float64)
-        implausible = implausible_time(time, "s", {"s": 1.0}, longest)
+        implausible = None if longest is None else implausible_time(time, "s", {"s": 1.0}, longest)
         return _require_plausible(implausible, TIME, f"of {quoted(beside)}", time)
     for alias in source.source if source else ():
         if source and alias in group.channels:
@@ -127,11 +129,11 @@ def _in_si(
     source: ChannelSource,
     original: str,
     group: Group,
-    longest: float = LONGEST_RECORD.value,
+    longest: float | None,
 ) -> Array:
     samples = group.channels[original]
     if samples.dtype.kind == "U":
-        samples = _numbered(name, source, original, group)
+        samples = _numbered(name, source, original, group, strict=longest is not None)
         if state_kind(name) is not None:
             return samples
     unit = source.unit or group.units.get(original, "")
@@ -139,6 +141,8 @@ def _in_si(
     # What overflows becomes infinite, which is reported as a sample that is no number.
     with np.errstate(over="ignore", invalid="ignore"):
         converted: Array = source.sign * (source.scale * samples + source.offset) * size
+    if longest is None:
+        return converted
     return _require_plausible(_implausible(name, converted, unit, longest), name, quoted(original), converted)
 
 
@@ -176,19 +180,20 @@ def _size(name: str, unit: str, original: str) -> float:
     return size
 
 
-def _numbered(name: str, source: ChannelSource, original: str, group: Group) -> Array:
+def _numbered(name: str, source: ChannelSource, original: str, group: Group, *, strict: bool) -> Array:
     samples = group.channels[original]
     kind = state_kind(name)
     known: dict[str, int] = {**(STATES[kind] if kind else {}), **source.states}
     numbers = {str(text): _number(str(text), known) for text in np.unique(samples)}
     strange = [text for text, number in numbers.items() if number is None]
-    if strange:
+    if strange and strict:
         listed = ", ".join(map(quoted, strange[:3]))
         place = f", the first in {group.first_texts[original]}" if original in group.first_texts else ""
         raise MapError(
             f"{name}: {quoted(original)} contains texts that are not numbers: {listed}{place};"
             f" {_remedy(strange[0])}"
         )
+    numbers |= dict.fromkeys(strange, math.nan)
     values: Any = np.vectorize(lambda text: numbers[str(text)], otypes=[np.float64])(samples)
     return np.asarray(values, dtype=np.float64)
 

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from uictest.core.recording import TIME, Contents
+from uictest.core.recording import TIME, beyond
 from uictest.core.recording.formats import read_pieces
 from uictest.recorded.field_data import (
+    CHANNEL_UNITS,
     ChannelMap,
-    MapError,
     RawChannel,
     resampled,
     select_channels,
@@ -38,7 +38,7 @@ class Piece:
 def pieces_of(path: Path, channel_map: ChannelMap, needed: Collection[str] | None = None) -> Iterator[Piece]:
     """Yield the channels of a file, piece by piece: the train speed and the `needed` ones, None: all.
 
-    A later piece with implausible numbers gets channels of NaN: the clock runs on, nothing is believed.
+    The first piece shows whether the units fit. Implausible samples are NaN.
 
     Raises UnreadableError, MissingExtraError, MapError, OSError.
     """
@@ -46,42 +46,20 @@ def pieces_of(path: Path, channel_map: ChannelMap, needed: Collection[str] | Non
     chosen = sources if needed is None else {TIME, _SPEED, *needed}
     names = {alias for name in chosen if name in sources for alias in sources[name].source}
     leading = sources[_SPEED].source if _SPEED in sources else ()
-    known: dict[str, RawChannel] = {}
+    known: list[str] = []
     for contents in read_pieces(path, channel_map.dialect, names, leading):
-        try:
-            read = known = select_channels(contents, channel_map, math.inf)
-        except MapError:
-            if not known:
-                raise
-            read = _plausible(contents, channel_map, known)
-        yield _over_one_time(read, list(known), float(channel_map.preparation.raster))
+        read = select_channels(contents, channel_map, None if known else math.inf)
+        known = known or list(read)
+        believed = {name: _believed(channel) for name, channel in read.items()}
+        yield _over_one_time(believed, known, float(channel_map.preparation.raster))
 
 
-def _plausible(
-    contents: Contents, channel_map: ChannelMap, known: dict[str, RawChannel]
-) -> dict[str, RawChannel]:
-    """Return the channels of a piece that can be read; a train speed that cannot is NaN."""
-    read: dict[str, RawChannel] = {}
-    for name in sorted(known, key=lambda name: name != _SPEED):
-        others = {each.source for other, each in known.items() if other not in (name, _SPEED)}
-        try:
-            read |= {name: select_channels(_without(contents, others), channel_map, math.inf)[name]}
-        except (MapError, KeyError):
-            if name == _SPEED:
-                contents = _without(contents, set(), zero=known[_SPEED].source)
-                standing = select_channels(_without(contents, others), channel_map, math.inf)[_SPEED]
-                read[_SPEED] = replace(standing, samples=np.full(len(standing.time), np.nan))
-    return read
-
-
-def _without(contents: Contents, names: Collection[str], zero: str = "") -> Contents:
-    """Return the contents without some channels, and with zeros for one."""
-    groups = []
-    for group in contents.groups:
-        kept = {name: samples for name, samples in group.channels.items() if name not in names}
-        zeros = {zero: np.zeros(len(group))} if zero in kept else {}
-        groups.append(replace(group, channels=kept | zeros))
-    return Contents(tuple(groups))
+def _believed(channel: RawChannel) -> RawChannel:
+    """Return a channel with NaN for implausible samples."""
+    implausible = beyond(channel.samples, CHANNEL_UNITS[channel.name])
+    if not implausible.any():
+        return channel
+    return replace(channel, samples=np.where(implausible, np.nan, channel.samples))
 
 
 def _over_one_time(channels: dict[str, RawChannel], known: Collection[str], raster: float) -> Piece:
