@@ -75,6 +75,8 @@ VARIANTS = (
     ("rig.topology=four-caliper", f"vehicle.wheelsets={WITH_CALIPERS}", *WET),
     (LIMITED, *WET),
     (LIMITED, "rig.topology=four-caliper", *WET),
+    (LIMITED, "rig.compensation=thermal", *WET),
+    ("rig.compensation=thermal", "rig.topology=four-caliper", *WET),
     (CLEANED, "rail.friction=0.05"),
     (CLEANED, "rail.friction=0.05", "vehicle=crh380a", "rail.condition.cleaning.carry_over=1"),
     (CLEANED, STEPPED, "rig.wsp=bypassed"),

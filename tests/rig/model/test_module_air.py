@@ -5,9 +5,11 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
+from uictest.rig.backends.native import compiled_stop
 from uictest.rig.model.clamping import step_clamping
-from uictest.rig.model.module_air import follow_module_air
+from uictest.rig.model.module_air import follow_tanks, read_line_pressure
 from uictest.rig.model.pneumatics import step_air
+from uictest.rig.single_stop import run_to_end
 
 EXACT = {f"pressure_{error}": 0.0 for error in ("gain_error", "offset", "noise")} | {
     # A converter so fine that it does not show.
@@ -44,7 +46,7 @@ def followed(bench, history):
         for wheelset in bench.wheelsets:
             wheelset.fill_before = wheelset.fill_after = fill
             wheelset.vent_before = wheelset.vent_after = vent
-        follow_module_air(bench.car, bench.wheelsets, p)
+        follow_tanks(bench.wheelsets, read_line_pressure(bench.car, p), p)
         step_air(bench.car, bench.wheelsets, p)
         step_clamping(caliper, p)
         step_clamping(tank, p)
@@ -145,3 +147,16 @@ def test_the_piston_closes_the_clearance_once_and_opens_it_when_the_tank_is_empt
     followed(bench, iter([VENT] * 4000))
     assert tank.modelled_travel == 0.0
     assert tank.modelled_volume == pytest.approx(1.0 - bench.p.modelled_swept_share)
+
+
+def test_what_is_modelled_beside_calipers_is_read_by_nothing(rig):
+    """Where every module has a caliper no stop depends on it; it is then not followed."""
+
+    def measures(topology, exchange):
+        overrides = ("rig.compensation=thermal", f"rig.topology={topology}", "initial_speed=20 km/h")
+        inputs = rig.inputs(*overrides, modelled_exchange=exchange, noise_key=1)
+        outcome = run_to_end(compiled_stop(), inputs)
+        return outcome.measures.tobytes() + outcome.wheelset_measures.tobytes()
+
+    assert measures("four-caliper", 1.0) == measures("four-caliper", 1e-3)
+    assert measures("one-caliper", 1.0) != measures("one-caliper", 1e-3)

@@ -20,7 +20,7 @@ from uictest.rig.model.faults import (
     silence_controller,
     update_faults,
 )
-from uictest.rig.model.module_air import follow_module_air
+from uictest.rig.model.module_air import follow_tanks, read_line_pressure
 from uictest.rig.model.rail import clean_rail, forget_rail
 from uictest.rig.model.sand import command_sanders, forget_sand, spread_sand
 from uictest.rig.model.start import start
@@ -59,6 +59,7 @@ class Needs(NamedTuple):
     """What the steps of a controller cycle have to do for any lane: how many there are, and what else."""
 
     steps: int
+    reads_line: bool
     follows_air: bool
     warms_discs: bool
     leaks: bool
@@ -168,6 +169,7 @@ def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Need
     rig = lanes.rig
     car, wheelsets, settings = vectors(rig.car), vectors(rig.wheelsets), vectors(lanes.settings)
     steps = 0
+    reads_line = False
     follows_air = False
     warms_discs = False
     leaks = False
@@ -200,14 +202,15 @@ def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Need
             if p.has_track_brake > 0.0:
                 command_track_brake(lane(rig.car, k), p)
             steps = p.steps_per_cycle
-            follows_air = follows_air or p.uses_module_air > 0.0
+            reads_line = reads_line or p.uses_module_air > 0.0
+            follows_air = follows_air or (p.uses_module_air > 0.0 and p.calipers < 4)
             warms_discs = warms_discs or p.models_disc_temperature > 0.0
             leaks = leaks or p.has_leaks > 0.0
             brakes_dynamically = brakes_dynamically or p.has_dynamic_brake > 0.0
             brakes_on_track = brakes_on_track or p.has_track_brake > 0.0
     command_valves(car, wheelsets, settings)
     _follow_commands_of_valves(lanes, cases, running)
-    return Needs(steps, follows_air, warms_discs, leaks, brakes_dynamically, brakes_on_track)
+    return Needs(steps, reads_line, follows_air, warms_discs, leaks, brakes_dynamically, brakes_on_track)
 
 
 def advance(lanes: Lanes, needs: Needs) -> None:
@@ -215,8 +218,10 @@ def advance(lanes: Lanes, needs: Needs) -> None:
     rig = lanes.rig
     car, bogies, wheelsets = vectors(rig.car), vectors(rig.bogies), vectors(rig.wheelsets)
     settings = vectors(lanes.settings)
-    if needs.follows_air:
-        follow_module_air(car, wheelsets, settings)
+    if needs.reads_line:
+        line = read_line_pressure(car, settings)
+        if needs.follows_air:
+            follow_tanks(wheelsets, line, settings)
     if needs.leaks:
         let_air_leak(car, wheelsets, settings)
     if needs.brakes_dynamically:

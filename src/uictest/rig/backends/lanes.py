@@ -25,7 +25,7 @@ from uictest.rig.model.cycle import command_valves, read_pole_wheels, read_senso
 from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.dynamic_brake import brake_dynamically
 from uictest.rig.model.faults import let_air_leak
-from uictest.rig.model.module_air import follow_module_air
+from uictest.rig.model.module_air import follow_tanks, read_line_pressure
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import FRICTIONS, RAIL_MEMORY, ROWS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
@@ -210,7 +210,8 @@ def lane_model() -> dict[Function, Any]:
         read_sensors,
         read_pole_wheels,
         command_valves,
-        follow_module_air,
+        read_line_pressure,
+        follow_tanks,
         let_air_leak,
         brake_dynamically,
         drag_magnets,

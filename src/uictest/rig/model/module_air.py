@@ -20,19 +20,20 @@ from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car, Wheelset
 
 
-def follow_module_air(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    """Advance the modelled air of all modules by one base step, before the rig itself is stepped."""
-    line = read_line_pressure(car, p)
-    follow_tank(wheelsets[0], line, p)
+def follow_tanks(wheelsets: Sequence[Wheelset], line: float, p: Parameters) -> None:
+    """Advance the modelled air by one base step, before the rig itself is stepped.
+
+    The first module always has a caliper, and what is modelled beside a caliper nothing reads.
+    """
     follow_tank(wheelsets[1], line, p)
     follow_tank(wheelsets[2], line, p)
     follow_tank(wheelsets[3], line, p)
 
 
 def read_line_pressure(car: Car, p: Parameters) -> float:
-    """Return the absolute pressure of the brake line in Pa, as its sensor reads it."""
+    """Return the absolute pressure of the brake line in Pa, as its sensor reads it where air is modelled."""
     actual = car.line_pressure - p.atmospheric_pressure
-    car.line_saturated_steps += beyond_range(
+    car.line_saturated_steps += p.uses_module_air * beyond_range(
         actual, p.line_sensor_gain_error, p.line_sensor_offset, car.line_pressure_error, p.pressure_range
     )
     gauge = analogue_reading(

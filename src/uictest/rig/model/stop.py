@@ -17,7 +17,7 @@ from uictest.rig.model.faults import (
     silence_controller,
     update_faults,
 )
-from uictest.rig.model.module_air import follow_module_air
+from uictest.rig.model.module_air import follow_tanks, read_line_pressure
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail import RailMemory, clean_rail, forget_rail
 from uictest.rig.model.sand import command_sanders, forget_sand, spread_sand
@@ -174,7 +174,9 @@ def act(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, measures: StopMe
 def advance(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Step a car, with what only some scenarios have."""
     if p.uses_module_air > 0.0:
-        follow_module_air(car, wheelsets, p)
+        line = read_line_pressure(car, p)
+        if p.calipers < 4:
+            follow_tanks(wheelsets, line, p)
     if p.has_leaks > 0.0:
         let_air_leak(car, wheelsets, p)
     if p.has_dynamic_brake > 0.0:
