@@ -1,3 +1,8 @@
+from .command_course import (
+    CommandCourse as CommandCourse,
+    command_course as command_course,
+    read_like as read_like,
+)
 from .finder import (
     EARLIEST_DATE as EARLIEST_DATE,
     FinderSettings as FinderSettings,

@@ -1,0 +1,249 @@
+"""Scenarios made of the stops of a log: each simulates its stop, on the rail that was fitted to it."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Final, NamedTuple, get_args
+
+import numpy as np
+
+from uictest.core import files
+from uictest.core.recording import TIME
+from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.judging import evaluation
+from uictest.plans import library, scenario
+from uictest.plans.scenario import yaml
+from uictest.recorded import field_data, fitting, service_log
+from uictest.running import campaign
+from uictest.runs.made_scenario import AGREES, MadeScenario, Source, assumptions, heading, readme
+from uictest.runs.scenario_files import load_cases
+
+README: Final = "README.md"
+_GOOD: Final = 0.5 * AGREES
+"""Share within which one friction for the whole stop is enough; chosen."""
+_ROUNDS, _LARGEST_SCALING = 2, 0.05
+"""Simulations on a rail, the second with its friction scaled by the difference of the distances if that is no
+larger; chosen: a fit misses friction by up to half a per cent; for that, a WSP may vent once more at the end.
+"""
+_MOST_STRETCHES: Final = 12
+_LENGTHS: Final = (20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
+"""Of stretches with a friction of their own, m: the shortest of which no more are needed; chosen."""
+_OVER_BOUND: Final = 2.0
+"""Friction over its lower bound where nothing slid, so that nothing slides in the simulation; chosen."""
+
+
+_PASSES, _SAME = 3, 0.005
+"""Simulations at most until the delay of the trigger, s, stays the same; chosen."""
+_DIGITS: Final = 4
+"""Of a friction coefficient."""
+_LONGEST_NAME: Final = 60
+"""Letters of the name of a log in that of a scenario; chosen."""
+
+
+def write_scenarios(
+    sources: Iterable[Source],
+    most: int,
+    parent: Path,
+    preparation: field_data.Preparation,
+    folder: Path,
+    trusted: Sequence[Path],
+) -> list[MadeScenario]:
+    """Write scenarios of the first stops of which one can be made, and README.md, in place of earlier ones.
+
+    Args:
+        sources: stops, the worst first.
+        most: how many scenarios to write at most.
+        parent: file of the scenario that they extend.
+        preparation: by which the stops were found.
+        folder: of the scenarios.
+        trusted: folders in which references may lead.
+
+    Raises OSError; ForeignFileError and FolderInUseError as :func:`files.replaced_folder`.
+    """
+    made: list[MadeScenario] = []
+    with files.replaced_folder(folder) as new:
+        maker = _Maker(parent, new, preparation, (parent.parent, *trusted))
+        for source in sources:
+            if sum(not each.problem for each in made) == most:
+                break
+            made.append(maker.made(source))
+            if not made[-1].problem:
+                files.write(new, f"{source.file.name}.yaml", made[-1].text)
+        files.write(new, README, "\n".join(readme(made)) + "\n")
+    return made
+
+
+class _Maker(NamedTuple):
+    parent: Path
+    folder: Path
+    preparation: field_data.Preparation
+    trusted: Sequence[Path]
+
+    def made(self, source: Source) -> MadeScenario:
+        """Return the scenario of a stop: one friction, or where that does not do several along the track."""
+        stop = source.file.stop
+        if stop is None:
+            return MadeScenario(source, source.file.unusable)
+        if stop.standstill is None:
+            return MadeScenario(source, "the record does not hold the standstill")
+        try:
+            balances = fitting.balances_of(stop, source.case.scenario)
+            if not len(balances.windows.first):
+                return MadeScenario(source, "the stop is too short for a fit")
+            best, fit = self._closest(source, stop, balances)
+        except (fitting.FitError, ValueError, yaml.ScenarioErrors) as error:
+            return MadeScenario(source, " ".join(str(error).split()))
+        return replace(best, text="".join(heading(best)) + self._text(best, stop, fit, final=True))
+
+    def _closest(
+        self, source: Source, stop: field_data.RecordedStop, balances: fitting.Balances
+    ) -> tuple[MadeScenario, fitting.Fit]:
+        """Return the first simulation that is close enough, else the closest, and its fit."""
+        tried: list[tuple[MadeScenario, fitting.Fit]] = []
+        time, distance = stop.standstill or (math.nan, math.nan)
+        for breaks in ((), _breaks(distance)):
+            fit, scale = fitting.fit_balances(balances, breaks, with_pads=False), 1.0
+            for _ in range(_ROUNDS):
+                fit = _scaled(fit, scale)
+                made = MadeScenario(source, recorded=(distance, time))
+                made = self._simulated(made, stop, fit)
+                if scale != 1.0:
+                    note = f"friction: {100.0 * (scale - 1.0):+.1f} % by the recorded distance"
+                    made = replace(made, assumed=(note, *made.assumed))
+                tried.append((made, fit))
+                scale = 1.0 + made.differences[0]
+                found = any(each.standing == "found" for each in fit.friction)
+                if made.off <= _GOOD or not found:
+                    return tried[-1]
+                if abs(scale - 1.0) > _LARGEST_SCALING:
+                    break
+        return min(tried, key=lambda made: made[0].off)
+
+    def _simulated(self, made: MadeScenario, stop: field_data.RecordedStop, fit: fitting.Fit) -> MadeScenario:
+        """Return the stop on the rail of a fit, simulated until command and trigger lie as far apart."""
+        source = made.source
+        name = f".{source.file.name}.yaml"
+        for _ in range(_PASSES):
+            files.write(self.folder, name, self._text(made, stop, fit), listed=False)
+            try:
+                [case] = load_cases([self.folder / name], None, None, self.trusted)
+            finally:
+                files.remove(self.folder, name)
+            run = campaign.run_stop(campaign.Stop(case), campaign.RecordingRequest("all")).case_run
+            if run.recording is None or run.result.measures is None:
+                raise ValueError(f"its simulation fails: {run.result.reason}")
+            since, (own_time, own_distance) = service_log.read_like(
+                run.recording, stop.recording, self.preparation
+            )
+            place = float(np.interp(since, run.recording[TIME], run.recording["distance"]))
+            known = abs(since - made.late[1]) < _SAME
+            made = replace(
+                made,
+                simulated=(own_distance, own_time),
+                late=(place, since),
+                outcome=run.result.outcome,
+            )
+            if known:
+                break
+        course = service_log.command_course(stop.recording, source.case.scenario, made.late[1])
+        assumed = tuple(assumptions(source.case.scenario, fit, course))
+        return replace(made, assumed=assumed)
+
+    def _text(
+        self, made: MadeScenario, stop: field_data.RecordedStop, fit: fitting.Fit, *, final: bool = False
+    ) -> str:
+        source, own = made.source, made.source.case.scenario
+        place, late = made.late
+        course = service_log.command_course(stop.recording, own, late)
+        speed = fitting.initial_speed(stop) / KILOMETRE_PER_HOUR
+        changes: dict[str, Any] = {
+            "name": f"{_slug(source.event.file.stem)}-{source.file.name}",
+            "title": f"Recorded stop: {source.event.file.name} at {source.event.time:.6g} s",
+            "description": _account(fit),
+            "initial_speed": f"{speed:.1f} km/h",
+        }
+        if course.known_by:
+            changes["brake.command"] = course.as_written()
+        if final:
+            with_bounds = made.off <= AGREES and all(
+                each.name in library.names("criteria") for each in own.criteria
+            )
+            if with_bounds:
+                changes["criteria"] = [*(each.name for each in own.criteria), _bounds(made)]
+            outcome = "pass" if with_bounds and made.outcome == "skipped" else made.outcome
+            changes["expect"] = outcome if outcome in get_args(evaluation.Expectation) else "pass"
+        shifted = replace(_filled(fit, own), breaks=tuple(round(each + place) for each in fit.breaks))
+        return fitting.fitted_yaml(
+            source.case, source.statements, shifted, self.parent, self.folder, changes=changes
+        )
+
+
+def _account(fit: fitting.Fit) -> str:
+    """Return what the fit found, in words."""
+    found = [each.value for each in fit.friction if each.standing == "found"]
+    if len(fit.friction) == 1 or not found:
+        return f"Fitted to the stop: {fit.friction[0]}."
+    spread = f"{min(found):.3f} to {max(found):.3f}"
+    return f"Fitted to the stop: friction {spread} in {len(found)} of {len(fit.friction)} stretches."
+
+
+def _slug(name: str) -> str:
+    return re.sub(r"[^A-Za-z0-9]+", "-", name).strip("-")[:_LONGEST_NAME].lower() or "log"
+
+
+def _breaks(distance: float) -> tuple[float, ...]:
+    length = next((each for each in _LENGTHS if distance <= each * _MOST_STRETCHES), _LENGTHS[-1])
+    return tuple(length * k for k in range(1, int(distance / length) + 1))
+
+
+def _scaled(fit: fitting.Fit, scale: float) -> fitting.Fit:
+    return replace(fit, friction=tuple(replace(each, value=scale * each.value) for each in fit.friction))
+
+
+def _filled(fit: fitting.Fit, own: scenario.Scenario) -> fitting.Fit:
+    """Return the fit with a friction everywhere.
+
+    Where nothing slid: that of the nearest stretch where something did, unless the train used more; where
+    nothing slid at all, that of a dry rail.
+    """
+    dry = scenario.load_part("rails/dry")
+    assert isinstance(dry, scenario.RailCondition)
+    found = {k: each.value for k, each in enumerate(fit.friction) if each.standing == "found"}
+    levels = []
+    for k, each in enumerate(fit.friction):
+        level = found.get(k)
+        if level is None:
+            nearest = min((abs(place - k), place) for place in found)[1] if found else None
+            level = (
+                max(float(dry.friction), float(own.rail.highest_friction))
+                if nearest is None
+                else found[nearest]
+            )
+            if each.standing == "at least":
+                level = max(level, _OVER_BOUND * each.value)
+        levels.append(replace(each, standing="found", value=round(min(level, 1.0), _DIGITS)))
+    return replace(fit, friction=tuple(levels))
+
+
+def _bounds(made: MadeScenario) -> dict[str, Any]:
+    """Return the criteria that hold a simulation to the record."""
+    rows = zip(("distance", "time"), ("m", "s"), made.recorded, made.late, strict=True)
+    return {
+        "name": "as-recorded",
+        "title": "No longer than the recorded stop",
+        "criteria": [
+            {
+                "id": f"recorded-{name}",
+                "title": f"At most {100.0 * AGREES:g} % above the recorded {value + late:.1f} {unit}",
+                "clause": "none",
+                "layer": "requirement",
+                "measure": f"braking_{name}",
+                "upper": f"{(1.0 + AGREES) * (value + late):.1f} {unit}",
+            }
+            for name, unit, value, late in rows
+        ],
+    }

@@ -1,0 +1,119 @@
+"""Scenarios made of the stops of a log: they simulate what was recorded, or it is said that they do not."""
+
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+from pyarrow import parquet
+
+from tests.service_log import logs
+from uictest.cli.entry import execute
+
+SHIPPED = Path(__file__).parents[2] / "scenarios"
+COURSE = [
+    {"at": "0 s", "value": "60 %"},
+    {"at": "4 s", "value": "100 %", "position": "emergency"},
+    {"at": "9 s", "value": "0 %"},
+    {"at": "11 s", "value": "80 %"},
+]
+
+
+def suite(folder, stops, conditions=logs.CONDITIONS, *arguments, without=()):
+    """Make scenarios of simulated stops, and return their folder."""
+    path = logs.write_log(stops, folder / "night.parquet")
+    parquet.write_table(parquet.read_table(path).drop_columns(list(without)), path)
+    (folder / "night.yaml").write_text(conditions, "utf-8")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        options = ["--scenario", "night.yaml", "--scenarios", "suite", "-q", *arguments]
+        assert execute(["log", "night.parquet", *options]) in (0, 1)
+    return folder / "suite"
+
+
+def compared(made):
+    """Return the differences of distance and time in % by stop, as README.md has them."""
+    rows = re.findall(
+        r"\| `(stop-\d+)\.yaml` .*?\(([-+.\d]+) %\).*?\(([-+.\d]+) %\)", (made / "README.md").read_text()
+    )
+    return {name: (float(distance), float(time)) for name, distance, time in rows}
+
+
+@pytest.fixture(name="made", scope="module")
+def _made(tmp_path_factory):
+    """A dry stop, two slippery ones, and one with a course of commands on a rail where nothing slides."""
+    stops = [
+        logs.simulated(logs.DRY, 80.0, 1),
+        logs.simulated(logs.wet(0.03), 60.0, 2),
+        logs.simulated(logs.wet(0.09), 80.0, 3),
+        logs.simulated(logs.wet(0.4), 80.0, 4, {"brake.command": [COURSE]}),
+    ]
+    return suite(tmp_path_factory.mktemp("made"), stops)
+
+
+def test_every_scenario_lies_over_its_record(made):
+    differences = compared(made)
+    assert len(differences) == 4
+    assert all(abs(each) <= 2.0 for pair in differences.values() for each in pair)
+
+
+def test_the_suite_runs_and_holds_each_stop_to_its_record(made, monkeypatch):
+    monkeypatch.chdir(made.parent)
+    assert execute(["run", "suite", "-q", "-o", "runs"]) == 0
+    assert execute(["run", "suite", "-q", "-o", "runs", "--set", "brake.command=60 %"]) == 1
+
+
+def test_the_worst_stop_is_first_and_says_why(made):
+    (first, *_) = re.findall(
+        r"^\| `(.*?)` \| (.*?) \|", (made / "README.md").read_text("utf-8"), re.MULTILINE
+    )
+    assert first[0] == "stop-0002.yaml"
+    assert first[1].startswith("fail: ")
+    assert yaml.safe_load((made / first[0]).read_text("utf-8"))["expect"] == "fail"
+
+
+def test_a_scenario_states_the_commands_of_its_record(made):
+    course = yaml.safe_load((made / "stop-0004.yaml").read_text("utf-8"))["brake"]["command"]
+    assert [step["value"] for step in course] == [step["value"] for step in COURSE]
+    assert course[1]["position"] == "emergency"
+    for step, truth in zip(course, COURSE, strict=True):
+        assert float(step["at"].split()[0]) == pytest.approx(float(truth["at"].split()[0]), abs=0.2)
+
+
+def test_a_scenario_says_where_it_is_from_and_what_is_assumed(made):
+    text = (made / "stop-0001.yaml").read_text("utf-8")
+    assert re.search(r"night\.parquet, sample \d+, [\d.]+ s", text)
+    assert re.search(r"SHA-256 of the log: [0-9a-f]{64}", text)
+    assert "rail: not seen" in text
+    assert "rail: not seen" not in (made / "stop-0003.yaml").read_text("utf-8")
+    assert "controller: a record does not hold it; threshold" in text
+
+
+@pytest.mark.parametrize(
+    ("without", "told"),
+    [
+        (["wheel_speed_3"], r"No scenario of:\n\n- stop-0001.*not recorded: wheel_speed_3"),
+        (["brake_line_pressure"], r"brake command: not recorded; 100 % as stated"),
+    ],
+)
+def test_what_a_record_lacks_is_said(tmp_path, without, told):
+    made = suite(tmp_path, [logs.simulated(logs.wet(0.08), 60.0, 2)], without=without)
+    assert re.search(told, (made / "README.md").read_text("utf-8"))
+
+
+def test_of_many_stops_the_worst_are_taken_and_what_was_changed_stays(tmp_path, capsys):
+    stops = [logs.simulated(logs.DRY, 40.0, 1), logs.simulated(logs.wet(0.03), 50.0, 2)]
+    made = suite(tmp_path, stops, logs.CONDITIONS, "--worst", "1")
+    assert [path.name for path in made.glob("*.yaml")] == ["stop-0002.yaml"]
+    (made / "stop-0002.yaml").write_text("mine", "utf-8")
+    with pytest.raises(AssertionError):
+        suite(tmp_path, stops)
+    assert "suite: stop-0002.yaml: uictest did not write it, or it has changed" in capsys.readouterr().err
+    assert (made / "stop-0002.yaml").read_text("utf-8") == "mine"
+
+
+def test_scenarios_need_a_vehicle(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    logs.write_log([logs.simulated(logs.DRY, 40.0, 1)], tmp_path / "night.parquet")
+    assert execute(["log", "night.parquet", "--scenarios", "suite"]) == 4
+    assert "state them with --scenario" in capsys.readouterr().err
