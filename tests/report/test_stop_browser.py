@@ -9,12 +9,22 @@ import pytest
 from uictest.judging.evaluation import AppliedDefinition, RepeatedStop, Repeats
 from uictest.report import RunManifest
 from uictest.report.traces.band import stop_extremes, with_band
+from uictest.report.traces.quantities import PANELS
 from uictest.report.traces.trace import trace_of
 
 from .builders import make_content, make_recording, make_result, make_verdict
 from .chromium import PLOTTED, emulate, resize, run, wait, written
 
 CASE = "slip 120[friction=0.09]"
+_FURTHER = {
+    "dynamic_torque": "N m",
+    "dynamic_reduction": "1",
+    "friction": "1",
+    "cleaned_share": "1",
+    "sand_density": "kg/m",
+    "disc_temperature": "K",
+    "disc_surface_temperature": "K",
+}
 READY = "return document.querySelector('.plots[data-ready]') !== null"
 
 
@@ -282,6 +292,31 @@ def test_on_a_phone_case_verdict_and_measures_are_in_sight(browser, stop_page):
     ends = run(browser, script)
     assert len(ends) >= 10
     assert all(left >= 0 and right <= 400 for left, right in ends)
+
+
+def test_on_a_narrow_phone_every_panel_has_its_whole_title_and_nothing_overflows(browser, tmp_path):
+    recording = make_recording()
+    some = recording["slide_1"]
+    own = {f"{name}_{n}": (unit, 0.2 + some) for n in (1, 2, 3, 4) for name, unit in _FURTHER.items()} | {
+        "track_brake_force": ("N", 4e4 + some)
+    }
+    channels = {name: values for name, (_, values) in own.items()}
+    units = {name: unit for name, (unit, _) in own.items()}
+    recording = replace(
+        recording, channels={**recording.channels, **channels}, units={**recording.units, **units}
+    )
+    result = make_result(id="dry-120")
+    page = written(tmp_path, make_content(result, traces={"dry-120": trace_of(recording)}))
+    resize(browser, 360)
+    browser.get(f"{page.as_uri()}#case-dry-120")
+    wait(browser, PLOTTED)
+    titles = run(
+        browser, "return [...document.querySelectorAll('.plot-title')].map((each) => each.textContent)"
+    )
+    panels = [panel.title for panel in PANELS]
+    assert [title for title in panels if not any(each.startswith(title) for each in titles)] == []
+    assert [title for title in titles if title.endswith("…")] == []
+    assert run(browser, "return document.documentElement.scrollWidth") <= 360
 
 
 def test_paper_has_the_name_of_the_run_and_the_numbers_of_its_pages(browser, stop_page):

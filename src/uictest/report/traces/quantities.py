@@ -90,10 +90,10 @@ PANELS = (
         1.3,
     ),
     Panel("force", "Clamping force of one caliper", "kN", ("clamping_force",)),
-    Panel("torque", "Torque of the dynamic brake on one wheelset", "N m", ("dynamic_torque",)),
+    Panel("torque", "Dynamic brake torque of a wheelset", "N m", ("dynamic_torque",)),
     Panel(
         "reduction",
-        "Reduction of the dynamic brake by the WSP",
+        "Dynamic brake reduced by the WSP",
         "%",
         ("dynamic_reduction",),
         include=(0.0, 100.0),
@@ -104,7 +104,7 @@ PANELS = (
     Panel("sand", "Sand before each wheelset", "g/m", ("sand_density",)),
     Panel(
         "temperature",
-        "Temperature of the discs: surface (bulk dotted)",
+        "Disc temperature (bulk dotted)",
         "degC",
         ("disc_temperature", "disc_surface_temperature"),
     ),

@@ -4,7 +4,7 @@ const CASE_DASHES = [[], [6, 2], [2, 2], [8, 2, 2, 2]];
 const styleOf = (place) => ({ ink: `compared-${place + 1}`, dash: CASE_DASHES[place % CASE_DASHES.length] });
 
 const comparedRow = (stops, axes, panel) => ({
-  key: panel.key, title: `${panel.title}, ${panel.unit}`, height: 112 * panel.height, include: panel.include,
+  key: panel.key, title: titleOf(panel), height: 112 * panel.height, include: panel.include,
   lines: (wheelsets) =>
     stops.flatMap((stop, place) =>
       panel.lines

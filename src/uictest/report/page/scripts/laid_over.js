@@ -4,7 +4,7 @@ const SIDE_STYLES = { "side-a": ["compared-1", []], "side-b": ["compared-2", [6,
 const SIDE_LINES = ["first", "second", "difference"];
 
 const sideRow = ({ curves, marks }, panel) => ({
-  key: panel.key, title: `${panel.title}, ${panel.unit}`, height: 112 * panel.height, include: panel.include,
+  key: panel.key, title: titleOf(panel), height: 112 * panel.height, include: panel.include,
   lines: () => panel.lines.filter((each) => each.series in curves).map(({ label, role, series }) => {
     const [ink, dash] = SIDE_STYLES[role];
     return { label, ink, dash, width: 1.5, ...curves[series] };

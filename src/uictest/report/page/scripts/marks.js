@@ -78,13 +78,16 @@ const paintBars = (plot, { spans, row, half, ink, opacity = 1 }) =>
 
 const CHARACTER = 6.3; /* pixels of a letter of a label, about */
 const SAMPLES = { limit: "┄ ", mean: "━ ", tolerance: "▬ ", fault: "▨ " };
+const BOLD = 1.08; /* width of a letter of a title over that */
 const widthOf = (text) => CHARACTER * text.length + 8;
 const shortened = (text, width) =>
   widthOf(text) <= width ? text : `${text.slice(0, Math.max(Math.floor((width - 8) / CHARACTER) - 1, 1))}…`;
 
+const titleOf = ({ title, unit }) => (unit === "dimensionless" ? title : `${title}, ${unit}`);
+
 /* Title and labels in rows above a panel, none over another. `pixel` gives the place of an x in the panel. */
 const labelsAbove = (title, marks, width, pixel) => {
-  const rows = [[{ text: title, left: 0, right: widthOf(title) * 1.08 }]];
+  const rows = [[{ text: shortened(title, width / BOLD), left: 0, right: widthOf(title) * BOLD }]];
   const free = (row, left, right) => row.every((each) => right <= each.left || left >= each.right);
   for (const mark of marks.filter((each) => each.label)) {
     const text = shortened((SAMPLES[mark.kind] ?? "") + mark.label, width);

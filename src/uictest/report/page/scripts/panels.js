@@ -80,7 +80,7 @@ const rowsOf = (stop, axis, apart, hidden) => {
     .filter((panel) => panel.lines.some((each) => each.series in stop.curves))
     .flatMap((panel) => [
       {
-        key: panel.key, title: `${panel.title}, ${panel.unit}`, height: 112 * panel.height, include: panel.include,
+        key: panel.key, title: titleOf(panel), height: 112 * panel.height, include: panel.include,
         lines: (wheelsets) => shownLines(panel, wheelsets).map((each) => lineOf(stop, axis, each, apart)),
         bands: (wheelsets) => (hidden.has("band") ? [] : bandsOf(stop, axis, shownLines(panel, wheelsets))),
         marks: marksIn(marks, panel.key),
