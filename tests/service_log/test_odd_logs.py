@@ -154,3 +154,48 @@ def test_implausible_numbers_are_not_believed_wherever_they_stand(tmp_path, monk
         assert [event.row for event in log.stops] == [*PLACES, 3020, 4320]
         assert log.stops[0].remarks == ("the train speed is missing in part",)
     assert found_in[0] == found_in[1]
+
+
+@pytest.mark.parametrize("seconds", [0.8, 1.5, 4.0])
+@pytest.mark.parametrize("lost", ["train", "all"])
+def test_a_speed_that_is_lost_within_a_stop_does_not_end_it(tmp_path, lost, seconds):
+    columns = table(KINDS)
+    for name in ["speed"] if lost == "train" else [name for name in columns if "speed" in name]:
+        columns[name][200 : 200 + round(seconds / STEP)] = 0.0
+    log, places, reasons = found(columns, tmp_path / "log.parquet")
+    assert places == PLACES
+    assert len(reasons) == 4
+    begin, end = log.stops[0].rows
+    assert begin == 50
+    assert 420 <= end <= 440, "3 s after standstill"
+
+
+@pytest.mark.parametrize(
+    ("spoilt", "told"),
+    [
+        (lambda content: content[: len(content) // 2], "damaged"),
+        (lambda content: content[:3000] + bytes(2000) + content[5000:], "damaged"),
+    ],
+)
+def test_a_damaged_table_is_told_with_its_name(tmp_path, spoilt, told):
+    path = written(table(KINDS), tmp_path / "log.parquet")
+    path.write_bytes(spoilt(path.read_bytes()))
+    with pytest.raises(UnreadableError, match=rf"log\.parquet: {told}"):
+        find_stops([path], MAP)
+
+
+def test_a_text_of_another_encoding_says_what_to_declare(tmp_path):
+    path = written(table(KINDS), tmp_path / "log.csv")
+    path.write_bytes(path.read_bytes().replace(b"\n0.", b"\n\xe40.", 1))
+    with pytest.raises(UnreadableError, match="encoding: cp1252"):
+        find_stops([path], MAP)
+
+
+def test_comments_and_a_last_line_that_is_cut_off_are_no_samples(tmp_path):
+    path = written(table(KINDS), tmp_path / "log.csv")
+    lines = path.read_text("utf-8").splitlines()
+    path.write_text("\n".join([*lines[:1500], "# put right, by hand", *lines[1500:], "292.1,0.0"]), "utf-8")
+    assert [event.row for event in find_stops([path], MAP).stops] == PLACES
+    path.write_text("\n".join([*lines[:1500], "292.1,0.0", *lines[1500:]]), "utf-8")
+    with pytest.raises(UnreadableError, match=r"Expected 7 columns, got 2: 292\.1,0\.0"):
+        find_stops([path], MAP)

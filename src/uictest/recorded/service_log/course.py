@@ -31,6 +31,8 @@ _BEFORE, _AFTER = 5.0, 3.0
 """s that belong to a stop before the brake and after standstill; chosen."""
 _LARGEST_JUMP = 2.0
 """m/s between two rows beside a step of the clock: more, and the recording was interrupted; chosen."""
+_FALL, _STEEPEST = 0.5, 5.0
+"""s before standstill, and m/s2 by which a train slows down there at most: else its speed is lost; chosen."""
 HELD = 0.1
 """Share of the speed that drag braking loses at most; chosen."""
 _LONG_HELD = 20.0
@@ -106,9 +108,15 @@ class Course:
         below = self.speed[first:last] <= level
         for k in map(int, first + np.flatnonzero(below & ~np.concatenate(([False], below[:-1])))):
             until = min(self.row_after(k, _STANDS), last)
-            if np.nanmedian(self.speed[k:until]) <= level:
+            if np.nanmedian(self.speed[k:until]) <= level and not self._drops(first, k):
                 return k
         return None
+
+    def _drops(self, first: int, row: int) -> bool:
+        """Return whether the speed falls to that of a row faster than a train slows down."""
+        before = max(min(self.row_before(row, _FALL), row - 1), first)
+        fall, seconds = self.speed[before] - self.speed[row], self.clock[row] - self.clock[before]
+        return bool(fall > _LARGEST_JUMP + _STEEPEST * seconds)
 
     def rows_of(self, first: int, stop_row: int, released: int) -> tuple[int, int]:
         """Return the rows of an event with its lead, without what lies beyond a step of the clock.

@@ -226,7 +226,7 @@ def undecodable(path: Path, encoding: str) -> str:
         line = 1 + before.count("\n") + before.count("\r") - before.count("\r\n")
         byte = 1 + len(before[start:].lstrip(MARK).encode(encoding.removesuffix("-sig"), "replace"))
         wrong = f"line {line}, byte {byte}: {content[error.start]:#04x} is not {_shown(encoding)}"
-        return f"{wrong}; {_encoding_advice(encoding)} in a channel map (--map)"
+        return f"{wrong}; {encoding_advice(encoding)} in a channel map (--map)"
     return f"not a text in {_shown(encoding)}"
 
 
@@ -234,7 +234,8 @@ def _shown(encoding: str) -> str:
     return encoding.removesuffix("-sig").upper()
 
 
-def _encoding_advice(encoding: str) -> str:
+def encoding_advice(encoding: str) -> str:
+    """Return what to write where a file does not have an encoding."""
     if encoding.startswith("utf"):
         return "for a file of a Windows program, write csv: {encoding: cp1252}"
     return "write the file's encoding in csv: {encoding: ...}"

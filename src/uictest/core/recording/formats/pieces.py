@@ -11,13 +11,15 @@ import numpy as np
 
 from uictest.core.recording.formats import csv_text, isolation, parquet, streams
 from uictest.core.recording.formats.file_formats import UnreadableError, format_of
-from uictest.core.recording.formats.layout import Dialect, encoding_of, table_layout
+from uictest.core.recording.formats.layout import COMMENT, Dialect, encoding_advice, encoding_of, table_layout
 from uictest.core.recording.recording import Contents, Group, Samples
 
 _BLOCK = 2 * 2**20
 """Bytes of text that are parsed at once, of which Arrow reads up to 32 blocks ahead; chosen."""
 _ROWS = 2**17
 """Rows of a Parquet file that are decoded at once; chosen."""
+_LONGEST = 200
+"""Characters of a message of Arrow that are shown; chosen."""
 _SAMPLED = 200
 """Lines by which a column of text is told from one of numbers; chosen."""
 
@@ -60,10 +62,14 @@ def _tables(
         for batch in batches:
             columns = {name: _samples(name, batch.column(k), dated) for k, name in enumerate(names)}
             yield Contents((Group("", columns, {**units, **dict.fromkeys(dated, "s")}),))
-    except pa.ArrowException as error:
-        raise UnreadableError(f"not a table of numbers throughout: {str(error).splitlines()[0]}") from error
     except UnicodeError as error:
-        raise UnreadableError(f"is not {dialect.encoding} throughout") from error
+        advice = f"{encoding_advice(dialect.encoding)} in a channel map (--map)"
+        raise UnreadableError(f"is not {dialect.encoding} throughout; {advice}") from error
+    except (pa.ArrowException, OSError) as error:
+        if isinstance(error, OSError) and error.errno:
+            raise
+        told = "".join(each if each.isprintable() else "?" for each in str(error).splitlines()[0])
+        raise UnreadableError(f"damaged, or not a table of numbers throughout: {told[:_LONGEST]}") from error
 
 
 def _parquet(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Table:
@@ -95,7 +101,7 @@ def _csv(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Table:
         csv.ReadOptions(
             skip_rows=layout.first_line - 1, column_names=names, block_size=_BLOCK, encoding=encoding
         ),
-        csv.ParseOptions(delimiter=dialect.delimiter),
+        csv.ParseOptions(delimiter=dialect.delimiter, invalid_row_handler=_on_other_lines(path, encoding)),
         csv.ConvertOptions(
             include_columns=chosen,
             column_types={name: pa.float64() if kinds[name] else pa.string() for name in chosen},
@@ -104,6 +110,14 @@ def _csv(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Table:
         ),
     )
     return chosen, units, iter(reader)
+
+
+def _on_other_lines(path: Path, encoding: str) -> Callable[[Any], str]:
+    """Return what to do with a line of other cells: comments and an unfinished last line are skipped."""
+    with path.open("rb") as file:
+        file.seek(max(path.stat().st_size - csv_text.LONGEST_LINE, 0))
+        last = file.read().decode(encoding, "replace").rpartition("\n")[2]
+    return lambda row: "skip" if row.text.startswith(COMMENT) or row.text == last else "error"
 
 
 def _cell(line: str, column: int, dialect: Dialect) -> str:
