@@ -36,7 +36,7 @@ def test_the_sections_are_held_at_the_sampling_time(poles):
 def test_the_assembled_function_is_the_weighted_sum_of_the_sections():
     poles, weights = np.log([0.1, 0.5, 0.04]), np.array([0.3, -0.2, 0.5])
     samples = np.concatenate([np.zeros(5), np.linspace(0.0, 1.0, 500), np.full(500, 0.4)])
-    expected = samples + basis(samples, poles, 0.001, np.arange(len(samples))) @ weights
+    expected = samples + basis(samples, sections(poles, 0.001), np.arange(len(samples))) @ weights
     assert assembled(poles, weights, 0.001).output(samples) == pytest.approx(expected, abs=1e-9)
 
 

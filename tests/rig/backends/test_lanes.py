@@ -1,4 +1,7 @@
-"""Stops in lanes give the bits of stops one by one."""
+"""Stops and trains in lanes give the bits of stops and trains one by one.
+
+They stand in one file since most of what is compiled for lanes is the same for both.
+"""
 
 import subprocess
 import sys
@@ -14,6 +17,8 @@ from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import FRICTIONS, ROWS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.rig.single_stop import run_to_end
+
+from .trains_in_lanes import ALL as ALL_TRAINS, Trains
 
 WET = ("rail.condition=wet", "rail.friction=0.09")
 PLACES = "{position: 0 m, friction: 0.2}, {position: 9 m, friction: 0.04}"
@@ -218,3 +223,56 @@ def test_stops_that_should_take_longest_begin_first():
     order = longest_first(parameters, rail, np.array([0, 1, 2, 3]))
     assert order.tolist() == [1, 2, 0, 3]
     assert longest_first(parameters, rail, np.array([0, 3, 1])).tolist() == [1, 0, 3]
+
+
+@pytest.fixture(name="trains", scope="module")
+def _trains(rig):
+    return Trains(rig)
+
+
+def test_the_trains_differ_in_what_they_do(trains):
+    ends = [[float(car.measures.end_time) for car in stop.cars] for stop in trains.alone]
+    assert {len(times) for times in ends} == {1, 2, 4}
+    assert max(max(times) - min(times) for times in ends) > 2.0
+    assert max(max(times) for times in ends) > 2.0 * min(max(times) for times in ends)
+    shares = [car.wheelsets["cleaned_share"].max() for stop in trains.alone for car in stop.cars]
+    assert min(shares) == 0.0 < max(shares)
+
+
+@pytest.mark.parametrize("width", [None, pytest.param(2, marks=pytest.mark.slow)])
+def test_a_train_in_a_lane_has_the_bits_of_a_train_alone(trains, width):
+    assert trains.are_as_alone(ALL_TRAINS, width)
+
+
+@given(numbers=st.lists(st.sampled_from(ALL_TRAINS), max_size=20))
+@settings(max_examples=10, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_neighbours_order_and_number_of_trains_do_not_matter(trains, numbers):
+    assert trains.are_as_alone(numbers)
+
+
+def test_a_train_of_one_car_has_the_bits_of_a_single_stop_in_lanes(trains):
+    of_one = [number for number in ALL_TRAINS if len(trains.inputs[number].parameters) == 1]
+    assert len(of_one) == 4
+    inputs = [trains.inputs[number] for number in of_one]
+    parameters, wheelsets = (
+        np.concatenate([getattr(each, name) for each in inputs])
+        for name in ("parameters", "wheelset_parameters")
+    )
+    batch = run_in_lanes(parameters, wheelsets, np.stack([each.rail for each in inputs]))
+    for place, stop in enumerate(trains.in_lanes(of_one)):
+        assert stop.measures.tobytes() == batch.measures[place].tobytes()
+        assert stop.wheelset_measures.tobytes() == batch.wheelset_measures[place].tobytes()
+
+
+def test_inputs_of_trains_are_only_read(trains):
+    before = [[array.tobytes() for array in inputs] for inputs in trains.inputs]
+    trains.in_lanes(ALL_TRAINS)
+    assert [[array.tobytes() for array in inputs] for inputs in trains.inputs] == before
+
+
+def test_the_compiler_is_loaded_only_for_trains():
+    code = (
+        "import sys; from uictest.rig import run_trains_in_lanes; "
+        "sys.exit('numba' in sys.modules or 'llvmlite' in sys.modules or run_trains_in_lanes([]) != [])"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -83,11 +83,17 @@ def _exponential(matrix: Samples) -> Samples:
     return np.asarray(total)
 
 
-def basis(samples: Samples, poles: Poles, step: float, at: NDArray[np.intp]) -> Samples:
-    """Three columns at some of the samples; the output is the input plus their sum weighted by c1, c2, c3."""
+def basis(samples: Samples, held: Sequence[tuple[Samples, Samples]], at: NDArray[np.intp]) -> Samples:
+    """Three columns at some of the samples; the output is the input plus their sum weighted by c1, c2, c3.
+
+    Args:
+        samples: of the input.
+        held: its :func:`sections`.
+        at: where the columns are wanted.
+    """
     from scipy.signal import lfilter
 
-    lag, low, band = (lfilter(b, a, samples)[at] for b, a in sections(poles, step))
+    lag, low, band = (lfilter(b, a, samples)[at] for b, a in held)
     return np.stack([lag - samples[at], low - samples[at], band], axis=1)
 
 
@@ -187,9 +193,9 @@ def _error_function(segments: Sequence[FitSegment], step: float, weigh: Weigh, p
     unit_step = np.ones(times[-1] + 1)
 
     def error(poles: Poles) -> tuple[float, Samples]:
-        within = bounded(poles, step)
-        columns = [basis(each.input, within, step, at) for each, at in zip(segments, chosen, strict=True)]
-        return weigh(np.concatenate(columns), target, lambda: basis(unit_step, within, step, times))
+        held = sections(bounded(poles, step), step)
+        columns = [basis(each.input, held, at) for each, at in zip(segments, chosen, strict=True)]
+        return weigh(np.concatenate(columns), target, lambda: basis(unit_step, held, times))
 
     return error
 

@@ -1,13 +1,7 @@
-"""Trains in lanes give the bits of trains one by one."""
-
-import subprocess
-import sys
+"""Trains of all kinds, in lanes and one by one."""
 
 import numpy as np
-import pytest
-from hypothesis import HealthCheck, given, settings, strategies as st
 
-from uictest.rig.backends.lanes import run_in_lanes
 from uictest.rig.backends.train_lanes import run_trains_in_lanes
 from uictest.rig.coupled_cars import run_coupled
 from uictest.rig.train_inputs import Coupling, assemble_train
@@ -84,56 +78,3 @@ def bits_alone(stop):
     measures = [np.array([car.measures for car in stop.cars])]
     measures += [car.wheelset_measures for car in stop.cars]
     return b"".join(each.tobytes() for each in (*measures, stop.couplers))
-
-
-@pytest.fixture(name="trains", scope="module")
-def _trains(rig):
-    return Trains(rig)
-
-
-def test_the_trains_differ_in_what_they_do(trains):
-    ends = [[float(car.measures.end_time) for car in stop.cars] for stop in trains.alone]
-    assert {len(times) for times in ends} == {1, 2, 4}
-    assert max(max(times) - min(times) for times in ends) > 2.0
-    assert max(max(times) for times in ends) > 2.0 * min(max(times) for times in ends)
-    shares = [car.wheelsets["cleaned_share"].max() for stop in trains.alone for car in stop.cars]
-    assert min(shares) == 0.0 < max(shares)
-
-
-@pytest.mark.parametrize("width", [None, pytest.param(2, marks=pytest.mark.slow)])
-def test_a_train_in_a_lane_has_the_bits_of_a_train_alone(trains, width):
-    assert trains.are_as_alone(ALL, width)
-
-
-@given(numbers=st.lists(st.sampled_from(ALL), max_size=20))
-@settings(max_examples=10, suppress_health_check=[HealthCheck.function_scoped_fixture])
-def test_neighbours_order_and_number_of_trains_do_not_matter(trains, numbers):
-    assert trains.are_as_alone(numbers)
-
-
-def test_a_train_of_one_car_has_the_bits_of_a_single_stop_in_lanes(trains):
-    of_one = [number for number in ALL if len(trains.inputs[number].parameters) == 1]
-    assert len(of_one) == 4
-    inputs = [trains.inputs[number] for number in of_one]
-    parameters, wheelsets = (
-        np.concatenate([getattr(each, name) for each in inputs])
-        for name in ("parameters", "wheelset_parameters")
-    )
-    batch = run_in_lanes(parameters, wheelsets, np.stack([each.rail for each in inputs]))
-    for place, stop in enumerate(trains.in_lanes(of_one)):
-        assert stop.measures.tobytes() == batch.measures[place].tobytes()
-        assert stop.wheelset_measures.tobytes() == batch.wheelset_measures[place].tobytes()
-
-
-def test_inputs_of_trains_are_only_read(trains):
-    before = [[array.tobytes() for array in inputs] for inputs in trains.inputs]
-    trains.in_lanes(ALL)
-    assert [[array.tobytes() for array in inputs] for inputs in trains.inputs] == before
-
-
-def test_the_compiler_is_loaded_only_for_trains():
-    code = (
-        "import sys; from uictest.rig import run_trains_in_lanes; "
-        "sys.exit('numba' in sys.modules or 'llvmlite' in sys.modules or run_trains_in_lanes([]) != [])"
-    )
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
