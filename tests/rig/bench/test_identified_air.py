@@ -18,7 +18,7 @@ stop:
       pressure: {noise: 1e-6 bar, offset: 0 bar, gain_error: 0 %, resolution: 1e-5 bar}
 inputs:
   - {kind: triangular, peaks: [1 bar, 1 bar], floor: 0 bar, ramp: 2 s}
-  - {kind: wsp, pressure: 4 bar, lead: 3 s, cycles: 12, vent: [0.2 s, 2 s], hold: [0.05 s, 0.4 s],
+  - {kind: wsp, pressure: 4 bar, lead: 3 s, cycles: 8, vent: [0.2 s, 2 s], hold: [0.05 s, 0.4 s],
      fill: [0.1 s, 1 s], seed: 4}
   - {kind: rest, duration: 3 s}
 """
