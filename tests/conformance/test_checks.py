@@ -23,15 +23,20 @@ def missed(examination):
 
 
 def built_in(name):
-    return conformance.examine(conformance.subject_of(name, load_part(f"controllers/{name}")))
+    return conformance.examined(conformance.subject_of(name, load_part(f"controllers/{name}")))
+
+
+@pytest.fixture(scope="module")
+def slip_band():
+    return built_in("slip-band")
 
 
 def test_the_default_controller_conforms():
-    assert missed(built_in("threshold")) == set()
+    assert missed(built_in("threshold").examination) == set()
 
 
-def test_what_a_controller_answered_where_it_misses_a_check_is_a_recording_of_valves():
-    examined = conformance.examined(conformance.subject_of("slip-band", load_part("controllers/slip-band")))
+def test_what_a_controller_answered_where_it_misses_a_check_is_a_recording_of_valves(slip_band):
+    examined = slip_band
     assert examined.missed.keys() == {"ends-vents", "lost-sensor"}
     locked = examined.missed["ends-vents"]["wheelset 2 locked"]
     recording = recording_of(locked)
@@ -42,8 +47,8 @@ def test_what_a_controller_answered_where_it_misses_a_check_is_a_recording_of_va
     assert np.isnan(recording_of(locked)["valve_command_2"]).all()
 
 
-def test_the_simplest_controller_has_no_watchdog():
-    examination = built_in("slip-band")
+def test_the_simplest_controller_has_no_watchdog(slip_band):
+    examination = slip_band.examination
     assert missed(examination) == {"ends-vents", "lost-sensor"}
     assert examination.status == "fail"
 
