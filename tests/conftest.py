@@ -13,6 +13,7 @@ from types import SimpleNamespace
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
+from _pytest.junitxml import xml_key
 from hypothesis import settings
 from typer.main import get_command
 
@@ -23,6 +24,7 @@ from uictest.core import lanes
 from uictest.core.physics import FILL, VENT, arithmetic, fma
 from uictest.core.record import fields_of
 from uictest.core.recording.formats import isolation, reader
+from uictest.selftest import dossier
 
 _LONGEST = (
     "rig/backends/test_lanes.py",
@@ -72,14 +74,19 @@ settings.register_profile("search", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
 
 
-def pytest_configure():
-    """Keep byte code, whatever the shell says.
+@pytest.hookimpl(trylast=True)
+def pytest_configure(config):
+    """Keep byte code, whatever the shell says, and let the file of --junitxml say which program was tested.
 
-    Else each process of tests would compile every file of tests at each run, and each of the hundreds of
-    processes that they start what it imports of the sources.
+    Without byte code each process of tests would compile every file of tests at each run, and each of the
+    hundreds of processes that they start what it imports of the sources. `uictest selftest --tests` compares
+    what the file says.
     """
     sys.dont_write_bytecode = False
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    if (xml := config.stash.get(xml_key, None)) is not None:
+        for name, value in dossier.tested_program().items():
+            xml.add_global_property(name, value)
 
 
 def pytest_collection():

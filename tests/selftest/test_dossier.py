@@ -4,16 +4,20 @@ import hashlib
 import io
 import json
 import re
+import subprocess
+import sys
 import tempfile
 import zipfile
 from dataclasses import replace
 from datetime import UTC, datetime
+from itertools import pairwise
 from pathlib import Path, PurePosixPath
 from posixpath import normpath
 
 import pytest
 from markupsafe import escape
 
+import uictest
 from uictest import selftest
 from uictest.selftest import dossier
 from uictest.selftest.dossier.answers import requirements_of
@@ -320,3 +324,73 @@ def test_the_real_self_test_is_in_it(stops):
     examination = selftest.examine(stops, list(selftest.all_checks(stops))[:2])
     found = json.loads(dossier.dossier_files(examination, {}, MADE)["dossier.json"])["self_test"]
     assert [each["status"] for each in found] == ["pass", "pass"]
+
+
+RUN = """<?xml version="1.0" encoding="utf-8"?>
+<testsuites><testsuite name="pytest" timestamp="2026-01-02T03:04:05">
+<properties><property name="uictest" value="9.9"/><property name="uictest_installed_sha256" value="{digest}"/>
+</properties>
+<testcase classname="tests.evaluation.test_judgement" name="test_nan_never_passes[upper]"/>
+<testcase classname="tests.evaluation.test_judgement" name="test_nan_never_passes[lower]"><failure/>
+</testcase>
+<testcase classname="tests.evaluation.test_bounds.TestAll" name="test_nan_and_infinity_never_hold"/>
+<testcase classname="tests.cli.test_entry" name="test_x"><skipped/></testcase></testsuite></testsuites>"""
+
+
+def with_run(digest):
+    run = dossier.read_test_run(RUN.format(digest=digest).encode())
+    examination = Examination("selftest", "", {"python": "CPython 3.11"}, (PASSED,))
+    return dossier.dossier_files(examination, SCHEMAS, MADE, run)
+
+
+def test_a_run_of_the_tests_stands_beside_the_requirements_and_on_the_cover():
+    files = with_run(dossier.tested_program()["uictest_installed_sha256"])
+    whole = json.loads(files["dossier.json"])
+    results = {each["test"]: each["result"] for each in whole["tests"]}
+    assert results["test_nan_never_passes"] == "1 failed, 1 passed"
+    assert results["test_nan_and_infinity_never_hold"] == "1 passed"
+    assert results["test_validity_comes_before_requirements"] == "not run"
+    assert whole["test_run"]["outcomes"] == {"passed": 2, "failed": 1, "skipped": 1}
+    said = "1 failed, 1 skipped, 2 passed, begun 2026-01-02T03:04:05; of the program that is installed here"
+    assert said in text(files, "index.html")
+    assert said in text(files, "tests.html")
+    assert f"{len(results) - 2} were not run" in text(files, "tests.html")
+
+
+def test_a_run_of_another_program_is_called_so():
+    assert "of another program (uictest 9.9)" in text(with_run("0" * 64), "index.html")
+    assert "none was given" in text(files_of(PASSED), "index.html")
+
+
+@pytest.mark.parametrize(
+    ("content", "why"),
+    [
+        (b"no xml", "no XML"),
+        (b"<testsuites/>", "no testcase"),
+        (b'<!DOCTYPE x [<!ENTITY a "b">]><testsuite>&a;</testsuite>', "document type"),
+    ],
+)
+def test_what_is_no_record_of_tests_is_refused(content, why):
+    with pytest.raises(ValueError, match=why):
+        dossier.read_test_run(content)
+
+
+def test_the_record_of_this_suite_says_which_program_is_tested(tmp_path):
+    """pytest itself writes the file: in a process of its own, as it runs once per process."""
+    junit = tmp_path / "junit.xml"
+    place = "tests/evaluation/test_bounds.py"
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", place, f"--junitxml={junit}"]
+    subprocess.run(command, cwd=REPOSITORY, check=True, capture_output=True)
+    run = dossier.read_test_run(junit.read_bytes())
+    assert run.about["uictest_installed_sha256"] == dossier.tested_program()["uictest_installed_sha256"]
+    assert run.by_test[place, "test_nan_and_infinity_never_hold"]["passed"] > 0
+
+
+def test_the_verdict_by_hand_adds_up_from_the_speeds_of_the_stop():
+    """The speeds of the page are those of the stop; trapezoids over them give its distance."""
+    page = (REPOSITORY / "docs/trust.md").read_text("utf-8").partition("### A verdict by hand")[2]
+    speeds = [float(each) for each in re.search(r"\n\n((?:    [\d. ]+\n)+)", page)[1].split()]
+    stop = uictest.simulate("dry-120")
+    assert speeds == pytest.approx(list(3.6 * stop["speed"][::100][: len(speeds)]), abs=0.051)
+    area = sum((a + b) / 7.2 for a, b in pairwise(speeds)) + speeds[-1] / 7.2 * (27.85 - len(speeds) + 1)
+    assert f"add up to {area:.1f} m" in " ".join(page.split())

@@ -4,4 +4,9 @@ from .manual import (
     pages as pages,
     requirements as requirements,
 )
+from .run_of_tests import (
+    TestRun as TestRun,
+    read_test_run as read_test_run,
+    tested_program as tested_program,
+)
 from .studies import RESULTS as RESULTS

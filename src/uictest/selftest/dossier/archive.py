@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from uictest import __version__
-from uictest.report import counted, junit_text
+from uictest.report import junit_text
 from uictest.selftest.dossier.answers import answers_page
 from uictest.selftest.dossier.build import is_release, last_release
 from uictest.selftest.dossier.cover import cover
@@ -24,12 +24,12 @@ from uictest.selftest.dossier.manual import (
     QUESTIONS,
     TESTS,
     known_errors,
-    named_tests,
     pages,
     rendered,
     requirements,
 )
 from uictest.selftest.dossier.numbers import library_numbers, limits, numbers_page
+from uictest.selftest.dossier.run_of_tests import TestRun, tests_page, tests_with_results
 from uictest.selftest.dossier.sheet import COVER, Section, entries, sheet
 from uictest.selftest.dossier.sources import public_sources, sources_page
 from uictest.selftest.dossier.studies import studies, studies_page
@@ -40,13 +40,16 @@ _EPOCH: Final = (1980, 1, 1, 0, 0, 0)
 _PACKAGE: Final = Path(__file__).parents[2]
 
 
-def dossier_files(examination: Examination, schemas: Mapping[str, str], made: datetime) -> dict[str, bytes]:
+def dossier_files(
+    examination: Examination, schemas: Mapping[str, str], made: datetime, run: TestRun | None = None
+) -> dict[str, bytes]:
     """Return every file of the dossier by its path in the archive, the cover first.
 
     Args:
         examination: the self-test of this installation.
         schemas: of the files that users write, by the name of the file.
         made: when, UTC.
+        run: of the tests, as its file records it.
     """
     examination = _without_places(examination)
     packages, kept = installed_packages(), studies()
@@ -56,7 +59,7 @@ def dossier_files(examination: Examination, schemas: Mapping[str, str], made: da
         "known-answers.html": answers_page(examination),
         "known-answers.json": findings_json(examination),
         "known-answers.junit.xml": junit_text([findings_suite(examination)]),
-        TESTS: _tests_page(),
+        TESTS: tests_page(run),
         "numbers.html": numbers_page(numbers, bounds),
         "public-sources.html": sources_page(sources),
         "public-sources.json": json.dumps(sources, indent=1, ensure_ascii=False) + "\n",
@@ -75,6 +78,7 @@ def dossier_files(examination: Examination, schemas: Mapping[str, str], made: da
     digests = {name: hashlib.sha256(content).hexdigest() for name, content in contents.items()}
     facts = {
         "result of the self-test": examination.status,
+        "run of the tests": "none was given" if run is None else run.sentence(),
         "made": made.strftime("%Y-%m-%d %H:%M:%S UTC"),
         "SHA-256 over the lines of sha256sum of all installed files, by path": package_digest(),
         "packages unlike those tested": ", ".join(untested(packages)) or "none",
@@ -91,7 +95,8 @@ def dossier_files(examination: Examination, schemas: Mapping[str, str], made: da
         "environment": dict(examination.about),
         "self_test": json.loads(parts["known-answers.json"])["checks"],
         "requirements": requirements(),
-        "tests": named_tests(),
+        "tests": tests_with_results(run),
+        "test_run": None if run is None else run.form(),
         "known_errors": known_errors(),
         "numbers": numbers,
         "limits": bounds,
@@ -140,19 +145,6 @@ def _without_places(examination: Examination) -> Examination:
         about={name: cleared(text) for name, text in examination.about.items()},
         findings=findings,
     )
-
-
-def _tests_page() -> str:
-    """Return the page of every test that is named, with its file."""
-    said = (
-        "These tests lie in the repository, below tests/; ./test runs them. None of them was run to make "
-        "this dossier: what ran on this machine is the self-test."
-    )
-    headings = {"test": "test", "file": "file", "requirements": "requirements"}
-    named = named_tests()
-    title = f"{counted(len(named), 'test')} that requirements name"
-    table = entries(named, headings)
-    return sheet("Tests", [Section(title, table, anchored=True)], said=[said])
 
 
 def _packages_page(packages: Sequence[Mapping[str, str]]) -> str:
