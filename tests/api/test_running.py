@@ -14,7 +14,7 @@ from uictest.core.files import latest_run
 from uictest.judging import evaluation
 from uictest.report import read_run
 from uictest.running import campaign
-from uictest.running.campaign import batch
+from uictest.running.campaign import train_blocks
 
 AXIS = {"rail.friction": [0.06, 0.1]}
 FAILING = "expect: fail\n"
@@ -175,7 +175,7 @@ def test_an_interrupt_is_raised(write, monkeypatch):
 
 
 def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(write, monkeypatch):
-    path, run_stop = write(), batch.run_stop
+    path, run_stop = write(), train_blocks.run_stop
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
 
     def interrupted(stop, *arguments):
@@ -185,7 +185,7 @@ def test_ctrl_c_ends_a_run_and_leaves_the_handler_alone(write, monkeypatch):
 
     try:
         with monkeypatch.context() as patched, pytest.raises(KeyboardInterrupt):
-            patched.setattr(batch, "run_stop", interrupted)
+            patched.setattr(train_blocks, "run_stop", interrupted)
             uictest.run(path, set={"seed": list(range(20))}, jobs=1)
         assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
     finally:
@@ -216,7 +216,7 @@ def test_a_stop_that_crashes_is_a_result(write, monkeypatch):
         result = evaluation.error_result(stop.case, "ZeroDivisionError: no wheel load")
         return campaign.StopRun(stop, campaign.CaseRun(result))
 
-    monkeypatch.setattr(batch, "run_stop", crash)
+    monkeypatch.setattr(train_blocks, "run_stop", crash)
     results = uictest.run(write())
     assert (results.met, results[0].outcome) == (False, "error")
     assert math.isnan(results.frame().loc["stop", "braking_distance_m"])

@@ -8,8 +8,8 @@ from uictest.running.campaign import (
     CaseRun,
     RunSettings,
     StopRun,
-    batch,
     run_cases,
+    train_blocks,
 )
 
 
@@ -25,7 +25,7 @@ def _ids(campaign):
 @pytest.fixture
 def examined_by(monkeypatch):
     return lambda examine: monkeypatch.setattr(
-        batch, "run_stop", lambda stop, wish, run: StopRun(stop, examine(stop.case, wish, run))
+        train_blocks, "run_stop", lambda stop, wish, run: StopRun(stop, examine(stop.case, wish, run))
     )
 
 

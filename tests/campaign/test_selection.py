@@ -33,6 +33,31 @@ def test_a_word_is_sought_in_id_file_name_and_tags(cases, expression, ids):
 
 
 @pytest.mark.parametrize(
+    ("expression", "numbers"),
+    [
+        ("car=1", [0]),
+        ("CAR=10", [1]),
+        ("car=1]", [0]),
+        ("car=", [0, 1, 2]),
+        ("car", [0, 1, 2]),
+        ("train[speed=80", [0, 1]),
+        ("speed=8", []),
+        ("speed=80kmh,car=1", [0]),
+        ("leak=1", []),
+        ("leak=1e-8", [2]),
+        ("controller=slip", []),
+        ("slip", [2]),
+    ],
+)
+def test_a_value_at_the_end_of_a_word_is_whole_but_for_its_unit(make_case, expression, numbers):
+    trains = ["train[speed=80kmh,car=1]", "train[speed=80kmh,car=10]"]
+    cases = [
+        make_case(name, file="t.yaml") for name in (*trains, "x[leak=1e-8m3sPa,controller=slip-band,car=2]")
+    ]
+    assert by_expression(cases, expression) == [cases[number] for number in numbers]
+
+
+@pytest.mark.parametrize(
     ("tag", "ids"),
     [
         ("slip", ["slip-120[friction=0.10]", "slide-80"]),

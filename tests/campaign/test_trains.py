@@ -1,6 +1,7 @@
 """Trains in batches: run once, whatever is asked of them, and a car alone where there is one."""
 
 from dataclasses import replace
+from itertools import chain
 
 import pytest
 
@@ -77,6 +78,72 @@ def test_a_train_is_simulated_once_for_all_of_its_cars(cases, monkeypatch):
     assert simulated == [[case.id for case in loaded]] * 2
     list(campaign.replay([case.with_values(repeat=1) for case in loaded], every=0.01, jobs=1))
     assert simulated[2:] == [[case.id for case in loaded]]
+
+
+def in_lanes(monkeypatch, *, compiled):
+    """Let trains run in lanes, or one by one, and return the trains of each queue."""
+    queues, queued = [], rig.simulate_trains
+
+    def noted(trains):
+        queues.append(len(trains))
+        return queued(trains)
+
+    monkeypatch.setattr(rig, "train_lanes_are_compiled", lambda: compiled)
+    monkeypatch.setattr(rig, "simulate_trains", noted)
+    return queues
+
+
+REPEATED = f"{TRAIN}\nrepeat: 6\nbrake: {{transmission: {{pipe: 250 m/s}}}}"
+
+
+@pytest.mark.parametrize(
+    ("cases_to_record", "jobs", "expected"), [("none", 1, [13]), ("none", 2, [6, 7]), ("failed", 1, [5, 6])]
+)
+def test_trains_in_lanes_give_the_results_of_trains_one_by_one(
+    cases, monkeypatch, cases_to_record, jobs, expected
+):
+    loaded = [*cases(REPEATED), *cases("train: [{count: 2}]", "pair"), *cases(REPEATED, "again")]
+    recording = RecordingRequest(cases_to_record, every=0.01)
+    queues = in_lanes(monkeypatch, compiled=False)
+    alone = run(loaded, 1, recording)
+    assert not queues
+    monkeypatch.setattr(rig, "train_lanes_are_compiled", lambda: True)
+    assert run(loaded, jobs, recording) == alone
+    assert sorted(queues) == expected
+
+
+def test_lanes_are_compiled_where_enough_cars_run(cases, monkeypatch):
+    loaded = cases("train: [{count: 2}]\nrepeat: 300")
+    in_lanes(monkeypatch, compiled=False)
+    compiled = []
+    monkeypatch.setattr(rig, "load_train_lanes", lambda: compiled.append(True))
+    request = RecordingRequest("none")
+    campaign.compile_for([case.with_values(repeat=255) for case in loaded], request)
+    assert not compiled
+    campaign.compile_for(loaded, request)
+    assert compiled
+    compiled.clear()
+    campaign.compile_for(loaded, RecordingRequest("all", band_stops=300))
+    assert not compiled
+
+
+def test_a_train_that_fails_leaves_those_beside_it(cases, monkeypatch):
+    loaded = cases("train: [{count: 2}]\nrepeat: 3")
+    queued, coupled = rig.simulate_trains, rig.simulate_cars
+
+    def refusing(simulate, of_cases):
+        def simulated(given, *arguments):
+            if any(case.scenario.seed == 1 for case in of_cases(given)):
+                raise ValueError("no such seed")
+            return simulate(given, *arguments)
+
+        return simulated
+
+    in_lanes(monkeypatch, compiled=True)
+    monkeypatch.setattr(rig, "simulate_trains", refusing(queued, chain.from_iterable))
+    monkeypatch.setattr(rig, "simulate_cars", refusing(coupled, iter))
+    for result in run_cases(loaded, RunSettings(recording=RecordingRequest("none"))).whole():
+        assert [stop.outcome for stop in result.repeats.stops] == ["pass", "error", "pass"]
 
 
 def test_a_result_says_where_its_car_runs_and_what_pulled(cases):

@@ -19,11 +19,14 @@ def judged(monkeypatch):
 
 def ran(met, maxfail=None, interrupted=None):
     """Run series that are met or not, of which one is interrupted; return the batch and what was shown."""
-    planned = [SimpleNamespace(met=each, cases=[number], stops=()) for number, each in enumerate(met)]
+    planned = [
+        SimpleNamespace(met=each, cases=[SimpleNamespace(id=number, train=None)])
+        for number, each in enumerate(met)
+    ]
     shown = []
 
     def run(cases):
-        return campaign.BatchResult(interrupted=cases == [interrupted])
+        return campaign.BatchResult(cases, interrupted=cases[0].id == interrupted)
 
     return run_series(planned, run, maxfail=maxfail, show=shown.append), shown
 

@@ -2,10 +2,13 @@
 
 import pytest
 
+from uictest import rig
 from uictest.judging import series as judging
+from uictest.judging.evaluation import result_document, to_json
 from uictest.plans import series
 from uictest.plans.scenario import ScenarioErrors
 from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
+from uictest.runs.batch import run_series
 
 PAIR = "dry: dry.yaml\nwet: wet.yaml\n"
 SCENARIO = """
@@ -51,6 +54,12 @@ def judged(planned):
     return judging.judge_results(planned, run_cases(planned.cases, settings).whole())
 
 
+def written(result):
+    """Return what is written of the cases of a series, and its figures; NaN is text here."""
+    cases = to_json(result_document([each.case for each in result.cases]))
+    return cases, repr((result.measures, result.criteria, result.outcome))
+
+
 def refusal(read, *arguments):
     with pytest.raises(ScenarioErrors) as caught:
         read(*arguments)
@@ -85,8 +94,38 @@ def test_the_wsp_of_every_car_is_bypassed_in_the_stop_that_k_wet_is_compared_wit
 
 def test_stops_run_at_once_only_with_cars_of_their_own_train(of_trains):
     planned = of_trains(TRAIN, "cars: all\nmatrix: {controller: [threshold, slip-band]}\n")
-    trains = [stop.case.train.train for each in planned for stop in each.stops]
-    assert len(set(trains)) == len(trains) == 4 * 3
+    trains = [[stop.case.train.train for stop in each.stops] for each in planned]
+    threshold, slip_band = trains[0], trains[2]
+    assert trains == [threshold, threshold, slip_band, slip_band]
+    assert len({*threshold, *slip_band}) == 2 * 3
+
+
+def test_every_stop_says_once_which_car_is_judged(of_trains):
+    _, second = of_trains(TRAIN, "cars: all\n")
+    names = ("dry", "wet", "bypassed.wet")
+    assert [case.id for case in second.cases] == [f"campaign[car=2].{name}" for name in names]
+
+
+def test_every_train_is_simulated_once_for_the_series_of_all_cars(of_trains, monkeypatch):
+    simulated, whole = [], rig.simulate_cars
+
+    def noted(cars, every=None):
+        simulated.append([case.id for case in cars])
+        return whole(cars, every)
+
+    def run(cases):
+        return run_cases(cases, RunSettings(recording=RecordingRequest("none")))
+
+    planned = of_trains(TRAIN, "cars: all\n")
+    alone = [judged(each) for each in planned]
+    monkeypatch.setattr(rig, "train_lanes_are_compiled", lambda: False)
+    monkeypatch.setattr(rig, "simulate_cars", noted)
+    shown = []
+    results = run_series(planned, run, maxfail=None, show=shown.append).whole()
+    names = ("dry", "wet", "bypassed.wet")
+    assert simulated == [[f"campaign[car={car}].{name}" for car in (1, 2)] for name in names]
+    assert shown == results
+    assert [written(each) for each in results] == [written(each) for each in alone]
 
 
 def test_a_series_of_a_train_of_one_car_is_the_series_of_the_car(of_trains):
@@ -116,7 +155,7 @@ def test_a_bad_car_fails_where_all_are_judged(of_trains):
 
 
 def test_every_car_of_the_reference_is_that_of_the_wet_stop(of_trains):
-    shown = "'campaign[car=1].wet[car=1]' and the dry stop from 40 km/h differ in {}".format
+    shown = "'campaign[car=1].wet' and the dry stop from 40 km/h differ in {}".format
     other = "train: [{vehicle: intercity-180}, {}]"
     assert refusal(of_trains, TRAIN, "", other) == [("wet", shown("'vehicle' of car 2"))]
     coupled = f"{TRAIN}\ncoupler: {{stiffness: 2 MN/m}}"

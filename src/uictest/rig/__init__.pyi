@@ -24,7 +24,12 @@ from .backends.stepped import (
     SteppedStop as SteppedStop,
     stepping_code as stepping_code,
 )
-from .backends.train_lanes import TrainMeasures as TrainMeasures, run_trains_in_lanes as run_trains_in_lanes
+from .backends.train_lanes import (
+    TrainMeasures as TrainMeasures,
+    load_train_lanes as load_train_lanes,
+    run_trains_in_lanes as run_trains_in_lanes,
+    train_lanes_are_compiled as train_lanes_are_compiled,
+)
 from .backends.trains import compiled_train as compiled_train
 from .coupled_cars import (
     CouplerPeaks as CouplerPeaks,
@@ -61,6 +66,7 @@ from .simulation import (
     recording_of_stop as recording_of_stop,
     simulate as simulate,
     simulate_cars as simulate_cars,
+    simulate_trains as simulate_trains,
 )
 from .single_stop import StopInputs as StopInputs, noise_key_text as noise_key_text, noise_keys as noise_keys
 from .train_inputs import (

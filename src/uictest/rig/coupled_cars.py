@@ -24,6 +24,11 @@ class CouplerPeaks(NamedTuple):
     push: float
 
 
+def coupler_peaks(coupler: np.void) -> CouplerPeaks:
+    """Return those of a record of :data:`~uictest.rig.model.couplers.COUPLER`."""
+    return CouplerPeaks(float(coupler["largest_pull"]), float(coupler["largest_push"]))
+
+
 class TrainStop(NamedTuple):
     """A finished stop of a train.
 
@@ -36,13 +41,6 @@ class TrainStop(NamedTuple):
     cars: tuple[FinishedStop, ...]
     couplers: NDArray[Any]
     parameters: NDArray[Any]
-
-    @property
-    def peaks(self) -> list[CouplerPeaks]:
-        """The largest forces in every coupler, from the leading one on."""
-        return [
-            CouplerPeaks(float(each["largest_pull"]), float(each["largest_push"])) for each in self.couplers
-        ]
 
 
 def run_coupled(

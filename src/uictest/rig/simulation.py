@@ -1,9 +1,12 @@
 """A case in, a stop out."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from uictest.controllers import ResponseTimes
 from uictest.core.recording import BRAKE_COMMAND_TIME, ORIGIN, Recording
@@ -11,7 +14,7 @@ from uictest.plans.scenario import Case
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.backends.trains import compiled_train
-from uictest.rig.coupled_cars import CouplerPeaks, run_coupled
+from uictest.rig.coupled_cars import CouplerPeaks, coupler_peaks, run_coupled
 from uictest.rig.external.workers import RunInputs, Workers
 from uictest.rig.model.trace import (
     CAR_CHANNELS,
@@ -25,7 +28,7 @@ from uictest.rig.model.trace import (
     WHEELSET_CHANNELS,
 )
 from uictest.rig.single_stop import FinishedStop, noise_key_text
-from uictest.rig.train_inputs import coupling_of
+from uictest.rig.train_inputs import assemble_train, coupling_of
 
 
 @dataclass(frozen=True)
@@ -102,23 +105,68 @@ def simulate_cars(cases: Sequence[Case], record_every: float | None = None) -> l
         cases: cars of one train.
         record_every: as for :func:`simulate`.
     """
-    cars = list(cases[0].cars)
-    places = [case.train.number - 1 for case in cases if case.train is not None]
-    for place, case in zip(places, cases, strict=True):
-        cars[place] = replace(case, train=None)
+    cars = _train_of(cases)
     coupling, step = coupling_of(cars[0].scenario), float(cars[0].scenario.simulation.time_step)
     steps_per_sample = 0 if record_every is None else max(round(record_every / step), 1)
     stop = run_coupled(cars, coupling, steps_per_sample)
-    peaks = [None, *stop.peaks, None]
+
+    def recording(case: Case, place: int) -> Recording | None:
+        return recording_of_stop(case, stop.cars[place], from_outside=False) if steps_per_sample else None
+
+    measures = [(car.measures, car.wheelset_measures) for car in stop.cars]
+    return _stops_of_train(cases, measures, stop.couplers, stop.parameters, recording)
+
+
+def simulate_trains(trains: Sequence[Sequence[Case]]) -> list[list[SimulatedStop]]:
+    """Simulate trains side by side in lanes, each as :func:`simulate_cars` does without a recording.
+
+    Args:
+        trains: cars of each train.
+    """
+    from uictest.rig.backends.train_lanes import run_trains_in_lanes  # single stops do without them
+
+    inputs = [assemble_train(cars := _train_of(cases), coupling_of(cars[0].scenario)) for cases in trains]
+    return [
+        _stops_of_train(
+            cases,
+            list(zip(stop.measures, stop.wheelset_measures.view(np.recarray), strict=True)),
+            *(stop.couplers, own.parameters),
+        )
+        for cases, own, stop in zip(trains, inputs, run_trains_in_lanes(inputs), strict=True)
+    ]
+
+
+def _train_of(cases: Sequence[Case]) -> list[Case]:
+    """Return all cars of a train, some of which are given, each as if it ran alone."""
+    cars = list(cases[0].cars)
+    for case in cases:
+        cars[_place(case)] = replace(case, train=None)
+    return cars
+
+
+def _place(case: Case) -> int:
+    assert case.train is not None
+    return case.train.number - 1
+
+
+def _stops_of_train(
+    cases: Sequence[Case],
+    measures: Sequence[tuple[Any, Any]],
+    couplers: NDArray[Any],
+    parameters: NDArray[Any],
+    recording: Callable[[Case, int], Recording | None] = lambda case, place: None,
+) -> list[SimulatedStop]:
+    """Return the stops of some cars: of all there are measures, of couplers and cars the records."""
+    peaks = [None, *map(coupler_peaks, couplers), None]
     return [
         SimulatedStop(
-            *(stop.cars[place].measures, stop.cars[place].wheelset_measures),
-            recording_of_stop(case, stop.cars[place], from_outside=False) if steps_per_sample else None,
-            noise_key=noise_key_text(stop.parameters[place]),
+            *measures[place],
+            recording(case, place),
+            noise_key=noise_key_text(parameters[place]),
             coupler_ahead=peaks[place],
             coupler_behind=peaks[place + 1],
         )
-        for place, case in zip(places, cases, strict=True)
+        for case, place in ((case, _place(case)) for case in cases)
     ]
 
 

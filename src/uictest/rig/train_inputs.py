@@ -79,7 +79,9 @@ def assemble_train(cases: Sequence[Case], coupling: Coupling) -> TrainInputs:
     Raises:
         ValueError: where cars differ in what a train has only once, or a controller comes from outside.
     """
-    inputs = [assemble(case) for case in cases]
+    distinct = {id(case.scenario): case for case in cases}
+    of_scenario = {scenario: assemble(case) for scenario, case in distinct.items()}
+    inputs = [of_scenario[id(case.scenario)] for case in cases]
     _check(cases, inputs)
     parameters = np.array([each.parameters for each in inputs])
     distances = _distances(parameters, coupling)

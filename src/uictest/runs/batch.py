@@ -223,7 +223,7 @@ def simulate_cases(
 
         varied = sum(stops_of_case(case, settings) for case in asked.values())
     with observer.compiling():
-        rig.compile_for(cases)
+        campaign.compile_for(cases, settings.recording)
         if asked:
             varied_cases = (*asked.values(), *settings.calibration)
             rig.load_block([case.scenario.controller.program for case in varied_cases])
@@ -267,20 +267,23 @@ def run_series(
     maxfail: int | None,
     show: Callable[[judging_series.SeriesResult], None],
 ) -> campaign.BatchResult[judging_series.SeriesResult]:
-    """Run and judge series; after `maxfail` that are not as expected no further one is run.
+    """Run and judge series; after `maxfail` that are not as expected no further one is judged.
 
-    `complete` adds to a result what it takes further stops to say. A series whose stops an interrupt
-    cut short is not judged.
+    Series of several cars of the same trains are run together, each train once. `complete` adds to a result
+    what it takes further stops to say. A series whose stops an interrupt cut short is not judged.
     """
     batch: campaign.BatchResult[judging_series.SeriesResult] = campaign.BatchResult()
-    for each in planned:
+    finished: dict[str, evaluation.CaseResult] = {}
+    for place, each in enumerate(planned):
         if maxfail is not None and sum(not result.met for result in batch.results) >= maxfail:
             break
-        done = run(each.cases)
-        if done.interrupted:
-            batch.interrupted = True
-            break
-        result = judging_series.judge_results(each, done.results)
+        if any(case.id not in finished for case in each.cases):
+            done = run(series_plans.cases_run_together(planned[place:]))
+            if done.interrupted:
+                batch.interrupted = True
+                break
+            finished = {result.id: result for result in done.results}
+        result = judging_series.judge_results(each, [finished[case.id] for case in each.cases])
         try:
             result = complete(each, result)
         except KeyboardInterrupt:

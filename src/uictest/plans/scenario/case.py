@@ -46,7 +46,9 @@ class Case:
         scenario = self.scenario.model_copy(update=changes)
         if self.train is None:
             return replace(self, scenario=scenario)
-        scenarios = tuple(each.model_copy(update=changes) for each in self.train.scenarios)
+        # Equal cars share their scenario, so that the rig is assembled for them once.
+        changed = {id(each): each.model_copy(update=changes) for each in self.train.scenarios}
+        scenarios = tuple(changed[id(each)] for each in self.train.scenarios)
         return replace(self, scenario=scenario, train=replace(self.train, scenarios=scenarios))
 
     @property

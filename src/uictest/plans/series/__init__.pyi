@@ -10,6 +10,7 @@ from .model import (
     PlannedStop as PlannedStop,
     Role as Role,
     Series as Series,
+    cases_run_together as cases_run_together,
     series_of as series_of,
     series_schema as series_schema,
 )

@@ -106,7 +106,8 @@ def load_series(
         parameters = {each.key: as_written(each.value.node) for each in variant}
         for car in _judged_cars(file, cars_of(listed)):
             name = case_id(file.name, variant, short, labels, car)
-            stops = StopReader(name, file.criteria, car).stops(listed)
+            of_all_cars = case_id(file.name, variant, short, labels)
+            stops = StopReader(name, of_all_cars, file.criteria, car).stops(listed)
             of_car = {**parameters, CAR: str(car)} if car else parameters
             every.append(Series(name, Path(display_name(path)), file, of_car, stops, {**inputs, **read}))
     return every

@@ -224,6 +224,17 @@ class Series:
         ]
 
 
+def cases_run_together(planned: Sequence[Series]) -> list[Case]:
+    """Return the cases of the first of some series, and beside each those of other cars of its train."""
+    of_trains: dict[str, list[Case]] = {}
+    for case in planned[0].cases:
+        of_trains[case.id if case.train is None else case.train.train] = [case]
+    for case in (case for each in planned[1:] for case in each.cases):
+        if case.train is not None and case.train.train in of_trains:
+            of_trains[case.train.train].append(case)
+    return [case for cases in of_trains.values() for case in cases]
+
+
 def series_of(name: str, stops: Sequence[PlannedStop]) -> Series:
     """Return a series of stops that no file lists, dry ones first; defaults as in a file, no criteria."""
     head = {"schema": "uictest/series/1", "name": name, "dry": [name], "wet": [name], "criteria": []}

@@ -61,12 +61,14 @@ class StopReader(NamedTuple):
 
     Args:
         series: the id of the series, which the ids of its cases begin with.
+        of_all_cars: the same without the number of the car, which the ids of its trains begin with.
         criteria: of the series; those that judge single stops are added to the scenarios.
         car: that is judged where the stops are of trains, from 1.
 
     """
 
     series: str
+    of_all_cars: str
     criteria: tuple[Criteria, ...]
     car: int
 
@@ -107,7 +109,7 @@ class StopReader(NamedTuple):
                 name = f"{self.series}.bypassed.{stop.case.id.removeprefix(f'{self.series}.')}"
                 case = replace(stop.case, id=name[:LONGEST], scenario=changed)
                 if (place := stop.case.train) is not None:
-                    train = f"{self.series}.bypassed.{place.train.removeprefix(f'{self.series}.')}"
+                    train = f"{self.of_all_cars}.bypassed.{place.train.removeprefix(f'{self.of_all_cars}.')}"
                     cars = tuple(map(_bypassed, place.scenarios))
                     case = replace(case, train=replace(place, train=train, scenarios=cars))
                 yield PlannedStop("bypassed", case, rail=stop.rail)
@@ -132,18 +134,19 @@ class StopReader(NamedTuple):
             if twice := next((each.id for each in profile.criteria if each.id in judged), ""):
                 message = f"criterion {quoted(twice)} is in the profiles of the series and of the scenario"
                 raise single_error(reference.place, message, "criteria", "give one of them another id")
-        name = f"{self.series}.{case.id}"
+        # The id of the series says which car is judged.
+        name = f"{self.series}.{case.id if case.train is None else case.train.train}"
         if len(name) > LONGEST:
             message = f"the id {quoted(name)} is longer than {LONGEST} characters"
             raise single_error(reference.place, message, "name")
         # What is expected of the scenario alone, by its own criteria, says nothing about a stop of a series.
         judged_by = {"criteria": (*case.scenario.criteria, *further), "expect": "pass"}
-        own_train = f"{self.series}.{case.train.train}" if case.train is not None else ""
+        own_train = f"{self.of_all_cars}.{case.train.train}" if case.train is not None else ""
         return replace(
             case,
             id=name,
             scenario=case.scenario.model_copy(update=judged_by),
-            # Neighbours with the same train run at once: those of other series are none of it.
+            # Neighbours with the same train run at once: those of the series of other cars, too.
             train=None if case.train is None else replace(case.train, train=own_train),
         )
 

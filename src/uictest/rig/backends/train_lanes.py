@@ -11,7 +11,7 @@ from uictest.core.lanes import block, register_width, translate
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.compiled import compile_inner, compiler
 from uictest.rig.backends.lanes import BLOCKS, RIG, lane_model, longest_first
-from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
+from uictest.rig.backends.machine_code import Entries, Unit, address, is_kept, native_function
 from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import RAIL_MEMORY, ROWS
@@ -104,6 +104,11 @@ def _run_queue(batch: _Batch, width: int) -> None:
     )
     arguments = [address(array, array.dtype, array.shape) for array in allocated]
     load_train_lanes(width)(*arguments, n, trains, batch.rail.shape[-1], queue.size)
+
+
+def train_lanes_are_compiled() -> bool:
+    """Return whether the cache holds the loop over a queue of trains."""
+    return is_kept(_name(register_width()))
 
 
 def load_train_lanes(width: int | None = None) -> Callable[..., int]:

@@ -34,6 +34,8 @@ from .stop import (
     StopRun as StopRun,
     run_stop as run_stop,
     run_train as run_train,
+    run_trains as run_trains,
     stops_of as stops_of,
     stops_together as stops_together,
 )
+from .train_blocks import compile_for as compile_for

@@ -20,13 +20,10 @@ from uictest.running.campaign.stop import (
     CaseAssembly,
     CaseRun,
     RecordingRequest,
-    Stop,
     StopRun,
-    run_stop,
-    run_train,
-    stops_together,
     trains_in,
 )
+from uictest.running.campaign.train_blocks import Block, blocks_of, run_block
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
@@ -249,12 +246,11 @@ def run_cases(
         run: rig.RunInputs = rig.run_in_process if settings.in_process else workers.run
         run = rig.in_real_time(run) if settings.real_time else run
 
-        def run_together(stops: Sequence[Stop]) -> Sequence[StopRun]:
-            if stops[0].case.train is not None:
-                return run_train(stops, settings.recording)
-            return [run_stop(stop, settings.recording, run) for stop in stops]
+        def run_together(block: Block) -> Sequence[StopRun]:
+            return run_block(block, settings.recording, run)
 
-        stop_runs = ThreadedMap(run_together, stops_together(cases), jobs=settings.jobs)
+        blocks = blocks_of(cases, settings.recording, settings.jobs)
+        stop_runs = ThreadedMap(run_together, blocks, jobs=settings.jobs)
         assembly = CaseAssembly(settings.recording)
         try:
             with stop_runs:

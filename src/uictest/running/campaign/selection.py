@@ -16,6 +16,10 @@ Matches = Callable[[str], bool]
 Expression = Callable[[Matches], bool]
 
 _TOKEN = re.compile(r"\s*([()]|[^\s()]+)")
+_VALUE = re.compile(r"=[^][,=]+$")
+"""A value at the end of a word, as ids have them."""
+_END_OF_VALUE = r"(?:(?<=\d)(?!e[+-]?\d)[^\W\d_]\w*)?(?=[],]|$)"
+"""What follows a whole value: its unit, if it is a number, and the end."""
 _DEEPEST = 50
 """Parentheses inside each other that are read; chosen, far within what the interpreter can nest."""
 
@@ -138,9 +142,21 @@ def selected(
 
 
 def mentioned_in(names: Iterable[str]) -> Matches:
-    """Return whether a word is in any of some names; case is ignored."""
+    """Return whether a word is in any of some names; case is ignored.
+
+    Where a word ends in a value, as `car=1` does, that is the whole value: `car=10` is another one. Its unit
+    may be left out.
+    """
     folded = [name.casefold() for name in names]
-    return lambda word: any(word.casefold() in name for name in folded)
+
+    def matches(word: str) -> bool:
+        folded_word = word.casefold()
+        if not _VALUE.search(folded_word):
+            return any(folded_word in name for name in folded)
+        whole = re.compile(re.escape(folded_word) + _END_OF_VALUE)
+        return any(whole.search(name) for name in folded)
+
+    return matches
 
 
 def _tags_of(each: Case | Series) -> Sequence[str]:

@@ -122,16 +122,37 @@ def run_train(stops: Sequence[Stop], request: RecordingRequest) -> list[StopRun]
     return _run(stops, request, rig.simulate_cars)
 
 
+def run_trains(trains: Sequence[Sequence[Stop]], request: RecordingRequest) -> list[StopRun]:
+    """Simulate trains side by side, none of them recorded at once, and judge as :func:`run_train` does."""
+    started = perf_counter()
+    try:
+        cases = [[bench.identified(stop.alone) for stop in stops] for stops in trains]
+        simulated = rig.simulate_trains(cases)
+    except Exception:  # which train it is shows when they run one by one
+        return [run for stops in trains for run in run_train(stops, request)]
+    seconds = (perf_counter() - started) / len(trains)
+
+    def judged(stops: Sequence[Stop], of_train: list[rig.SimulatedStop]) -> list[StopRun]:
+        def simulate(cases: Sequence[scenario.Case], every: float | None) -> list[rig.SimulatedStop]:
+            return of_train if every is None else rig.simulate_cars(cases, every)
+
+        return _run(stops, request, simulate, seconds)
+
+    return [run for each in zip(trains, simulated, strict=True) for run in judged(*each)]
+
+
 def _run(
     stops: Sequence[Stop],
     request: RecordingRequest,
     simulate: Callable[[Sequence[scenario.Case], float | None], list[rig.SimulatedStop]],
+    spent: float = 0.0,
 ) -> list[StopRun]:
-    started = perf_counter()
+    """Return what stops that run at once come to; `spent` are seconds that they took before."""
+    started = perf_counter() - spent
     cases = [stop.alone for stop in stops]
     try:
         cases = [bench.identified(case) for case in cases]
-        simulated = simulate(cases, _interval(stops[0], request))
+        simulated = simulate(cases, interval_at_once(stops[0], request))
         seconds = (perf_counter() - started) / len(stops)
         results = [_judged(*each, seconds) for each in zip(stops, cases, simulated, strict=True)]
         # A stop is reproducible to the bit, so it can be recorded once the case is known to have missed.
@@ -173,7 +194,7 @@ def _finished(
     return StopRun(stop, _of_repeated(stop, request, result, simulated.recording), records)
 
 
-def _interval(stop: Stop, request: RecordingRequest) -> float | None:
+def interval_at_once(stop: Stop, request: RecordingRequest) -> float | None:
     """Return the interval of samples of a stop that is recorded at once, s; None if it is not.
 
     A controller from outside may answer differently when its stop is repeated; and whether a repeated case

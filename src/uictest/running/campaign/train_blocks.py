@@ -1,0 +1,77 @@
+"""What a thread runs in one go: a stop, the cars of a train, or many trains in lanes, with the same bits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Final
+
+from uictest import rig
+from uictest.plans import scenario
+from uictest.running.campaign.stop import (
+    RecordingRequest,
+    Stop,
+    StopRun,
+    interval_at_once,
+    run_stop,
+    run_train,
+    run_trains,
+    stops_together,
+)
+
+_WORTH_COMPILING: Final = 512
+"""Stops of cars for which the lanes are compiled; chosen: one by one they take about as long as that."""
+_MOST_TOGETHER: Final = 32
+"""Trains that a thread simulates in one queue; chosen: four times what the widest registers hold."""
+
+Block = Sequence[Sequence[Stop]]
+"""Stops that run at once, one alone or those of the cars of a train; or several trains."""
+
+
+def blocks_of(cases: Sequence[scenario.Case], request: RecordingRequest, jobs: int) -> Iterator[Block]:
+    """Yield what each of so many threads runs in one go, in order of cases and seeds."""
+    trains = _in_lanes(cases, request)
+    # As many for each thread: at the end of the longest all others wait.
+    rounds = -(-trains // (_MOST_TOGETHER * jobs))
+    size = -(-trains // (rounds * jobs)) if trains else 1
+    block: list[Sequence[Stop]] = []
+    for stops in stops_together(cases):
+        fits = _fits(stops, request)
+        if block and (len(block) == size or not fits):
+            yield tuple(block)
+            block = []
+        block.append(stops)
+        if not fits:
+            yield tuple(block)
+            block = []
+    if block:
+        yield tuple(block)
+
+
+def compile_for(cases: Sequence[scenario.Case], request: RecordingRequest) -> None:
+    """Compile the rig as some cases need it before threads do."""
+    rig.compile_for(cases)
+    if _in_lanes(cases, request):
+        rig.load_train_lanes()
+
+
+def run_block(block: Block, request: RecordingRequest, run: rig.RunInputs | None = None) -> list[StopRun]:
+    """Simulate and judge what runs in one go; `run` runs stops of cars alone, see :func:`.run_stop`."""
+    if len(block) > 1:
+        return run_trains(block, request)
+    (stops,) = block
+    if stops[0].case.train is not None:
+        return run_train(stops, request)
+    return [run_stop(stop, request, run) for stop in stops]
+
+
+def _in_lanes(cases: Iterable[scenario.Case], request: RecordingRequest) -> int:
+    """Return how many trains run in lanes: none unless they are many, or the lanes are compiled already."""
+    places = (stops[0].case.train for stops in stops_together(cases) if _fits(stops, request))
+    cars = [len(place.scenarios) for place in places if place is not None]
+    worth = sum(cars) >= _WORTH_COMPILING or (len(cars) > 1 and rig.train_lanes_are_compiled())
+    return len(cars) if worth else 0
+
+
+def _fits(stops: Sequence[Stop], request: RecordingRequest) -> bool:
+    """Return whether stops can run in a lane: those of a train of which no samples are kept."""
+    return stops[0].case.train is not None and interval_at_once(stops[0], request) is None
