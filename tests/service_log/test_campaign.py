@@ -229,6 +229,14 @@ def test_whatever_a_record_lacks_the_rest_is_said(recorded, lacking):
     assert {"findings", "friction", "wet_stops"} <= names
 
 
+def test_the_friction_of_a_stop_stands_beside_its_place_on_the_line(recorded):
+    stop, case = recorded
+    (table,) = [
+        each for each in surveyed(replace(stop, place=12_345.0), case).tables if each.name == "friction"
+    ]
+    assert [row["place_m"] for row in table.data.rows] == [12_345.0]
+
+
 @pytest.mark.parametrize("samples", [1, 2, 15, 40])
 def test_a_stop_of_a_few_samples_has_no_friction(recorded, samples):
     stop, case = recorded

@@ -60,7 +60,13 @@ def table(kinds, seed=0):
     return columns | {f"wheel_speed_{n}": speed + noise for n in (1, 2, 3, 4)}
 
 
-UNITS = {"time": "s", "brake_command": "1", "brake_line_pressure": "Pa", "reservoir_pressure": "Pa"}
+UNITS = {
+    "time": "s",
+    "distance": "m",
+    "brake_command": "1",
+    "brake_line_pressure": "Pa",
+    "reservoir_pressure": "Pa",
+}
 STATED = [
     word
     for condition in ("rail.condition=dry", "brake.position=R", "rig.wsp=active", "criteria=uictest-stop")
@@ -465,3 +471,16 @@ def test_a_log_that_cannot_be_read_to_its_end_leaves_the_stops_as_they_were(tmp_
     with pytest.raises(OSError, match=r"log\.parquet"):
         write_stops(log, MAP, tmp_path / "stops")
     assert {path.name: path.read_bytes() for path in (tmp_path / "stops").iterdir()} == before
+
+
+def test_a_recorded_distance_gives_the_place_on_the_line(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    columns = table(["stop"])
+    columns["distance"] = 12_000.0 + np.cumsum(STEP * columns["speed"])
+    written(columns, tmp_path / "day.parquet")
+    execute(["log", "day.parquet", "-q", *STATED])
+    heading, row = (
+        line.split(",") for line in Path("reports/latest/stops.csv").read_text("utf-8").splitlines()
+    )
+    place, sample = (row[heading.index(name)] for name in ("place_m", "sample"))
+    assert float(place) == pytest.approx(columns["distance"][int(sample) - 1], abs=0.1)

@@ -89,6 +89,23 @@ def test_a_scenario_says_where_it_is_from_and_what_is_assumed(made):
     assert "controller: a record does not hold it; threshold" in text
 
 
+def test_a_speed_that_is_kept_and_a_slippery_stretch_are_found(tmp_path):
+    drag = {"speed": "60 km/h", "duration": "12 s"}
+    points = [{"position": f"{at} m", "friction": mu} for at, mu in ((0, 0.3), (90, 0.07), (170, 0.3))]
+    stretch = {"condition": "wet", "friction": {"interpolation": "steps", "points": points}}
+    stops = [
+        logs.simulated(logs.wet(0.3), 80.0, 1, {"brake.command": "40 %", "drag": drag}),
+        logs.simulated(stretch, 80.0, 2),
+    ]
+    made = suite(tmp_path, stops)
+    assert all(abs(each) <= 1.0 for pair in compared(made).values() for each in pair)
+    held = yaml.safe_load((made / "stop-0001.yaml").read_text("utf-8"))["drag"]
+    assert float(held["duration"].split()[0]) == pytest.approx(12.0, abs=1.0)
+    rail = yaml.safe_load((made / "stop-0002.yaml").read_text("utf-8"))["rail"]["friction"]["points"]
+    (_, begin, end) = [float(point["position"].split()[0]) for point in rail]
+    assert (begin, end) == (pytest.approx(90.0, abs=4.0), pytest.approx(170.0, abs=4.0))
+
+
 @pytest.mark.parametrize(
     ("without", "told"),
     [

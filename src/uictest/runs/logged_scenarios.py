@@ -29,6 +29,8 @@ _ROUNDS, _LARGEST_SCALING = 2, 0.05
 """Simulations on a rail, the second with its friction scaled by the difference of the distances if that is no
 larger; chosen: a fit misses friction by up to half a per cent; for that, a WSP may vent once more at the end.
 """
+_CELL, _APART = 2.0, 20.0
+"""m: precision of the edges of a stretch on which something slid, and what lies between two; chosen."""
 _MOST_STRETCHES: Final = 12
 _LENGTHS: Final = (20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 """Of stretches with a friction of their own, m: the shortest of which no more are needed; chosen."""
@@ -105,7 +107,7 @@ class _Maker(NamedTuple):
         """Return the first simulation that is close enough, else the closest, and its fit."""
         tried: list[tuple[MadeScenario, fitting.Fit]] = []
         time, distance = stop.standstill or (math.nan, math.nan)
-        for breaks in ((), _breaks(distance)):
+        for breaks in dict.fromkeys(((), _edges_of_sliding(balances), _breaks(distance))):
             fit, scale = fitting.fit_balances(balances, breaks, with_pads=False), 1.0
             for _ in range(_ROUNDS):
                 fit = _scaled(fit, scale)
@@ -168,9 +170,15 @@ class _Maker(NamedTuple):
         }
         if course.known_by:
             changes["brake.command"] = course.as_written()
+        held = service_log.held_speed(stop.recording)
+        if held is not None:
+            kept, duration = held[0] / KILOMETRE_PER_HOUR, held[1]
+            changes["drag"] = {"speed": f"{kept:.1f} km/h", "duration": f"{duration:.1f} s"}
         if final:
-            with_bounds = made.off <= AGREES and all(
-                each.name in library.names("criteria") for each in own.criteria
+            with_bounds = (
+                made.off <= AGREES
+                and held is None
+                and all(each.name in library.names("criteria") for each in own.criteria)
             )
             if with_bounds:
                 changes["criteria"] = [*(each.name for each in own.criteria), _bounds(made)]
@@ -198,6 +206,18 @@ def _slug(name: str) -> str:
 def _breaks(distance: float) -> tuple[float, ...]:
     length = next((each for each in _LENGTHS if distance <= each * _MOST_STRETCHES), _LENGTHS[-1])
     return tuple(length * k for k in range(1, int(distance / length) + 1))
+
+
+def _edges_of_sliding(balances: fitting.Balances) -> tuple[float, ...]:
+    """Return the places at which stretches of the track begin and end on which some wheelset slid, m."""
+    samples = balances.samples
+    places = np.unique((samples.place[samples.sliding] / _CELL).round())
+    if not len(places):
+        return ()
+    gaps = np.flatnonzero(np.diff(places) > _APART / _CELL)
+    firsts, lasts = places[np.concatenate(([0], gaps + 1))], places[np.concatenate((gaps, [len(places) - 1]))]
+    edges = [_CELL * edge for pair in zip(firsts - 0.5, lasts + 0.5, strict=True) for edge in pair]
+    return tuple(float(edge) for edge in edges if edge > 0.0) if len(edges) <= _MOST_STRETCHES else ()
 
 
 def _scaled(fit: fitting.Fit, scale: float) -> fitting.Fit:

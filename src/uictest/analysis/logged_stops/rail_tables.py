@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Final
 
@@ -180,9 +181,11 @@ def _outcomes_text(outcomes: Sequence[str]) -> str:
 
 
 def _friction_table(uses: Uses, speeds: dict[str, float]) -> report.CampaignTable:
+    on_line = any(math.isfinite(use.place) for use in uses)
     columns = (
         report.CampaignColumn(report.STOPS, "stop"),
         report.CampaignColumn("speed_kmh", "from, km/h", 1),
+        *((report.CampaignColumn("place_m", "at, m", 0),) if on_line else ()),
         report.CampaignColumn("standing", "friction"),
         report.CampaignColumn("friction", "coefficient", 4),
         report.CampaignColumn("half_width", "+-", 4),
@@ -190,7 +193,10 @@ def _friction_table(uses: Uses, speeds: dict[str, float]) -> report.CampaignTabl
     )
     number = report.number_cell
     rows = (
-        (use.stop, speeds[use.stop], use.standing, number(use.friction), number(use.half_width), use.remark)
+        (
+            *(use.stop, speeds[use.stop], *((number(use.place),) if on_line else ()), use.standing),
+            *(number(use.friction), number(use.half_width), use.remark),
+        )
         for use in uses
     )
     return report.CampaignTable(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import functools
 import io
+import math
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -107,7 +108,8 @@ def log(
     published = run_display.publish_and_show(batch, output, ("html",), junit, display)
     if published is None:
         return ExitCode.INTERRUPTED
-    table = _table(named, found.passed_over, published.content.ranked)
+    places = {file.name: math.nan if file.stop is None else file.stop.place for file in stops.files}
+    table = _table(named, found.passed_over, published.content.ranked, places)
     file_system.write(published.place, runs.STOPS_OF_LOG, table)
     if shown is options.Format.TEXT and not quiet:
         _show_together(published.content.campaign)
@@ -275,22 +277,24 @@ def _table(
     stops: Mapping[str, service_log.LoggedEvent],
     passed_over: Sequence[service_log.LoggedEvent],
     ranked: Sequence[evaluation.CaseResult],
+    places: Mapping[str, float],
 ) -> str:
     """Return stops.csv: the stops, the worst first, and then every other application of the brake."""
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")
     heading = ["stop", "outcome", "narrowest_margin_percent", "criterion", "file", "sample", "time_s"]
-    writer.writerow([*heading, "distance_m", "speed_kmh", "end_speed_kmh", "reason", "remarks"])
+    writer.writerow([*heading, "distance_m", "place_m", "speed_kmh", "end_speed_kmh", "reason", "remarks"])
     for result in ranked:
         margin, criterion = evaluation.narrowest_margin(result)
         verdict = [result.outcome, "" if margin is None else f"{100.0 * margin:.1f}", criterion]
-        writer.writerow([result.id, *verdict, *_row(stops[result.id])])
+        writer.writerow([result.id, *verdict, *_row(stops[result.id], places[result.id])])
     for event in passed_over:
-        writer.writerow(["", "", "", "", *_row(event)])
+        writer.writerow(["", "", "", "", *_row(event, math.nan)])
     return text.getvalue()
 
 
-def _row(event: service_log.LoggedEvent) -> list[str]:
+def _row(event: service_log.LoggedEvent, recorded: float) -> list[str]:
+    on_line = f"{recorded:.1f}" if math.isfinite(recorded) else ""
     speeds = [f"{speed / KILOMETRE_PER_HOUR:.2f}" for speed in (event.speed, event.end_speed)]
     place = [report.printable(str(event.file)), str(event.row + 1), f"{event.time:.12g}"]
-    return [*place, f"{event.distance:.1f}", *speeds, event.reason, "; ".join(event.remarks)]
+    return [*place, f"{event.distance:.1f}", on_line, *speeds, event.reason, "; ".join(event.remarks)]

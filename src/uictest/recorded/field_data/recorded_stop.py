@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -67,6 +68,7 @@ class RecordedStop:
         defects: everything found wrong.
         choices: how the record was prepared, name -> text: part of the definition of every measure.
         intervals: channel -> usual time between its samples in the file, s.
+        place: recorded distance at the brake command, m; NaN where none is recorded.
 
     """
 
@@ -76,6 +78,7 @@ class RecordedStop:
     defects: tuple[Defect, ...]
     choices: dict[str, str] = field(default_factory=dict)
     intervals: dict[str, float] = field(default_factory=dict)
+    place: float = math.nan
 
 
 def stop_in(path: Path, channel_map: ChannelMap) -> RecordedStop:
@@ -128,14 +131,14 @@ def prepare(
     defects += _sensor_defects(filtered, trigger, end)
     defects += distance_defects(filtered, trigger.time, min(end, rest.last) if rest else end, raster)
     defects += _cut_off(speed, trigger, rest)
-    recording, standstill = _on_raster(filtered, trigger, rest, raster, tuple(defects))
+    recording, standstill, place = _on_raster(filtered, trigger, rest, raster, tuple(defects))
     choices = {
         **_choices(preparation, trigger, rest, raster, filtered),
         "filter": _filter_text(preparation, plausible, filtered),
         "sampling": f"speed every {1e3 * usual_interval(speed.time):.6g} ms",
     }
     intervals = {name: stated.get(name, usual_interval(channel.time)) for name, channel in filtered.items()}
-    return RecordedStop(recording, trigger, standstill, tuple(defects), choices, intervals)
+    return RecordedStop(recording, trigger, standstill, tuple(defects), choices, intervals, place)
 
 
 def _choices(
@@ -236,9 +239,9 @@ def _on_raster(
     rest: Standstill | None,
     raster: float,
     defects: tuple[Defect, ...],
-) -> tuple[Recording, tuple[float, float] | None]:
-    """Return the recording over the time since the brake command, and time and distance of standstill."""
-    if "distance" not in channels:
+) -> tuple[Recording, tuple[float, float] | None, float]:
+    """Return the recording over the time since the brake command, its standstill, and the place there."""
+    if not (recorded := "distance" in channels):
         channels = {**channels, "distance": integrated(channels["speed"], raster)}
     last = min(rest.last, rest.time) if rest else float(channels["speed"].time[-1])
     count = int((last - trigger.time) / raster + _SLACK)
@@ -253,7 +256,8 @@ def _on_raster(
         {TIME: since, **{name: samples[name] for name in CHANNEL_UNITS if name in samples}},
         {TIME: "s", **{name: unit for name, unit in CHANNEL_UNITS.items() if name in samples}},
     )
-    return recording, _standstill(channels["distance"], trigger, rest, origin, raster)
+    place = float(origin) if recorded else math.nan
+    return recording, _standstill(channels["distance"], trigger, rest, origin, raster), place
 
 
 def _standstill(

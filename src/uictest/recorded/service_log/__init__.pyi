@@ -1,6 +1,7 @@
 from .command_course import (
     CommandCourse as CommandCourse,
     command_course as command_course,
+    held_speed as held_speed,
     read_like as read_like,
 )
 from .finder import (

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.core.recording import BRAKE_COMMAND_TIME, TIME, Recording
+from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.plans.scenario import Scenario, load_share
 from uictest.recorded.field_data import MapError, Preparation, RawChannel, UnusableError, prepare
 from uictest.recorded.service_log.signals import SHOWN_BY
@@ -20,6 +21,8 @@ _PRESSURES: Final = ("demanded_pressure", "brake_line_pressure")
 _STEADY, _SHORTEST = 0.02, 0.6
 """Share of the full pressure within which it counts as kept, and s for which: less than position G fills in
 that time; chosen."""
+_HELD, _LEAST_HELD = 0.5 * KILOMETRE_PER_HOUR, 5.0
+"""m/s within which a speed counts as kept by traction, and s for which; chosen."""
 _LEAST_CHANGE: Final = 0.04
 """Share of the full pressure by which two commands differ: less is the reservoir's or noise; chosen."""
 _RELEASED: Final = 0.04
@@ -119,16 +122,27 @@ def _with_turns(levels: Array, kept: Sequence[Kept]) -> Iterator[Kept]:
         yield stretch
 
 
-def _kept(levels: Array, width: int) -> Iterator[Kept]:
+def held_speed(recording: Recording) -> tuple[float, float] | None:
+    """Return speed, m/s, and duration, s, of the longest time in which the braked train keeps its speed."""
+    width = max(round(_LEAST_HELD / _raster(recording)), 2)
+    kept = list(_kept(recording["speed"], width, _HELD))
+    if not kept:
+        return None
+    begin, end, speed = max(kept, key=lambda each: each[1] - each[0])
+    duration = float(recording[TIME][end - 1] - recording[TIME][begin])
+    return (speed, duration) if speed > _HELD else None
+
+
+def _kept(levels: Array, width: int, steady: float = _STEADY) -> Iterator[Kept]:
     """Yield first sample, the one after the last, and median of every stretch in which a level is kept."""
     begin, count = 0, len(levels)
     while begin + width <= count:
         low, high = levels[begin : begin + width].min(), levels[begin : begin + width].max()
         end = begin + width
-        if high - low > _STEADY:
+        if high - low > steady:
             begin += 1
             continue
-        while end < count and max(high, levels[end]) - min(low, levels[end]) <= _STEADY:
+        while end < count and max(high, levels[end]) - min(low, levels[end]) <= steady:
             low, high = min(low, levels[end]), max(high, levels[end])
             end += 1
         yield begin, end, float(np.median(levels[begin:end]))

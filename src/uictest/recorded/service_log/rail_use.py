@@ -42,6 +42,7 @@ class RailUse(NamedTuple):
         friction: initial friction coefficient of a rail that is the same everywhere, or its lower bound.
         half_width: of its 95 % confidence interval.
         remark: why there is no fit.
+        place: of the brake command on the line, m; NaN where no distance is recorded.
     """
 
     stop: str
@@ -51,6 +52,7 @@ class RailUse(NamedTuple):
     friction: float
     half_width: float
     remark: str = ""
+    place: float = np.nan
 
 
 def rail_use(name: str, stop: RecordedStop, judged_under: Scenario) -> RailUse:
@@ -58,14 +60,14 @@ def rail_use(name: str, stop: RecordedStop, judged_under: Scenario) -> RailUse:
     try:
         balances = fitting.balances_of(stop, judged_under)
     except fitting.FitError as error:
-        return RailUse(name, _no_windows(), "", "not seen", np.nan, np.nan, str(error))
+        return RailUse(name, _no_windows(), "", "not seen", np.nan, np.nan, str(error), stop.place)
     if not len(balances.windows.first):
         return RailUse(name, _no_windows(), "", "not seen", np.nan, np.nan, "the stop is too short for a fit")
     windows, known_by = _windows(balances)
     (estimate,) = fitting.fit_balances(balances, (), with_pads=False).friction
     standing: Standing = "not seen" if estimate.standing == "not reached" else estimate.standing
     remark = "" if standing == "found" else "no wheelset slid long enough"
-    return RailUse(name, windows, known_by, standing, estimate.value, estimate.half_width, remark)
+    return RailUse(name, windows, known_by, standing, estimate.value, estimate.half_width, remark, stop.place)
 
 
 def _windows(balances: fitting.Balances) -> tuple[RailWindows, str]:
