@@ -19,8 +19,8 @@ from uictest.recorded.service_log.signals import (
     steps_of_clock,
 )
 
-SHORTEST_RELEASE = 1.0
-"""s: a shorter release belongs to the application: pressures fall where the WSP vents; chosen."""
+SHORTEST_RELEASE = 3.0
+"""s: a shorter release belongs to the application: pressures fall where the WSP vents all; chosen."""
 _SHORTEST_APPLICATION = 0.1
 """s: no brake acts so briefly, what is shorter is noise; chosen."""
 _RUN_OUT = 3.0

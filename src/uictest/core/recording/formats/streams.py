@@ -80,12 +80,13 @@ def tdms_pieces(
     """Yield a TDMS file as :func:`in_step`; see `read_pieces`."""
     nptdms = required_module("nptdms", tdms.EXTRA)
     with files.temporary_folder() as folder, nptdms.TdmsFile.open(path) as opened:
+        is_cut = opened.file_status.incomplete_final_segment
         streams = [
             _tdms_blocks(
                 group.name, raster, [_short_chunks(each, folder, at_once) for each in chosen], at_once
             )
             for group in opened.groups()
-            for raster, channels in tdms.rasters_of(group).items()
+            for raster, channels in tdms.rasters_of(group, is_cut=is_cut).items()
             if (chosen := [each for each in channels if _is_wanted(each.name, group.name, wanted)])
         ]
         yield from in_step(streams, leading)
@@ -97,11 +98,9 @@ def _tdms_blocks(
     length, interval, start = raster
     units = {each.name: str(unit) for each in channels if (unit := each.properties.get("unit_string"))}
     for first in range(0, length, at_once):
-        rows = np.arange(first, min(first + at_once, length))
-        read = {
-            each.name: tdms.numbers(each[first : first + at_once], np.datetime64(0, "us"))
-            for each in channels
-        }
+        last = min(first + at_once, length)
+        rows = np.arange(first, last)
+        read = {each.name: tdms.numbers(each[first:last], np.datetime64(0, "us")) for each in channels}
         kept = {each: samples for each, samples in read.items() if samples is not None}
         if kept:
             time = start + interval * rows if interval > 0.0 else None

@@ -80,13 +80,18 @@ def _groups(group: Any, skipped: dict[str, str]) -> Iterator[Group]:
             yield Group(group.name, kept, {n: u for n, u in units.items() if n in kept}, time)
 
 
-def rasters_of(group: Any) -> dict[tuple[int, float, float], list[Any]]:
-    """Return the channels of a group by length, interval and start, s; interval zero: not stated."""
+def rasters_of(group: Any, *, is_cut: bool = False) -> dict[tuple[int, float, float], list[Any]]:
+    """Return the channels of a group by length, interval and start, s; interval zero: not stated.
+
+    Of a file that `is_cut` off, channels of one raster count as long as the shortest.
+    """
     rasters: dict[tuple[int, float, float], list[Any]] = {}
     for channel in group.channels():
         interval = float(channel.properties.get("wf_increment", 0.0))
         start = float(channel.properties.get("wf_start_offset", 0.0))
-        rasters.setdefault((len(channel), interval, start), []).append(channel)
+        rasters.setdefault((0 if is_cut else len(channel), interval, start), []).append(channel)
+    if is_cut:
+        return {(min(map(len, each)), *key[1:]): each for key, each in rasters.items()}
     return rasters
 
 
