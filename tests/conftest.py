@@ -59,6 +59,15 @@ _LONGEST = (
     "templates/test_controller.py",
     "ci/test_jobs.py",
     "cli/test_entry.py",
+    "service_log/test_unpaired.py",
+    "service_log/test_campaign.py",
+    "docs/test_pictures.py",
+    "studies/field/test_search.py",
+    "pytest_plugin/test_cases.py",
+    "sweeps/summaries/test_tails.py",
+    "cli/commands/test_validate.py",
+    "cli/commands/test_identify.py",
+    "rig/backends/test_stepped.py",
 )
 """Files that take longest. They begin first, lest one process works on them while the others are done.
 
