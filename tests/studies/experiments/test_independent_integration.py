@@ -8,7 +8,7 @@ from studies.experiments.independent_integration import BYPASSED, compared, draw
 from studies.independent.integration import integrated
 from studies.stop_runner import measured
 
-SLOW = {"initial_speed": "12 km/h"}
+SLOW = {"initial_speed": "8 km/h"}
 EXACT = {"rig.wsp": "bypassed"}
 
 
@@ -53,7 +53,7 @@ def test_both_rigs_stop_alike(found, name):
         ("brake.dynamic", "{force: 100 kN, power: 2 MW}", "brake.dynamic"),
         ("brake.track", "{attraction: 100 kN}", "brake.track"),
         ("until", "5 km/h", "until"),
-        ("drag", "{speed: 10 km/h, duration: 5 s}", "drag"),
+        ("drag", "{speed: 5 km/h, duration: 5 s}", "drag"),
         (
             "rail.variation",
             "{spread: 10 %, correlation_length: 50 m, left_right_correlation: 1}",
