@@ -96,3 +96,11 @@ def test_every_measure_of_a_series_is_described():
 def test_the_first_screen_shows_the_two_commands():
     first = (REPOSITORY / "README.md").read_text("utf-8").splitlines()[:20]
     assert [line.strip() for line in first if line.startswith("    ")] == ["./demo", "./test"]
+
+
+def test_how_firm_its_verdicts_are_is_said_of_every_shipped_scenario():
+    section = (REPOSITORY / "docs/trust.md").read_text("utf-8").partition("\nShipped verdicts")[2]
+    names = {path.name.split(".")[0] for path in REPOSITORY.glob("scenarios/*.yaml")}
+    sweeps = {path.name.split(".")[0] for path in REPOSITORY.glob("scenarios/*.sweep.yaml")}
+    said = set(re.findall(r"`([\w-]+)`", section.partition("\n## ")[0]))
+    assert names - sweeps - said == set()

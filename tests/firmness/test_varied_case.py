@@ -1,6 +1,7 @@
 """A case with other values of its numbers: the bits of a scenario that states them, the noise of the case."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,7 +9,8 @@ import pytest
 from uictest.analysis.firmness import Effort
 from uictest.plans.scenario import load
 from uictest.plans.scenario.yaml import parse_quantity
-from uictest.plans.sweeps import ParameterValue, listed_column, ranged_numbers
+from uictest.plans.sweeps import ParameterValue, listed_column, numbers_without_range, ranged_numbers
+from uictest.report.firmness_sentences import firmness_sentences
 from uictest.running.campaign import run_cases
 from uictest.running.chunked import VariedCase
 from uictest.runs import firmness
@@ -127,6 +129,31 @@ def test_numbers_of_a_part_that_the_scenario_replaces_are_not_varied(numbers):
     assert "brake.system.positions.R.maximum_pressure" in numbers
     assert "brake.system.positions.G.maximum_pressure" not in numbers
     assert not any(key.startswith("controller") for key in numbers)
+
+
+def test_a_number_of_a_sander_is_varied_and_less_sand_is_laid():
+    case = short_stop("sanders=[{wheelset: 1, rate: {value: 6 kg/min, range: [1 kg/min, 6 kg/min]}}]")
+    known = {each.key: each for each in ranged_numbers(case.scenario)}
+    assert {"sanders.0.rate", "rail.sand.kept"} <= set(known)
+    rate = known["sanders.0.rate"].at(np.array([1.0, 0.0]))
+    seeds = listed_column([ParameterValue("1", 1)] * 2)
+    most, least = VariedCase(case, ["sanders.0.rate"]).results({"sanders.0.rate": rate, "seed": seeds})
+    assert most.measures["braking_distance_m"] < least.measures["braking_distance_m"]
+
+
+def test_numbers_of_further_brakes_and_sanders_without_a_range_are_named():
+    case = short_stop(
+        "brake.track={attraction: {value: 100 kN, range: [80 kN, 120 kN]}, off_below: 5 km/h}",
+        "sanders=[{wheelset: 1, rate: 6 kg/min}]",
+    )
+    assert numbers_without_range(short_stop().scenario) == []
+    named = numbers_without_range(case.scenario)
+    assert {"brake.track.off_below", "sanders.0.rate", "sanders.0.delay"} <= set(named)
+    assert "brake.track.attraction" not in named
+    firm = FirmnessRun(1, effort=SMALL).of_case(case)
+    assert firm.without_range == tuple(named)
+    told = list(firmness_sentences(SimpleNamespace(firmness=firm, outcome=firm.nominal)))
+    assert f"not varied, as no range is stated: {', '.join(named)}" in told
 
 
 def test_a_number_of_the_scenario_may_state_a_range_of_its_own():

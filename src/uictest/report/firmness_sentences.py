@@ -165,6 +165,8 @@ def _remarks(firmness: Firmness) -> Iterator[str]:
         yield f"of {firmness.draws} draws {', '.join(left_out)}: they do not count"
     if firmness.not_run:
         yield f"no stop could be run at an end of the range of {', '.join(firmness.not_run)}"
+    if firmness.without_range:
+        yield f"not varied, as no range is stated: {', '.join(firmness.without_range)}"
     if firmness.on_four_calipers:
         yield (
             "run with a caliper in every module: a compensation stands in only for the rig that it was"

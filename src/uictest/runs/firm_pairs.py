@@ -19,7 +19,10 @@ from uictest.runs.errors import InvalidInputError
 from uictest.runs.firmness import firmness_run, stops_of_pair
 from uictest.runs.observer import Observer
 
-_WRITTEN: Final = ("numbers", "draws", "infeasible", "not_run", "seeds", "on_four_calipers", "calibrated_by")
+_WRITTEN: Final = (
+    *("numbers", "draws", "infeasible", "not_run", "seeds", "on_four_calipers"),
+    *("calibrated_by", "without_range"),
+)
 """What is written of a study besides the quantities: pairs have no outcome."""
 
 

@@ -112,6 +112,9 @@ class FirmnessRun:
         return study.run(
             on_four_calipers=any(each.on_four_calipers for each in cases),
             calibrated_by=[each.id for each in self.calibration],
+            without_range=[
+                key for each in cases for key in sweeps.numbers_without_range(each.varied.case.scenario)
+            ],
         )
 
     def _hold(self, numbers: Mapping[_Identity, RangedNumber]) -> HoldDraws:

@@ -88,7 +88,13 @@ class FirmnessStudy:
     random_rail: bool = False
     expect: Callable[[int], None] = lambda count: None
 
-    def run(self, *, on_four_calipers: bool = False, calibrated_by: Sequence[str] = ()) -> Firmness:
+    def run(
+        self,
+        *,
+        on_four_calipers: bool = False,
+        calibrated_by: Sequence[str] = (),
+        without_range: Iterable[str] = (),
+    ) -> Firmness:
         """Run all stops and return what they show. Arguments as for :class:`Firmness`."""
         count, effort = len(self.numbers), self.effort
         places = [(number, end) for number in range(count) for end in (0, 1)]
@@ -127,6 +133,7 @@ class FirmnessStudy:
             seeds=effort.seeds,
             on_four_calipers=on_four_calipers,
             calibrated_by=tuple(calibrated_by),
+            without_range=tuple(dict.fromkeys(without_range)),
         )
 
     def _drawn(self, places: NDArray[np.float64], seeds: Iterable[int]) -> Sequence[Drawn]:

@@ -141,6 +141,7 @@ class Firmness(VerdictFirmness):
         on_four_calipers: whether all of these stops were run on the rig with four calipers: numbers of the
             caliper, its tank or the valves vary, for which the compensation was not identified.
         calibrated_by: ids of the stops by which the numbers are known.
+        without_range: keys of numbers of further brakes and sanders that were not varied: they state none.
 
     """
 
@@ -153,7 +154,10 @@ class Firmness(VerdictFirmness):
     seeds: int
     on_four_calipers: bool
     calibrated_by: tuple[str, ...] = ()
+    without_range: tuple[str, ...] = ()
 
 
-WrittenFirmness = Annotated[Firmness, absent_if_empty("criterion", "calibrated", "calibrated_by")]
+WrittenFirmness = Annotated[
+    Firmness, absent_if_empty("criterion", "calibrated", "calibrated_by", "without_range")
+]
 """In JSON the outcome has no criterion, and what no stop calibrates no calibrated draws."""

@@ -33,5 +33,9 @@ from .plan import (
     saltelli_sample as saltelli_sample,
     scenarios_with_each as scenarios_with_each,
 )
-from .ranges import RangedNumber as RangedNumber, ranged_numbers as ranged_numbers
+from .ranges import (
+    RangedNumber as RangedNumber,
+    numbers_without_range as numbers_without_range,
+    ranged_numbers as ranged_numbers,
+)
 from .sampling import sobol_blocks as sobol_blocks

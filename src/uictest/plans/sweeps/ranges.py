@@ -137,13 +137,27 @@ def ranged_numbers(scenario: Scenario) -> list[RangedNumber]:
     own, and the definitions of measures.
     """
     numbers = []
-    for section in ("vehicle", "initial_speed", "brake", "until", "drag", "rail", "rig"):
+    for section in ("vehicle", "initial_speed", "brake", "until", "drag", "rail", "sanders", "rig"):
         for key, quantity in quantities_in(getattr(scenario, section), (section,)):
             if quantity.range is not None and _is_used(scenario, key):
                 sources = _sources_at(scenario, key)
                 reason = sources[of_range].text if (of_range := quantity.range[0].source) in sources else ""
                 numbers.append(RangedNumber(dotted(key), quantity, mark_of(quantity, sources), reason))
     return numbers
+
+
+def numbers_without_range(scenario: Scenario) -> list[str]:
+    """Return the keys of those numbers of further brakes and of sanders that state no range.
+
+    A scenario writes them itself, and no part of the library with a reason why a number has none.
+    """
+    equipment = (("brake", "dynamic"), scenario.brake.dynamic), (("brake", "track"), scenario.brake.track)
+    return [
+        dotted(key)
+        for place, value in (*equipment, (("sanders",), scenario.sanders))
+        for key, quantity in quantities_in(value, place)
+        if quantity.range is None
+    ]
 
 
 def _sources_at(scenario: Scenario, key: Key) -> Mapping[str, Source]:
