@@ -46,9 +46,10 @@ def _summary(validation: Validation) -> str:
 
 
 def _rows(comparisons: Sequence[Comparison]) -> Iterator[str]:
+    """Yield the lines of the table, predicted numbers that miss first."""
     yield "| quantity | source | here | difference | status | result |"
     yield "|---|---|---|---|---|---|"
-    for each in comparisons:
+    for each in sorted(comparisons, key=lambda each: each.fitted or each.result != "misses"):
         status = "fitted" if each.fitted else "predicted"
         cells = (each.quantity, _of_source(each), _ours(each), _percent(each.difference), status, each.result)
         yield f"| {' | '.join(cells)} |"

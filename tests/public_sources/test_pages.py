@@ -35,6 +35,13 @@ def test_sources_that_miss_come_first(validations):
     assert shares[0] > 0.0
 
 
+def test_what_misses_stands_first_on_a_page(validations):
+    for path, text in files(validations).items():
+        rows = [line.rsplit(" | ", 2)[1:] for line in text.splitlines() if line.startswith("| ")][1:]
+        missed = [status == "predicted" and result == "misses |" for status, result in rows]
+        assert path.suffix != ".md" or path.stem == "README" or missed == sorted(missed, reverse=True)
+
+
 @pytest.mark.parametrize(
     ("source", "here", "difference", "result"),
     [
