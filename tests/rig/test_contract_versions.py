@@ -64,9 +64,9 @@ def stop_of(tmp_path, monkeypatch):
     """What the rig is given for a stop with a controller; more lines of YAML say how it differs."""
     monkeypatch.chdir(tmp_path)
 
-    def case(controller, extra=""):
+    def case(controller, extra="", scenario=SCENARIO):
         path = tmp_path / "stop.yaml"
-        path.write_text(f"{SCENARIO}{extra}controller: {controller}\n")
+        path.write_text(f"{scenario}{extra}controller: {controller}\n")
         return load([path])[0]
 
     return case
@@ -87,11 +87,11 @@ def python(tmp_path):
 def library(tmp_path):
     """Compile the same in C."""
 
-    def built(change="", name="libwsp.so"):
+    def built(change="", name="libwsp.so", text=C):
         compiler = shutil.which("gcc")
         if compiler is None:
             pytest.skip("no C compiler")
-        (tmp_path / "wsp.c").write_text(C.replace("CHANGE", change))
+        (tmp_path / "wsp.c").write_text(text.replace("CHANGE", change))
         options = ["-O1", "-fPIC", "-shared", f"-I{HEADER.parent}", "-o", name, "wsp.c"]
         subprocess.run([compiler, *options], cwd=tmp_path, check=True)
         return f"{{library: {name}}}"
@@ -202,7 +202,11 @@ IN_PYTHON = {
     f"{AT}answer.dynamic_reduction = [0.0]": r"dynamic_reduction has 1 values, expected 4 \(cycle 650\)$",
     f"{AT}answer.dynamic_reduction[2] = 'all'": r"dynamic_reduction\[2\] is 'all', expected a number",
     f"{AT}answer.sand_request = [0, 2, 0, 0]": r"sand_request\[1\] is 2, expected 0 or 1 \(cycle 650\)$",
+    f"{AT}answer.dynamic_reduction[2] = 10**400": r"dynamic_reduction\[2\] is 1000+, expected a number",
+    f"{AT}answer.sand_request = [[0, 1]] * 4": r"sand_request\[0\] is \[0, 1\], expected 0 or 1",
     f"{AT}answer.track_brake_request = 7": r"track_brake_request is 7, expected 0 or 1 \(cycle 650\)$",
+    f"{AT}import numpy; answer.track_brake_request = numpy.ones(2)": r"track_brake_request is array\(",
+    f"{AT}answer.diagnosis = '7'": r"diagnosis is '7', expected a whole number of 32 bits",
 }
 IN_C = {
     "outputs->dynamic_reduction[2] = 0.0 / 0.0;": NO_SHARE.replace("650", "0") % "-?nan",
@@ -236,6 +240,51 @@ def test_a_version_that_is_not_stated_or_unknown_is_said(stop_of, python, before
     controller = python(text=PYTHON.replace(before, after).replace("{change}", "pass"))
     with pytest.raises(ControllerError, match=message):
         run_in_process(assemble(stop_of(controller)))
+
+
+C_1 = C.replace("return UICTEST_ABI_VERSION;", "return 1;").replace("outputs->dynamic_reduction", "0;//")
+"""A library that says that it is of version 1, though its outputs are those of version 2."""
+REQUESTS = ("outputs->sand_request[1] = 1;", "outputs->track_brake_request = 1;")
+
+
+@pytest.mark.parametrize("request_of_version_2", REQUESTS)
+def test_a_request_of_a_library_of_version_1_ends_the_stop(stop_of, library, request_of_version_2):
+    controller = library(request_of_version_2, text=C_1)
+    with pytest.raises(ControllerError, match=r"wrote beyond its outputs \(cycle 0\)$"):
+        run_in_process(assemble(stop_of(controller)))
+    run_in_process(assemble(stop_of(library(name="libquiet.so", text=C_1))))
+
+
+@pytest.mark.parametrize("versions", ["1, 2", "2, 77"])
+def test_a_library_is_of_the_version_that_it_has_stated_first(stop_of, library, versions):
+    body = f"static int call; static const uint32_t versions[] = {{{versions}}}; return versions[call++ > 0];"
+    controller = library(name=f"libasked{versions[0]}.so", text=C_1.replace("return 1;", body))
+    stop = run_in_process(assemble(stop_of(controller)))
+    assert stop.contract == int(versions[0])
+
+
+PARTS = {
+    "sander": (SCENARIO, "sanders: [{wheelset: 3, rate: 2 kg/min, when: requested}]\n"),
+    "track brake": (
+        SCENARIO.replace("1.6 MW}", "1.6 MW}, track: {attraction: 50 kN, when: requested}"),
+        "",
+    ),
+}
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_no_part_waits_for_a_request_that_a_controller_cannot_make(stop_of, python, part):
+    """Neither in a stop alone nor in a block; a controller of version 2 need not ask."""
+    scenario, further = PARTS[part]
+    text = PYTHON.replace("    contract = 2\n", "").replace("{change}", "answer.dynamic_reduction = None")
+    old = assemble(stop_of(python(text=text), further, scenario))
+    message = f"keeps contract version 1 and can ask for no {part}, which the scenario has"
+    with pytest.raises(ControllerError, match=message):
+        run_in_process(old)
+    records = ("parameters", "wheelset_parameters", "rail")
+    block = BlockInputs([old.program], [old.config], *(np.array([getattr(old, name)]) for name in records))
+    assert message in run_block(block).failures[0]
+    assert run_in_process(assemble(stop_of(python(), further, scenario))).contract == 2
 
 
 def test_with_the_wsp_bypassed_nothing_is_taken_off(stop_of, python):

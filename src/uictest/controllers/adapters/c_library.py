@@ -51,7 +51,7 @@ class LibraryInstance(ControllerInstance):
 
     def __init__(self, library: Any, config: Config, parameters: str) -> None:
         self._library = library
-        self.contract = library.uictest_abi_version()
+        self.contract = library.contract
         self.version, self.declares = (
             _stated_text(library, name) or "" for name in ("version", "parameters")
         )
@@ -94,7 +94,7 @@ def _loaded(location: str, sha256: str) -> Any:
         raise ControllerError(f"{path.name} was built anew: this process has loaded it before; start another")
     _require_unchanged(path, sha256)
     try:
-        library = ctypes.CDLL(location)
+        library: Any = ctypes.CDLL(location)
     except OSError as error:
         reason = str(error).replace(location, path.name)  # without the folders of this machine
         raise ControllerError(f"{path.name} cannot be loaded: {reason}") from error
@@ -106,7 +106,8 @@ def _loaded(location: str, sha256: str) -> Any:
     for name, (result, arguments) in _FUNCTIONS.items():
         function = getattr(library, f"uictest_{name}")
         function.restype, function.argtypes = result, arguments
-    checked_contract(library.uictest_abi_version(), f"{path.name} has ABI version")
+    # Asked once: what it is given, and what is recorded, is of the version that was checked.
+    library.contract = checked_contract(library.uictest_abi_version(), f"{path.name} has ABI version")
     return library
 
 

@@ -6,7 +6,9 @@ import math
 import traceback
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from operator import index
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
@@ -188,9 +190,7 @@ def write_outputs(record: Any, outputs: Outputs, contract: int) -> None:
         raise ControllerError(f"step returned {type(outputs).__name__}, expected Outputs") from None
     record["hold"], record["vent"] = _magnets("hold", hold), _magnets("vent", vent)
     record["reference_speed"] = _number("reference_speed", math.nan if reference is None else reference)
-    if isinstance(diagnosis, float) or not 0 <= int(diagnosis) <= _LARGEST_DIAGNOSIS:
-        raise ControllerError(f"diagnosis is {diagnosis!r}, expected a whole number of 32 bits")
-    record["diagnosis"] = int(diagnosis)
+    record["diagnosis"] = _bits(diagnosis)
     added = [getattr(outputs, name, None) for name in _ADDED]
     if contract > 1:
         _write_version_2(record, *added)
@@ -210,17 +210,25 @@ def _write_version_2(record: Any, reduction: Any, sand: Any, track_brake: Any) -
         _number(f"dynamic_reduction[{place}]", share) for place, share in enumerate(shares)
     ]
     record["sand_request"] = _magnets("sand_request", _NONE if sand is None else sand)
-    if track_brake not in (None, 0, 1):
-        raise ControllerError(f"track_brake_request is {track_brake!r}, expected 0 or 1")
-    record["track_brake_request"] = int(track_brake or 0)
+    record["track_brake_request"] = 0 if track_brake is None else _bit("track_brake_request", track_brake)
 
 
 def _magnets(name: str, values: Any) -> list[int]:
-    listed = _four(name, values)
-    for place, value in enumerate(listed):
-        if value not in (0, 1):
-            raise ControllerError(f"{name}[{place}] is {value!r}, expected 0 or 1")
-    return [int(value) for value in listed]
+    return [_bit(f"{name}[{place}]", value) for place, value in enumerate(_four(name, values))]
+
+
+def _bit(name: str, value: Any) -> int:
+    with suppress(TypeError, ValueError):  # an array is neither true nor false
+        if value in (0, 1):
+            return int(value)
+    raise ControllerError(f"{name} is {value!r}, expected 0 or 1")
+
+
+def _bits(diagnosis: Any) -> int:
+    with suppress(TypeError):
+        if 0 <= index(diagnosis) <= _LARGEST_DIAGNOSIS:
+            return index(diagnosis)
+    raise ControllerError(f"diagnosis is {diagnosis!r}, expected a whole number of 32 bits")
 
 
 def _four(name: str, values: Any) -> list[Any]:
@@ -236,7 +244,7 @@ def _four(name: str, values: Any) -> list[Any]:
 def _number(name: str, value: Any) -> float:
     try:
         return float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ControllerError(f"{name} is {value!r}, expected a number") from None
 
 

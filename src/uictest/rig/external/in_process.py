@@ -68,6 +68,7 @@ def opened(
         try:
             instance.reset()
             exchange["calling"] = NOT_CALLED
+            _check_requests(instance.contract, parameters)
             parameters["controller_step"] = instance.step_address
             parameters["controller_handle"] = instance.handle
             parameters["controller_contract"] = instance.contract
@@ -80,6 +81,17 @@ def opened(
     finally:
         # Also where it could not be opened: whoever watches a block asks which controller does not return.
         exchange["calling"] = NOT_CALLED
+
+
+def _check_requests(contract: int, parameters: Any) -> None:
+    """Raise ControllerError where a part waits for a request that a controller of version 1 cannot make."""
+    parts = {"track brake": parameters["track_brake_requested"], "sander": parameters["sanders_on_request"]}
+    waiting = [name for name, requested in parts.items() if np.any(requested)]
+    if contract == 1 and waiting:
+        raise ControllerError(
+            f"it keeps contract version 1 and can ask for no {' or '.join(waiting)}, which the scenario has"
+            " with `when: requested`: that needs version 2"
+        )
 
 
 def raise_failure(exchange: Any, instance: ControllerInstance) -> None:
@@ -230,7 +242,10 @@ def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float,
         status = call_step(instance.step_address, instance.handle, address)
         seconds[cycle] = perf_counter() - started
         exchange["calling"] = NOT_CALLED
-        if exchange["guard"] != GUARD or (untouched and any(reduction != untouched)):
+        beyond = exchange["guard"] != GUARD
+        if beyond or (
+            untouched and (any(reduction != untouched) or any(sand) or exchange["track_brake_request"])
+        ):
             exchange["failure"] = WROTE_BEYOND
         elif status != 0:
             exchange["failure"] = STEP_FAILED

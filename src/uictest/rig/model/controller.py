@@ -102,9 +102,9 @@ def read_outputs(exchange: Any, car: Car, wheelsets: Sequence[Wheelset], p: Para
 
 def _was_touched(exchange: Any) -> bool:
     """Whether a controller of version 1 has written where the outputs of version 2 go on."""
-    touched = False
+    touched = bool(exchange.track_brake_request != 0)
     for i in range(4):
-        touched = touched or exchange.dynamic_reduction[i] != UNTOUCHED
+        touched = touched or exchange.dynamic_reduction[i] != UNTOUCHED or exchange.sand_request[i] != 0
     return touched
 
 

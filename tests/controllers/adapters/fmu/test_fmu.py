@@ -123,6 +123,27 @@ def test_an_fmu_with_a_reduction_is_of_version_2_of_the_contract(make_fmu, start
     assert magnets(answer) == VENTS_TWO_AND_FOUR
 
 
+ASKING = {
+    "sand_request": ([f"sand_request_{n}" for n in (1, 2, 3, 4)], 21, [0, 1, 0, 1]),
+    "track_brake_request": (["track_brake_request"], 22, 1),
+}
+
+
+@pytest.mark.parametrize("request_of_it", ASKING)
+def test_an_fmu_that_asks_for_sand_or_track_brake_alone_is_of_version_2(
+    make_fmu, open_fmu, started, fmi, request_of_it
+):
+    """Outputs show the places of the vents."""
+    names, first, expected = ASKING[request_of_it]
+    whole = {2: "Boolean", 3: "Int8"}[fmi]
+    added = {name: (first + place, "output", whole) for place, name in enumerate(names)}
+    path = make_fmu(fmi, make_fmu.variables(fmi, **added))
+    answer = started(path, {"threshold": 10.0})(*SPEEDS)
+    assert answer[request_of_it].tolist() == expected
+    assert answer["dynamic_reduction"].tolist() == [0.0] * 4
+    assert open_fmu(path).contract == 2
+
+
 def test_what_only_version_2_has_is_not_set_in_an_fmu_of_version_1(make_fmu, open_fmu, ask, fmi):
     real = {2: "Real", 3: "Float64"}[fmi]
     listed = make_fmu.variables(fmi, axle_load=(43, "input", real), seen=(43, "output", real))
@@ -130,7 +151,8 @@ def test_what_only_version_2_has_is_not_set_in_an_fmu_of_version_1(make_fmu, ope
     instance = open_fmu(path, reference_speed="seen")
     instance.reset()
     assert (instance.contract, ask(instance, *SPEEDS, axle_load=9e4)["reference_speed"]) == (1, 0.0)
-    message = "has no output dynamic_reduction: without it variables.axle_load has no use"
+    added = "dynamic_reduction or sand_request or track_brake_request"
+    message = f"has no output {added}: without one variables.axle_load has no use"
     assert refused(open_fmu, path, axle_load="axle_load") == message
 
 

@@ -1,7 +1,7 @@
 """An FMU as a controller for one stop, by our names of variables or by those that the scenario gives.
 
-An FMU with the output ``dynamic_reduction`` is of version 2 of the contract; any other is of version 1, and
-what only version 2 has is then neither set nor read.
+An FMU with an output that version 2 of the contract adds is of that version; any other is of version 1, and
+what only version 2 has is then not set.
 
 An FMU is instantiated once per thread and reset between stops: some tools' FMUs fail after a thousand
 instances. Each thread unpacks a copy of its library, so that static variables are not shared.
@@ -50,8 +50,6 @@ OUTPUTS: Final = (
     Declared("diagnosis", "output", is_whole=True),
 )
 """Read in every cycle."""
-REDUCTION: Final = Declared("dynamic_reduction", "output", WHEELSETS)
-"""What makes an FMU one of version 2."""
 INPUTS_2: Final = (
     Declared("dynamic_brake", "input", WHEELSETS),
     Declared("axle_load", "input"),
@@ -59,11 +57,11 @@ INPUTS_2: Final = (
 )
 """Set in every cycle as well, in version 2."""
 OUTPUTS_2: Final = (
-    REDUCTION,
+    Declared("dynamic_reduction", "output", WHEELSETS),
     Declared("sand_request", "output", WHEELSETS, is_whole=True),
     Declared("track_brake_request", "output", is_whole=True),
 )
-"""Read in every cycle as well, in version 2."""
+"""Read in every cycle as well, in version 2: having one of them makes an FMU one of that version."""
 _BITS: Final = 0xFFFF_FFFF
 
 
@@ -102,13 +100,12 @@ class FmuInstance(CalledInstance):
         self._slave = slave
         self._idle = idle
         self._config = config
-        self.contract = 2 if bind(slave.description, (REDUCTION,), names) else 1
+        self.contract = 2 if bind(slave.description, OUTPUTS_2, names) else 1
         added = (INPUTS_2, OUTPUTS_2) if self.contract > 1 else ((), ())
-        for each in (*INPUTS_2, *OUTPUTS_2):
+        for each in INPUTS_2:
             if self.contract == 1 and each.name in names:
-                raise ControllerError(
-                    f"has no output {REDUCTION.name}: without it variables.{each.name} has no use"
-                )
+                needed = " or ".join(output.name for output in OUTPUTS_2)
+                raise ControllerError(f"has no output {needed}: without one variables.{each.name} has no use")
         inputs, constants, outputs = (
             bind(slave.description, declared, names)
             for declared in ((*INPUTS, *added[0]), CONSTANTS, (*OUTPUTS, *added[1]))
