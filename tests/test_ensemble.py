@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from uictest.core.ensemble import alike, by_way, ensemble
+from uictest.core.ensemble import alike, by_way, case_by_case, ensemble
 
 finite = st.floats(-1e9, 1e9)
 
@@ -105,3 +105,16 @@ def test_cases_are_alike_where_all_their_numbers_are(rows):
     assert all(
         group == [k for k, row in enumerate(rows) if row == rows[group[0]]] for group in groups if group
     )
+
+
+@given(st.lists(st.tuples(finite, finite), min_size=1, max_size=20))
+def test_a_function_that_looks_at_one_case_is_called_for_each(pairs):
+    def looked_at(a, b):
+        return float(f"{a:.5g}"), a + b
+
+    a, b = (list(column) for column in zip(*pairs, strict=True))
+    of_all = case_by_case(looked_at, ensemble(np.array(a)), ensemble(np.array(b)))
+    assert [column.tolist() for column in of_all] == [*map(list, zip(*map(looked_at, a, b), strict=True))]
+    assert case_by_case(looked_at, a[0], b[0]) == looked_at(a[0], b[0])
+    one_for_all = case_by_case(looked_at, ensemble(np.array(a)), b[0])
+    assert one_for_all[1].tolist() == [each + b[0] for each in a]

@@ -2,7 +2,8 @@
 
 Arithmetic on an :class:`Ensemble` is that of Python's floats, element by element, with the same bits. Where a
 condition holds in some of the cases only, the cases part: :func:`by_way` runs the code again for each part.
-Code that asks for the number of one case, to print it or to round it, is run case by case.
+Code that asks for the number of one case, to print it or to round it, is run case by case: all of it, or
+only the function that does so (:func:`case_by_case`).
 """
 
 from __future__ import annotations
@@ -74,6 +75,15 @@ class Ensemble(np.ndarray[Any, Any]):
 def ensemble(numbers: NDArray[Any]) -> Ensemble:
     """Return numbers of cases as an ensemble, without a copy."""
     return numbers.view(Ensemble)
+
+
+def case_by_case(function: Callable[..., tuple[float, ...]], *numbers: Any) -> tuple[Any, ...]:
+    """Return what a function gives for the plain numbers of one case; of several, for each of them alone."""
+    if not any(isinstance(number, Ensemble) for number in numbers):
+        return function(*map(float, numbers))
+    columns = np.broadcast_arrays(*(np.asarray(number, float) for number in numbers))
+    results = [function(*of_case) for of_case in zip(*(column.tolist() for column in columns), strict=True)]
+    return tuple(ensemble(np.array(column)) for column in zip(*results, strict=True))
 
 
 def by_way(

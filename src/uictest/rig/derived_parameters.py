@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from uictest.core.ensemble import case_by_case
 from uictest.core.physics import MOST_COMMANDS, REFERENCE_DENSITY, coldness, orifice_law, stiffnesses
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.scenario import (
@@ -139,8 +140,8 @@ def _supply(p: Parameters, scenario: Scenario) -> None:
 @_reads("brake.system.critical_pressure_ratio", "brake.system.laminar_pressure_ratio")
 def _orifices(p: Parameters, scenario: Scenario) -> None:
     system = scenario.brake.system
-    p.critical_ratio, p.subsonic_scale, p.laminar_slope = orifice_law(
-        float(system.critical_pressure_ratio), float(system.laminar_pressure_ratio)
+    p.critical_ratio, p.subsonic_scale, p.laminar_slope = case_by_case(
+        orifice_law, system.critical_pressure_ratio, system.laminar_pressure_ratio
     )
 
 
@@ -173,13 +174,14 @@ def _walls(p: Parameters, scenario: Scenario) -> None:
 @_reads("rig.caliper", "simulation.time_step")
 def _caliper(p: Parameters, scenario: Scenario) -> None:
     caliper = scenario.rig.caliper
-    p.piston_damping, p.contact_damping, _, _, p.free_compliance, _, _ = stiffnesses(
-        float(caliper.spring_rate),
-        float(caliper.load_friction),
-        float(caliper.viscous_friction),
-        float(caliper.contact_friction),
-        float(caliper.contact_stiffness),
-        float(scenario.simulation.time_step),
+    p.piston_damping, p.contact_damping, _, _, p.free_compliance, _, _ = case_by_case(
+        stiffnesses,
+        caliper.spring_rate,
+        caliper.load_friction,
+        caliper.viscous_friction,
+        caliper.contact_friction,
+        caliper.contact_stiffness,
+        scenario.simulation.time_step,
     )
 
 

@@ -8,6 +8,7 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from uictest.core.ensemble import case_by_case
 from uictest.core.physics import stiffnesses
 from uictest.core.record import scenario_values
 from uictest.plans.scenario import WHEELSET_NUMBERS, Scenario, wheelset_keys, wheelset_value
@@ -62,13 +63,14 @@ def _slip(own: WheelsetParameters, value: ValueOf, scenario: Scenario) -> None:
 @_reads("caliper.load_friction", keys=("rig.caliper", "simulation.time_step"))
 def _caliper(own: WheelsetParameters, value: ValueOf, scenario: Scenario) -> None:
     caliper = scenario.rig.caliper
-    _, _, own.squeezing_stiffness, own.releasing_stiffness, _, *compliances = stiffnesses(
-        float(caliper.spring_rate),
+    _, _, own.squeezing_stiffness, own.releasing_stiffness, _, *compliances = case_by_case(
+        stiffnesses,
+        caliper.spring_rate,
         value("caliper.load_friction"),
-        float(caliper.viscous_friction),
-        float(caliper.contact_friction),
-        float(caliper.contact_stiffness),
-        float(scenario.simulation.time_step),
+        caliper.viscous_friction,
+        caliper.contact_friction,
+        caliper.contact_stiffness,
+        scenario.simulation.time_step,
     )
     own.squeezing_compliance, own.releasing_compliance = compliances
 

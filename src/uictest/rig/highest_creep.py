@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.core.ensemble import case_by_case
 from uictest.core.physics import FITTED_TERMS, contact_stiffness, highest_creep_force
 from uictest.plans.scenario import CreepCurve, RailCondition
 from uictest.rig.model.running_gear import LOWEST_LOAD
@@ -14,6 +15,7 @@ from uictest.rig.model.slip_search import HIGHEST_LOAD
 
 _SLIPS: Final = np.geomspace(1e-5, 60.0, 800)
 """Values of x = B w among which the maximum is sought; it is flat, so that steps of 2 % suffice."""
+_FALL: Final = np.exp(-_SLIPS)
 _WIDEST: Final = 3.0
 """Largest u1; that of a fast train on dry rail is 0.8."""
 _NARROWEST: Final = 1e-3
@@ -30,8 +32,8 @@ _DIGITS: Final = 9
 def highest_creep_law(condition: RailCondition | CreepCurve) -> tuple[float, tuple[float, ...]]:
     """Return the scale B / u1^2 in s/m and the coefficients, lowest power first."""
     law = condition.friction_ratio, condition.reduction_adhesion, condition.reduction_slip
-    end, coefficients = _fitted(*map(float, law))
-    return float(condition.friction_decay) / end**2, coefficients
+    end, *coefficients = case_by_case(_fitted, *law)
+    return condition.friction_decay / end**2, tuple(coefficients)
 
 
 def highest_creep_forces(
@@ -64,10 +66,8 @@ def highest_creep_forces(
 
 
 @cache
-def _fitted(
-    ratio: float, reduction_adhesion: float, reduction_slip: float
-) -> tuple[float, tuple[float, ...]]:
-    """Return u1 and the coefficients.
+def _fitted(ratio: float, reduction_adhesion: float, reduction_slip: float) -> tuple[float, ...]:
+    """Return u1, then the coefficients.
 
     Args:
         ratio: A.
@@ -79,17 +79,23 @@ def _fitted(
     shares = 0.5 - 0.5 * np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)
     highest = highest_shares(end * shares, *law)
     fitted = np.polynomial.Chebyshev.fit(shares, highest, FITTED_TERMS - 1, domain=[0.0, 1.0])
-    powers = fitted.convert(kind=np.polynomial.Polynomial).coef
-    # numpy drops the highest powers where they are zero, as for a friction that does not fall.
-    kept = np.pad(powers, (0, FITTED_TERMS - powers.size))
-    return end, tuple(round(float(power), _DIGITS) for power in kept)
+    powers = _powers_of_terms() @ np.asarray(fitted.coef, float)
+    return end, *(round(float(power), _DIGITS) for power in powers)
+
+
+@cache
+def _powers_of_terms() -> NDArray[np.float64]:
+    """Return the coefficients of each Chebyshev term on 0 to 1, lowest power first, as columns."""
+    terms = (np.polynomial.Chebyshev.basis(term, domain=[0.0, 1.0]) for term in range(FITTED_TERMS))
+    powers = (term.convert(kind=np.polynomial.Polynomial).coef for term in terms)
+    return np.array([np.pad(each, (0, FITTED_TERMS - each.size)) for each in powers]).T
 
 
 def highest_shares(
     u: NDArray[np.float64], ratio: float, reduction_adhesion: float, reduction_slip: float
 ) -> NDArray[np.float64]:
     """Return the maximum of F / (Q mu0) for each u > 0."""
-    falling = (1.0 - ratio) * np.exp(-_SLIPS) + ratio
+    falling = (1.0 - ratio) * _FALL + ratio
     gradient = _SLIPS / falling / np.square(u)[:, None]
     adhering = reduction_adhesion * gradient
     curve = falling * (adhering / (1.0 + adhering**2) + np.arctan(reduction_slip * gradient))

@@ -88,6 +88,10 @@ sample:
     brake.system.tank.volume: {uniform: [10 L, 12 L]}
     brake.system.wsp_valve.vent_conductance: {uniform: [1.0e-8 m3/(s Pa), 1.2e-8 m3/(s Pa)]}
     brake.system.wsp_valve.switching_delay: {uniform: [1 ms, 30 ms]}
+    brake.system.critical_pressure_ratio: {uniform: [0.3, 0.4]}
+    rail.condition.friction_ratio: {uniform: [0.3, 0.9]}
+    rig.caliper.contact_stiffness: {uniform: [2e7 N/m, 3e7 N/m]}
+    vehicle.bogie.half_wheelbase: {uniform: [1.2 m, 1.3 m]}
 """,
     "wheelsets": """
 sample:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from uictest.core import physics
+from uictest.core.ensemble import case_by_case
 from uictest.core.physics import REFERENCE_DENSITY, orifice_law
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.scenario.files import Files
@@ -188,7 +189,8 @@ def _vessels(
     system: BrakeSystem, smallest_tank: float, valves: Sequence[ValveConductances], line_leak: float
 ) -> Iterator[StepLimit]:
     relay = system.relay_valve
-    steepest = orifice_law(float(system.critical_pressure_ratio), float(system.laminar_pressure_ratio))[2]
+    ratios = system.critical_pressure_ratio, system.laminar_pressure_ratio
+    steepest = case_by_case(orifice_law, *ratios)[2]
     supply = max(system.reservoir.initial_pressure, system.compressor.cut_out_pressure)
     opened = (supply + system.air.atmospheric_pressure) / relay.proportional_band
     through_relay = relay.conductance * (steepest + opened)

@@ -129,7 +129,7 @@ _LARGEST_RATE: Final = default("6 kg/min", "sand rate")
 
 def impossible_sanders(scenario: Any) -> Iterator[Inconsistency]:
     """Yield sanders that a scenario's car cannot have or that would never lay sand."""
-    wheelbase = 2.0 * float(scenario.vehicle.bogie.half_wheelbase)
+    wheelbase = 2.0 * scenario.vehicle.bogie.half_wheelbase
     for place, sander in enumerate(scenario.sanders):
         key = ("sanders", place)
         if any(sander.wheelset == other.wheelset for other in scenario.sanders[:place]):
