@@ -25,10 +25,9 @@ from uictest.runs.scenario_files import load_cases
 README: Final = "README.md"
 _GOOD: Final = 0.5 * AGREES
 """Share within which one friction for the whole stop is enough; chosen."""
-_ROUNDS, _LARGEST_SCALING = 2, 0.05
-"""Simulations on a rail, the second with its friction scaled by the difference of the distances if that is no
-larger; chosen: a fit misses friction by up to half a per cent; for that, a WSP may vent once more at the end.
-"""
+_LARGEST_SCALING, _NEIGHBOURS = 0.05, (0.995, 1.005, 0.99, 1.01)
+"""Friction is scaled by the difference of the distances, up to this, then by these: chosen, as a fit may
+miss it by half a per cent, for which a WSP vents once more or less near standstill."""
 _CELL, _APART = 2.0, 20.0
 """m: precision of the edges of a stretch on which something slid, and what lies between two; chosen."""
 _MOST_STRETCHES: Final = 12
@@ -105,25 +104,30 @@ class _Maker(NamedTuple):
         self, source: Source, stop: field_data.RecordedStop, balances: fitting.Balances
     ) -> tuple[MadeScenario, fitting.Fit]:
         """Return the first simulation that is close enough, else the closest, and its fit."""
-        tried: list[tuple[MadeScenario, fitting.Fit]] = []
         time, distance = stop.standstill or (math.nan, math.nan)
+        blank = MadeScenario(source, recorded=(distance, time))
+        tried: list[tuple[float, fitting.Fit, MadeScenario]] = []
+
+        def is_close(fit: fitting.Fit, scale: float) -> bool:
+            made = self._simulated(blank, stop, _scaled(fit, scale))
+            if scale != 1.0:
+                note = f"friction: {100.0 * (scale - 1.0):+.1f} % by distance and time"
+                made = replace(made, assumed=(note, *made.assumed))
+            tried.append((scale, fit, made))
+            return made.off <= _GOOD or all(each.standing != "found" for each in fit.friction)
+
         for breaks in dict.fromkeys(((), _edges_of_sliding(balances), _breaks(distance))):
-            fit, scale = fitting.fit_balances(balances, breaks, with_pads=False), 1.0
-            for _ in range(_ROUNDS):
-                fit = _scaled(fit, scale)
-                made = MadeScenario(source, recorded=(distance, time))
-                made = self._simulated(made, stop, fit)
-                if scale != 1.0:
-                    note = f"friction: {100.0 * (scale - 1.0):+.1f} % by the recorded distance"
-                    made = replace(made, assumed=(note, *made.assumed))
-                tried.append((made, fit))
-                scale = 1.0 + made.differences[0]
-                found = any(each.standing == "found" for each in fit.friction)
-                if made.off <= _GOOD or not found:
-                    return tried[-1]
-                if abs(scale - 1.0) > _LARGEST_SCALING:
-                    break
-        return min(tried, key=lambda made: made[0].off)
+            fit = fitting.fit_balances(balances, breaks, with_pads=False)
+            if is_close(fit, 1.0):
+                break
+            by_distance = 1.0 + tried[-1][2].differences[0]
+            if abs(by_distance - 1.0) <= _LARGEST_SCALING and is_close(fit, by_distance):
+                break
+        else:
+            scale, fit, _ = min(tried, key=lambda each: each[2].off)
+            any(is_close(fit, scale * factor) for factor in _NEIGHBOURS)
+        scale, fit, made = min(tried, key=lambda each: each[2].off)
+        return made, _scaled(fit, scale)
 
     def _simulated(self, made: MadeScenario, stop: field_data.RecordedStop, fit: fitting.Fit) -> MadeScenario:
         """Return the stop on the rail of a fit, simulated until command and trigger lie as far apart."""
