@@ -1,14 +1,19 @@
 import re
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
 from uictest.core.measures import MEASURES
+from uictest.core.measures.catalogue.deceleration import initial_adhesion
+from uictest.core.recording import TRACK_BRAKES_BESIDE
 from uictest.core.recording.formats import FORMATS, Dialect, writer_of
 from uictest.core.recording.formats.reader import read_here
 from uictest.judging.evaluation import evaluate
+from uictest.plans.scenario import load
 from uictest.recorded.field_data import (
+    MapError,
     Preparation,
     RawChannel,
     judge_recording,
@@ -42,6 +47,15 @@ RESOLUTION = {
     "deceleration_bogie_1_mps2": lambda interval: 0.2 * interval,
     "deceleration_bogie_2_mps2": lambda interval: 0.2 * interval,
 }
+TRAIN = """
+schema: uictest/scenario/1
+name: stop
+initial_speed: 60 km/h
+rail: {condition: wet, friction: 0.06}
+criteria: uictest-stop
+brake: {position: emergency}
+train: [{}, {brake: {track: {attraction: 100 kN, off_below: 20 km/h}}}]
+"""
 LOCKED = 10.0
 """Sampling intervals by which the time in a handful of locks may be off."""
 
@@ -203,3 +217,25 @@ def test_a_recorded_track_brake_gives_its_energy_and_time_and_leaves_no_initial_
     assert observed.track_brake_time == pytest.approx(simulated.measures.track_brake_time, abs=0.05)
     result = evaluate(case, observed, simulated.wheelset_measures)
     assert result.measures["initial_adhesion_g"] != result.measures["initial_adhesion_g"]
+
+
+def test_a_recording_of_a_car_says_that_track_brakes_of_others_acted(tmp_path):
+    (tmp_path / "stop.yaml").write_text(TRAIN, "utf-8")
+    without, _ = load([tmp_path / "stop.yaml"])
+    stop = simulate(without, record_every=0.01)
+    recording = stop.recording
+    channels = {
+        name: RawChannel(name, name, recording["time"], np.asarray(values))
+        for name, values in recording.channels.items()
+        if name != "time"
+    }
+    recorded = prepare(channels, recording.metadata, Preparation())
+    case = replace(without, train=None)
+    observed = observe(recorded, case.scenario)
+    assert observed.measures.track_brake_time_beside == pytest.approx(stop.measures.track_brake_time_beside)
+    reason = "the track brake of another car acted"
+    assert initial_adhesion(observed.measures, 3.0).unavailable_reason.startswith(reason)
+    _, again = judge_recording(case, recorded)
+    assert again.metadata[TRACK_BRAKES_BESIDE] == recording.metadata[TRACK_BRAKES_BESIDE]
+    with pytest.raises(MapError, match="track_brakes_beside in the header of the file"):
+        prepare(channels, {**recording.metadata, TRACK_BRAKES_BESIDE: "long"}, Preparation())

@@ -234,3 +234,12 @@ def test_a_fault_needs_a_sander_and_sliding_a_wsp(rig):
         rig.case(FIXED, "faults=[{at: 0 s, wheelset: 2, part: sander, kind: blocked}]")
     with pytest.raises(ScenarioErrors, match="bypassed WSP never acts"):
         rig.case("rig.wsp=bypassed", "sanders=[{wheelset: 2, rate: 1 kg/min}]")
+
+
+def test_a_sander_of_every_brake_waits_for_the_command_to_reach_its_car(rig):
+    always = rig.case(*WET, "sanders=[{wheelset: 1, rate: 2 kg/min, when: always, delay: 0.2 s}]")
+    piped = Coupling(distance=26.4, pipe_speed=52.8)  # half a second from car to car
+    train = run_coupled([always] * 3, piped, steps_per_sample=1)
+    for car, stop in enumerate(train.cars):
+        laying = stop.trace.wheelsets["sanding"][:, 0] > 0.0
+        assert stop.trace.train["time"][laying][0] == pytest.approx(0.2 + 0.5 * car, abs=0.0101)

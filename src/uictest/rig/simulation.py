@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.controllers import ResponseTimes
-from uictest.core.recording import BRAKE_COMMAND_TIME, ORIGIN, Recording
+from uictest.core.recording import BRAKE_COMMAND_TIME, ORIGIN, TRACK_BRAKES_BESIDE, Recording
 from uictest.plans.scenario import Case
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.native import compiled_stop
@@ -213,6 +213,8 @@ def _facts(case: Case, finished: FinishedStop) -> dict[str, str]:
     facts = {ORIGIN: "simulated stop", "case": case.id, BRAKE_COMMAND_TIME: "0 s"}
     if math.isfinite(finished.measures.sliding_time):
         facts["sliding_time"] = f"{finished.measures.sliding_time:.6g}"
+    if finished.measures.track_brake_time_beside > 0.0:
+        facts[TRACK_BRAKES_BESIDE] = f"{finished.measures.track_brake_time_beside:.6g} s"
     if case.train is not None:
         facts["train"] = f"{case.train.train}, {case.train.label}"
     if case.scenario.faults:

@@ -18,6 +18,7 @@ from .recording import (
     ORIGIN as ORIGIN,
     SAMPLE_INTERVALS as SAMPLE_INTERVALS,
     TIME as TIME,
+    TRACK_BRAKES_BESIDE as TRACK_BRAKES_BESIDE,
     Contents as Contents,
     Group as Group,
     Recording as Recording,

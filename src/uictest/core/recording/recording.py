@@ -109,6 +109,9 @@ BRAKE_COMMAND_TIME = "brake_command_time"
 SAMPLE_INTERVALS = "sample_intervals"
 """Metadata key of channels with a time of their own before they were cut out: JSON, name -> interval in s."""
 
+TRACK_BRAKES_BESIDE = "track_brakes_beside"
+"""Metadata key of the time for which track brakes of other cars of the train acted, e.g. `4.2 s`."""
+
 ORIGIN = "origin"
 """Metadata key of what was recorded: a train, a test rig or a simulation."""
 

@@ -22,7 +22,7 @@ from uictest.core.measures import (
     samples_of,
 )
 from uictest.core.record import fields_of
-from uictest.core.recording import BRAKE_COMMAND_TIME, TIME, Recording
+from uictest.core.recording import BRAKE_COMMAND_TIME, TIME, TRACK_BRAKES_BESIDE, Recording
 from uictest.core.units import KILOMETRE_PER_HOUR, STANDARD_GRAVITY
 from uictest.judging import evaluation
 from uictest.judging.evaluation import CaseResult, evaluate
@@ -98,6 +98,7 @@ def observe(stop: RecordedStop, judged_under: scenario.Scenario) -> Observed:
         replay.stop_at(*stop.standstill)
     train, wheelsets = replay.train, replay.wheelsets
     _observe_track_brake(train, recording)
+    train.track_brake_time_beside = stop.track_brakes_beside
     close_contacts(train, wheelsets, _mass(recording))
     records = np.zeros(len(WHEELSETS), WHEELSET_MEASURES)
     for record, wheelset in zip(records, wheelsets, strict=True):
@@ -142,6 +143,8 @@ def _metadata(case: scenario.Case, stop: RecordedStop, observed: Observed) -> It
     yield "case", case.id
     if not stop.trigger.late:
         yield BRAKE_COMMAND_TIME, "0 s"
+    if stop.track_brakes_beside > 0.0:
+        yield TRACK_BRAKES_BESIDE, f"{stop.track_brakes_beside:.6g} s"
     known = "initial_adhesion" not in observed.coverage.missing
     if known and math.isfinite(observed.measures.sliding_time):
         yield "sliding_time", f"{observed.measures.sliding_time:.6g}"

@@ -11,9 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from uictest.core.recording import SAMPLE_INTERVALS, TIME, Recording
+from uictest.core.recording import SAMPLE_INTERVALS, TIME, TRACK_BRAKES_BESIDE, Recording
 from uictest.core.recording.formats import read_contents
 from uictest.core.units import KILOMETRE_PER_HOUR
+from uictest.plans.scenario.yaml import QuantityError, parse_quantity
 from uictest.recorded.field_data.channel_map import CHANNEL_UNITS, ChannelMap, Preparation
 from uictest.recorded.field_data.raw_channels import (
     Array,
@@ -69,6 +70,8 @@ class RecordedStop:
         choices: how the record was prepared, name -> text: part of the definition of every measure.
         intervals: channel -> usual time between its samples in the file, s.
         place: recorded distance at the brake command, m; NaN where none is recorded.
+        track_brakes_beside: time for which the file says that track brakes of other cars acted, s; NaN where
+            it does not.
 
     """
 
@@ -79,6 +82,7 @@ class RecordedStop:
     choices: dict[str, str] = field(default_factory=dict)
     intervals: dict[str, float] = field(default_factory=dict)
     place: float = math.nan
+    track_brakes_beside: float = math.nan
 
 
 def stop_in(path: Path, channel_map: ChannelMap) -> RecordedStop:
@@ -111,7 +115,8 @@ def prepare(
 
     Raises:
         UnusableError: the train speed has no usable time axis, no number, or none at the brake command.
-        MapError: nothing marks the brake command, or the deceleration is none of a train.
+        MapError: nothing marks the brake command, the deceleration is none of a train, or the header states
+            a time that is none.
 
     """
     ordered, defects = _ordered(channels)
@@ -138,7 +143,17 @@ def prepare(
         "sampling": f"speed every {1e3 * usual_interval(speed.time):.6g} ms",
     }
     intervals = {name: stated.get(name, usual_interval(channel.time)) for name, channel in filtered.items()}
-    return RecordedStop(recording, trigger, standstill, tuple(defects), choices, intervals, place)
+    beside = _track_brakes_beside(metadata)
+    return RecordedStop(recording, trigger, standstill, tuple(defects), choices, intervals, place, beside)
+
+
+def _track_brakes_beside(metadata: Mapping[str, str]) -> float:
+    text = metadata.get(TRACK_BRAKES_BESIDE)
+    try:
+        return math.nan if text is None else float(parse_quantity(text, "time"))
+    except QuantityError as error:
+        hint = error.hint or "write a time such as 4.2 s"
+        raise MapError(f"{TRACK_BRAKES_BESIDE} in the header of the file: {error}; {hint}") from error
 
 
 def _choices(

@@ -51,7 +51,10 @@ def _follow_demand(wheelset: Wheelset, i: int, car: Car, p: Parameters) -> None:
         wheelset.slides_by_wsp = 1.0
     elif car.wsp_resting_cycles > p.sander_run_on_cycles[i]:
         wheelset.slides_by_wsp = 0.0
-    demanded = maximum(p.sanders_always[i], p.sanders_on_slide[i] * wheelset.slides_by_wsp)
+    # What lays sand in every brake does so once its car is told to brake.
+    told = car.time + 0.5 * p.step >= p.command_given[0]
+    always = p.sanders_always[i] if told else 0.0
+    demanded = maximum(always, p.sanders_on_slide[i] * wheelset.slides_by_wsp)
     if wheelset.sand_request == 1:
         demanded = maximum(demanded, p.sanders_on_request[i])
     if car.speed < p.sander_off_speeds[i]:
