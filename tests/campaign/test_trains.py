@@ -1,5 +1,7 @@
 """Trains in batches: run once, whatever is asked of them, and a car alone where there is one."""
 
+import subprocess
+import sys
 from dataclasses import replace
 from itertools import chain
 
@@ -125,6 +127,18 @@ def test_lanes_are_compiled_where_enough_cars_run(cases, monkeypatch):
     compiled.clear()
     campaign.compile_for(loaded, RecordingRequest("all", band_stops=300))
     assert not compiled
+
+
+def test_recordings_of_trains_pass_to_the_measures_in_machine_code(cases):
+    code = (
+        "import sys; from pathlib import Path; from uictest import rig; from uictest.plans import scenario;"
+        "from uictest.rig.backends.machine_code import loaded_beside;"
+        "from uictest.rig.backends.scalar import NOTE, NOTE_ARGUMENTS, RUN;"
+        "rig.compile_for(scenario.load([Path(sys.argv[1])]));"
+        "sys.exit(loaded_beside(RUN, NOTE, len(NOTE_ARGUMENTS)) is None)"
+    )
+    (case, *_) = cases(TRAIN)
+    assert subprocess.run([sys.executable, "-c", code, str(case.path)], check=False).returncode == 0
 
 
 def test_a_train_that_fails_leaves_those_beside_it(cases, monkeypatch):

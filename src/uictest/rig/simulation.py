@@ -61,9 +61,13 @@ class SimulatedStop:
 
 
 def compile_for(cases: Iterable[Case]) -> None:
-    """Compile the rig for cars alone, for trains or both, as some cases need."""
-    for coupled in {case.train is not None for case in cases}:
-        (compiled_train if coupled else compiled_stop)()
+    """Compile the rig for cars alone, and for trains where there are some.
+
+    With that for cars alone comes what passes recordings, those of trains too, to the measures.
+    """
+    compiled_stop()
+    if any(case.train is not None for case in cases):
+        compiled_train()
 
 
 def simulate(case: Case, record_every: float | None = None, run: RunInputs | None = None) -> SimulatedStop:
