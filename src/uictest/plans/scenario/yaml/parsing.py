@@ -5,7 +5,7 @@ expanded, and size and depth are bounded before memory is spent.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable
 from typing import Any, Final
 
 import yaml
@@ -41,6 +41,7 @@ _OCTAL = re.compile(r"0o[0-7]{1,30}")
 _HEXADECIMAL = re.compile(r"0x[0-9a-fA-F]{1,30}")
 _FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
 _INFINITE = re.compile(r"[-+]?\.(?:inf|Inf|INF)")
+_BEGINS_NUMBER: Final = frozenset("+-.0123456789")
 _NAN: Final = frozenset({".nan", ".NaN", ".NAN"})
 
 
@@ -72,7 +73,7 @@ class _Parser:
         self.beginning = beginning
         self.diagnostics: list[Diagnostic] = []
         self.nodes = 0
-        self.events: Iterator[Any] = iter(())
+        self.next_event: Callable[[], Any] = _no_event
 
     def parse(self) -> Node:
         self._reject_control_characters()
@@ -97,13 +98,20 @@ class _Parser:
             )
 
     def _root(self) -> Node:
-        self.events = iter(yaml.parse(self.text, Loader=_LOADER))
-        next(self.events)  # start of the stream
-        if isinstance(next(self.events), yaml.StreamEndEvent):
+        loader = _LOADER(self.text)
+        try:
+            self.next_event = loader.get_event
+            return self._only_document()
+        finally:
+            loader.dispose()
+
+    def _only_document(self) -> Node:
+        self.next_event()  # start of the stream
+        if isinstance(self.next_event(), yaml.StreamEndEvent):
             raise single_error(Place(self.document), "the file is empty", hint=self.beginning)
-        root = self._node(next(self.events), depth=0)
-        next(self.events)  # end of the document
-        after = next(self.events)
+        root = self._node(self.next_event(), depth=0)
+        self.next_event()  # end of the document
+        after = self.next_event()
         if not isinstance(after, yaml.StreamEndEvent):
             self._report(after, "a second YAML document", "one file holds one of them")
         return root
@@ -111,17 +119,19 @@ class _Parser:
     def _node(self, event: Any, depth: int) -> Node:
         self._guard(event, depth)
         place = self._place_of(event)
-        if isinstance(event, yaml.MappingStartEvent):
+        kind = type(event)
+        if kind is yaml.ScalarEvent:
+            text = event.value
+            if "\0" in text:  # as an escape; no path and no name can have it
+                raise single_error(place, f"character {quoted(chr(0))} is not accepted")
+            # A style is a quotation or a block.
+            return Scalar(text if event.style else scalar_value(text), text, place)
+        if kind is yaml.MappingStartEvent:
             return self._map(place, depth)
-        if isinstance(event, yaml.SequenceStartEvent):
+        if kind is yaml.SequenceStartEvent:
             return self._sequence(place, depth)
-        if isinstance(event, yaml.AliasEvent):
-            self._report(event, f"alias {quoted('*' + str(event.anchor))} is not accepted", _REPEAT_HINT)
-            return Scalar(None, "", place)
-        if "\0" in event.value:  # as an escape; no path and no name can have it
-            raise single_error(place, f"character {quoted(chr(0))} is not accepted")
-        value = event.value if event.style else scalar_value(event.value)  # a style is a quotation or a block
-        return Scalar(value, event.value, place)
+        self._report(event, f"alias {quoted('*' + str(event.anchor))} is not accepted", _REPEAT_HINT)
+        return Scalar(None, "", place)
 
     def _guard(self, event: Any, depth: int) -> None:
         self.nodes += 1
@@ -129,7 +139,7 @@ class _Parser:
             raise single_error(self._place_of(event), f"more than {MOST_NODES} values in one file")
         if depth > DEEPEST:
             raise single_error(self._place_of(event), f"nested deeper than {DEEPEST} levels")
-        if isinstance(event, yaml.AliasEvent):
+        if type(event) is yaml.AliasEvent:
             return
         if event.anchor is not None:
             self._report(event, f"anchor {quoted('&' + event.anchor)} is not accepted", _REPEAT_HINT)
@@ -138,9 +148,9 @@ class _Parser:
 
     def _map(self, place: Place, depth: int) -> Map:
         entries: dict[str, Entry] = {}
-        while not isinstance(event := next(self.events), yaml.MappingEndEvent):
+        while type(event := self.next_event()) is not yaml.MappingEndEvent:
             key = self._node(event, depth + 1)
-            node = self._node(next(self.events), depth + 1)
+            node = self._node(self.next_event(), depth + 1)
             if not isinstance(key, Scalar):
                 error = diagnose(key.place, "a key must be a text", hint="write `key: value`")
                 self.diagnostics.append(error)
@@ -152,7 +162,7 @@ class _Parser:
 
     def _sequence(self, place: Place, depth: int) -> Sequence:
         items: list[Node] = []
-        while not isinstance(event := next(self.events), yaml.SequenceEndEvent):
+        while type(event := self.next_event()) is not yaml.SequenceEndEvent:
             items.append(self._node(event, depth + 1))
         return Sequence(tuple(items), place)
 
@@ -162,7 +172,8 @@ class _Parser:
             raise ScenarioErrors(self.diagnostics)
 
     def _place_of(self, event: Any) -> Place:
-        return self._place(event.start_mark.line, event.start_mark.column)
+        mark = event.start_mark
+        return self._place(mark.line, mark.column)
 
     def _place(self, line: int, column: int) -> Place:
         return Place(self.document, self.line + line, (self.column if line == 0 else 1) + column)
@@ -174,6 +185,10 @@ class _Parser:
         context = getattr(error, "context", None)
         message = f"not valid YAML: {problem}" + (f" ({context})" if context else "")
         return diagnose(place, visible(message), hint=_syntax_hint(place))
+
+
+def _no_event() -> Any:
+    return None
 
 
 _REPEAT_HINT: Final = "repeat the value, or use `extends`"
@@ -207,6 +222,8 @@ def scalar_value(text: str) -> str | int | float | bool | None:
 
 
 def _scalar_number(text: str) -> str | int | float:
+    if text[0] not in _BEGINS_NUMBER:
+        return text
     if _INTEGER.fullmatch(text):
         return int(text)
     if _OCTAL.fullmatch(text):

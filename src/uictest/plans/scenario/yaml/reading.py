@@ -3,6 +3,7 @@
 import hashlib
 import os
 from collections.abc import Callable
+from functools import lru_cache
 from pathlib import Path
 from typing import Final
 
@@ -91,8 +92,13 @@ def display_name(path: Path) -> str:
 
     A shipped scenario is shown by its name.
     """
+    return _display_name(path, os.getcwd())  # noqa: PTH109
+
+
+@lru_cache(maxsize=1000)
+def _display_name(path: Path, working_folder: str) -> str:
+    working = Path(working_folder)
     absolute = Path(os.path.abspath(path))  # noqa: PTH100 - resolve() would follow links and rename what the user typed
-    working = Path.cwd()
     if name := library.scenario_name(absolute, working):
         return name
     shown = (
