@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal, NamedTuple
 
+from uictest.core.frozen import dataclass
 from uictest.core.measures.records import StopMeasures, WheelsetMeasures
 
 Course = Literal["grows", "falls", "settles"]

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from uictest.core.frozen import dataclass
 from uictest.core.units import with_unit
 from uictest.plans import scenario
 

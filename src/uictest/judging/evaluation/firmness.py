@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Annotated, Literal
 
 from pydantic import PlainSerializer
 
+from uictest.core.frozen import dataclass
 from uictest.judging.evaluation.json_values import OptionalNumber, absent_if_empty, json_form
 
 FirmnessStatus = Literal["firm", "turns", "noise", "not_shown"]
