@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from functools import cache
 from types import NoneType, UnionType
-from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Final, NamedTuple, Union, get_args, get_origin, get_type_hints
 
 from pydantic import PlainSerializer, WrapSerializer
 from pydantic.fields import FieldInfo
@@ -18,6 +18,9 @@ from pydantic.fields import FieldInfo
 from uictest.judging.evaluation.json_values import finite_or_none
 
 Writer = Callable[[Any], Any]
+
+_UNCHANGED: Final = frozenset({str, int, bool, NoneType})
+"""Types of values that are their own form: most of what is written."""
 
 
 def to_json_form(annotation: Any, value: object) -> Any:
@@ -79,6 +82,8 @@ def _places(writers: tuple[Writer, ...]) -> Writer:
 
 def _unmarked(value: Any) -> Any:
     """Return the form of a value by what it holds."""
+    if type(value) in _UNCHANGED:
+        return value
     if is_dataclass(value):
         kind: Any = type(value)  # mypy does not take every class for hashable
         return {each.key: each.write(getattr(value, each.name)) for each in _written_fields(kind)}
