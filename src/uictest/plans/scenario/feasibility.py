@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from uictest.core import physics
-from uictest.core.ensemble import case_by_case
 from uictest.core.physics import REFERENCE_DENSITY, orifice_law
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.scenario.files import Files
@@ -185,12 +184,21 @@ def limit_of_air(
     return min((*vessels, _piston(system, caliper, smallest_tank)))
 
 
+def _steepest_flow(*ratios: Any) -> Any:
+    """Return the steepest flow through an orifice of one case, or of several."""
+    if all(isinstance(ratio, float) for ratio in ratios):
+        return orifice_law(*map(float, ratios))[2]
+    from uictest.core.ensemble import case_by_case  # with numpy, which `uictest check` does not need
+
+    return case_by_case(orifice_law, *ratios)[2]
+
+
 def _vessels(
     system: BrakeSystem, smallest_tank: float, valves: Sequence[ValveConductances], line_leak: float
 ) -> Iterator[StepLimit]:
     relay = system.relay_valve
     ratios = system.critical_pressure_ratio, system.laminar_pressure_ratio
-    steepest = case_by_case(orifice_law, *ratios)[2]
+    steepest = _steepest_flow(*ratios)
     supply = max(system.reservoir.initial_pressure, system.compressor.cut_out_pressure)
     opened = (supply + system.air.atmospheric_pressure) / relay.proportional_band
     through_relay = relay.conductance * (steepest + opened)
