@@ -7,11 +7,9 @@ server is told of; the head of every JSON document that we write: its schema and
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 from typing import Any, Final, Generic, Literal, NamedTuple, Self, TypeVar
-
-from uictest.core.frozen import dataclass
 
 Cell = str | float | int | bool | None
 Tone = Literal["good", "bad", "odd"]

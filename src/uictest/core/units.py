@@ -4,11 +4,11 @@ One row of the table below describes one unit. Inside the package every quantity
 kind, which :attr:`Kind.canonical` names.
 """
 
+from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
-from uictest.core.frozen import dataclass
 from uictest.core.physics import REFERENCE_DENSITY
 
 STANDARD_GRAVITY: Final = 9.80665

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, Final, Literal, NamedTuple
 
 from pydantic import ConfigDict, TypeAdapter
 
 from uictest.core.document import Cell, Column, Data, Lines, Table
-from uictest.core.frozen import dataclass
 from uictest.judging import evaluation
 from uictest.report.verdict_sentences import number
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from uictest.core.frozen import dataclass
 from uictest.judging import evaluation
 from uictest.report import series as series_views
 from uictest.report.campaign import Campaign

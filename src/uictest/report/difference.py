@@ -5,12 +5,11 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Final
 
 from uictest.core import measures
 from uictest.core.document import Column, Table, Tone
-from uictest.core.frozen import dataclass
 from uictest.judging import evaluation
 from uictest.report.escaping import printable
 from uictest.report.traces.quantities import WHEELSETS

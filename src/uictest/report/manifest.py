@@ -6,7 +6,7 @@ import hashlib
 import json
 import platform
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, field
+from dataclasses import asdict, dataclass, field
 from functools import cache
 from pathlib import Path, PurePath
 from typing import Any, ClassVar, Final
@@ -15,7 +15,6 @@ from pydantic import ConfigDict, TypeAdapter
 
 from uictest.core import document
 from uictest.core.distributions import distribution_version
-from uictest.core.frozen import dataclass
 from uictest.judging import evaluation
 from uictest.report.part_wording import part_sentence
 

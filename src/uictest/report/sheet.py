@@ -6,12 +6,12 @@ import contextlib
 import io
 import itertools
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from uictest.core import files
 from uictest.core.document import Cell
-from uictest.core.frozen import dataclass
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.report.escaping import printable
 from uictest.report.verdict_sentences import CASE_WORDS, tone

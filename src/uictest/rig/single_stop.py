@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
 import numpy as np
@@ -15,7 +16,6 @@ from numpy.typing import NDArray
 
 from uictest.controllers import Config, ControllerProgram, ResponseTimes
 from uictest.core.ensemble import alike, rows_at
-from uictest.core.frozen import dataclass
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.model.rail import FACTORS, FRICTIONS, PLACES, RAIL_MEMORY, TIMES
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET

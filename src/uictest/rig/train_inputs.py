@@ -1,12 +1,12 @@
 """What the rig is given for a train: the inputs of its cars, and what they have because they are coupled."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.frozen import dataclass
 from uictest.plans.scenario import Case, Coupler, Scenario
 from uictest.rig.assembly import assemble
 from uictest.rig.model.couplers import COUPLER

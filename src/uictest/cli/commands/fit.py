@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Annotated, Any
@@ -16,7 +17,6 @@ from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode, data, message
 from uictest.cli.progress import compilation_shown
 from uictest.core import files
-from uictest.core.frozen import dataclass
 from uictest.core.recording import formats
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.plans import scenario as scenarios

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
@@ -34,7 +35,6 @@ from uictest.cli.options import (
 )
 from uictest.cli.output import ExitCode, data, message, terminal_width
 from uictest.core.document import Column, Table
-from uictest.core.frozen import dataclass
 from uictest.plans import scenario, series, sweeps
 from uictest.report import counted, counted_in, printable, table_lines
 from uictest.running import campaign

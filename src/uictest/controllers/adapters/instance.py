@@ -7,6 +7,7 @@ import traceback
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from operator import index
 from pathlib import Path
 from typing import Any, Final, NamedTuple
@@ -15,7 +16,6 @@ import numpy as np
 
 from uictest.controllers.declared import CONTRACTS, ControllerProgram, nothing_declared, parameter_problems
 from uictest.controllers.interface import INPUTS, OUTPUTS, WHEELSETS, Inputs, Outputs
-from uictest.core.frozen import dataclass
 
 STEP: Final = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 """`uictest_step`."""

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
-from uictest.core.frozen import dataclass
 from uictest.core.measures.records import StopMeasures, WheelsetMeasures
 
 Course = Literal["grows", "falls", "settles"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from math import inf, isnan, nan
 from types import SimpleNamespace
 from typing import Any, Final, NamedTuple
@@ -11,7 +11,6 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.frozen import dataclass
 from uictest.core.measures.contact import begin_contact, begin_utilisation, observe_contact
 from uictest.core.measures.monitoring import observe_monitoring, reports_wheelset
 from uictest.core.measures.records import END_SPEEDS, SLOW_TIMES, SPEED_CLASSES, WINDOW_SECONDS

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from statistics import median
 from typing import Literal
 
 from uictest.core import statistics
-from uictest.core.frozen import dataclass
 
 Method = Literal["median", "mean", "share", "largest", "smallest"]
 """How a value was made of those of the stops, and with it how its interval was."""

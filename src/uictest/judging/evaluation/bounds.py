@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from uictest.core.frozen import dataclass
 from uictest.core.identity_cache import once_per_object
 from uictest.core.measures import StopMeasures, Wheelsets
 from uictest.core.units import in_unit, to_12_digits, value_text, with_unit

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
-from uictest.core.frozen import dataclass
 from uictest.core.units import with_unit
 from uictest.plans import scenario
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, Final, get_args
 
 from uictest.controllers import Kind
-from uictest.core.frozen import dataclass
 from uictest.judging.evaluation.parameters import EffectivePart, Parameter
 from uictest.plans.scenario import (
     DESCRIPTIVE,

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Annotated, Literal
 
 from pydantic import PlainSerializer
 
-from uictest.core.frozen import dataclass
 from uictest.judging.evaluation.json_values import OptionalNumber, absent_if_empty, json_form
 
 FirmnessStatus = Literal["firm", "turns", "noise", "not_shown"]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from statistics import median, quantiles
 from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
 
 from uictest.core import statistics as proportions
-from uictest.core.frozen import dataclass
 from uictest.judging.evaluation.json_values import (
     CaseMeasures,
     CaseWheelsetMeasures,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, Final
 
 from pydantic import (
@@ -21,7 +21,6 @@ from pydantic import (
 
 from uictest.controllers import ResponseTimes
 from uictest.core import document
-from uictest.core.frozen import dataclass
 from uictest.judging.evaluation.car_in_train import CarInTrain
 from uictest.judging.evaluation.firmness import WrittenFirmness
 from uictest.judging.evaluation.json_values import (
@@ -273,6 +272,7 @@ def results_of(content: Mapping[str, Any]) -> list[CaseResult]:
     Raises:
         ValueError: the document is of another schema or kind, or a case in it lacks or adds a field, or two
             share an id.
+
     """
     try:
         document.require(content, document.RESULT, "run")
@@ -295,5 +295,6 @@ def to_json(content: Mapping[str, Any]) -> str:
 
     Raises:
         ValueError: a value in it is NaN or infinite.
+
     """
     return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
 
-from uictest.core.frozen import dataclass
 from uictest.core.units import in_unit, value_text, with_unit
 from uictest.judging.evaluation.bounds import bounds_of
 from uictest.judging.evaluation.json_values import Number, OptionalNumber, absent_if_empty

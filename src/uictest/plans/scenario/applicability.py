@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from uictest.core.frozen import dataclass
 from uictest.core.units import in_unit, value_text
 from uictest.plans import scenario
 

@@ -1,10 +1,9 @@
 """The case: one stop of a car on the rig, alone or coupled to others."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from uictest.core.frozen import dataclass
 from uictest.plans.scenario.model import Scenario
 
 

@@ -1,11 +1,10 @@
 """From files to cases."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from uictest.core.frozen import dataclass
 from uictest.plans.scenario.case import Case, TrainPlace
 from uictest.plans.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_valid
 from uictest.plans.scenario.files import Files, Roots, scenario_trees

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal, NamedTuple
 
 from pydantic import BeforeValidator, Field
 
-from uictest.core.frozen import dataclass
 from uictest.core.series_measures import Rail
 from uictest.core.units import in_unit
 from uictest.plans.scenario import (

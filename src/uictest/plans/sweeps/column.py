@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from uictest.core.frozen import dataclass
 from uictest.core.units import KINDS
 from uictest.plans.scenario.yaml import Quantity, parse_quantity, scalar_value
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from uictest.core.frozen import dataclass
 from uictest.plans.scenario import Case, Distribution, KDryRequest, Method, QuantileRequest, Scenario
 from uictest.plans.sweeps.base_case import SURVEY_STEP, TIME_STEP, with_values
 from uictest.plans.sweeps.column import Column, ParameterValue, drawn_column, listed_column

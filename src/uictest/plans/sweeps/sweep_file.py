@@ -9,12 +9,12 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
 from pydantic import Field
 
-from uictest.core.frozen import dataclass
 from uictest.plans.scenario import (
     SWEEP_SUFFIXES,
     DescribedFile,

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest.core import recording
-from uictest.core.frozen import dataclass
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.judging import evaluation
 from uictest.report.causes import label_words

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, Literal
 
@@ -22,7 +23,6 @@ from pydantic import (
 
 from uictest import report
 from uictest.core import files
-from uictest.core.frozen import dataclass
 from uictest.judging import evaluation
 from uictest.runs.history.foreign_files import first_problem
 

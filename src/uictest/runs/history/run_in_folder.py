@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Final, Literal, NamedTuple
@@ -13,7 +13,6 @@ from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt, ValidationErr
 
 from uictest import report
 from uictest.core import document
-from uictest.core.frozen import dataclass
 from uictest.runs.history.entry import ENTRY, CaseEntry, RunEntry, entry_of, read_entry
 from uictest.runs.history.foreign_files import (
     UnreadableError,

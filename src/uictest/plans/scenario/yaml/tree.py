@@ -2,12 +2,11 @@
 
 import re
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Final, NamedTuple
-
-from uictest.core.frozen import dataclass
 
 COMMAND_LINE: Final = "--set"
 """Display name of values from the command line, in place of a file name."""

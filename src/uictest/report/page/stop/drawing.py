@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 
-from uictest.core.frozen import dataclass
 from uictest.report.page.axis import Axis, Tick, span
 from uictest.report.traces.quantities import (
     PANELS,
