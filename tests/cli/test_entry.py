@@ -33,7 +33,7 @@ _FORBIDDEN = {
     ("check",): (*_LARGE, *_RUNS, "numpy", "uictest.plans.sweeps.plan", "uictest.plans.series.model"),
     ("check", str(Path(__file__).parents[2] / "scenarios")): (*_LARGE, *_RUNS, "numpy"),
     ("list",): (*_LARGE, *_RUNS, "numpy"),
-    ("run",): (*_LARGE, *_RARE, "numpy.ma", "llvmlite"),
+    ("run",): (*_LARGE, *_RARE, "numpy.ma"),
 }
 
 

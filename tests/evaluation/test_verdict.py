@@ -56,7 +56,7 @@ def verdict(**changes):
 
 
 def form_of(verdict):
-    return to_json_form(WrittenVerdict, verdict)
+    return to_json_form(VERDICTS, [verdict])[0]
 
 
 def read_back(form):

@@ -11,12 +11,11 @@ __all__ = ["main"]
 
 def main() -> None:
     """Run the command line and leave the process with its exit code."""
-    from uictest.cli.start import defer_metadata, leave_when_asked, open_closed_streams, raise_when_asked
+    from uictest.cli.start import leave_when_asked, open_closed_streams, raise_when_asked
 
     leave_when_asked()
     open_closed_streams()
     _start_lightly()
-    defer_metadata()
     from uictest.cli.entry import execute
 
     try:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
 import os
 import signal
 import sys
 from collections.abc import Callable
-from importlib import import_module
-from types import FrameType, ModuleType
-from typing import Any
+from types import FrameType
 
 
 def open_closed_streams() -> None:
@@ -29,34 +26,6 @@ def _is_closed(number: int) -> bool:
     except OSError:
         return True
     return False
-
-
-def defer_metadata() -> None:
-    """Let :mod:`importlib.metadata` be loaded by the first use of it.
-
-    pydantic imports it and then, its plug-ins being disabled, calls nothing of it.
-    """
-    name = "importlib.metadata"
-    deferred = ModuleType(name)
-
-    def loaded() -> Any:
-        if sys.modules.get(name) is deferred:
-            del sys.modules[name]
-        return import_module(name)
-
-    def attribute(wanted: str) -> Any:
-        if wanted.startswith("__"):  # asked by whoever looks through all modules
-            raise AttributeError(wanted)
-        return getattr(loaded(), wanted)
-
-    vars(deferred).update(
-        __getattr__=attribute,
-        __path__=[os.path.join(folder, "metadata") for folder in importlib.__path__],  # noqa: PTH118
-        entry_points=lambda **selected: loaded().entry_points(**selected),
-    )
-    if name not in sys.modules:
-        sys.modules[name] = deferred
-        vars(importlib)["metadata"] = deferred
 
 
 _INTERRUPTED = 2

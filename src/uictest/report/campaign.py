@@ -139,7 +139,7 @@ _FORM: Final = TypeAdapter(tuple[Campaign, ...], config=ConfigDict(extra="forbid
 
 def campaign_form(campaign: Campaign) -> dict[str, Any]:
     """Return the JSON form of a campaign."""
-    form: dict[str, Any] = evaluation.to_json_form(Campaign, campaign)
+    form: dict[str, Any] = evaluation.to_json_form(_FORM, (campaign,))[0]
     return form
 
 

@@ -8,13 +8,13 @@ import platform
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cache
+from importlib import metadata
 from pathlib import Path, PurePath
 from typing import Any, ClassVar, Final
 
 from pydantic import ConfigDict, TypeAdapter
 
 from uictest.core import document
-from uictest.core.distributions import distribution_version
 from uictest.judging import evaluation
 from uictest.report.part_wording import part_sentence
 
@@ -123,4 +123,4 @@ def without_machine(word: str) -> str:
 
 @cache
 def _versions() -> Mapping[str, str]:
-    return {"python": platform.python_version()} | {name: distribution_version(name) for name in _PACKAGES}
+    return {"python": platform.python_version()} | {name: metadata.version(name) for name in _PACKAGES}

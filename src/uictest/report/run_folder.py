@@ -67,17 +67,19 @@ def _by_case(content: object) -> object:
     return {**{name: value for name, value in content.items() if name != "agrees"}, "differences": by_case}
 
 
-_Subjects = dict[str, Annotated[CaseDescription, evaluation.required("title", "tags", "settings")]]
-_SUBJECTS: Final = TypeAdapter(_Subjects, config=ConfigDict(defer_build=True))
-_Differences = list[WrittenDifference]
-_DIFFERENCES: Final = TypeAdapter(_Differences, config=_CONFIG)
-_Baseline = Annotated[BaselineComparison, WrapSerializer(_flat), BeforeValidator(_by_case)]
-_BASELINE: Final = TypeAdapter(list[_Baseline], config=_CONFIG)
+_SUBJECTS: Final = TypeAdapter(
+    dict[str, Annotated[CaseDescription, evaluation.required("title", "tags", "settings")]],
+    config=ConfigDict(defer_build=True),
+)
+_DIFFERENCES: Final = TypeAdapter(list[WrittenDifference], config=_CONFIG)
+_BASELINE: Final = TypeAdapter(
+    list[Annotated[BaselineComparison, WrapSerializer(_flat), BeforeValidator(_by_case)]], config=_CONFIG
+)
 
 
 def subjects_form(subjects: Mapping[str, CaseDescription]) -> dict[str, Any]:
     """Return the JSON form of the subjects of cases, by the ids of the cases."""
-    form: dict[str, Any] = evaluation.to_json_form(_Subjects, subjects)
+    form: dict[str, Any] = evaluation.to_json_form(_SUBJECTS, subjects)
     return form
 
 
@@ -94,13 +96,13 @@ def read_subjects(document: Mapping[str, Any]) -> dict[str, CaseDescription]:
 
 def differences_form(differences: Sequence[Difference]) -> list[dict[str, Any]]:
     """Return the JSON form of differences, NaN as None."""
-    form: list[dict[str, Any]] = evaluation.to_json_form(_Differences, list(differences))
+    form: list[dict[str, Any]] = evaluation.to_json_form(_DIFFERENCES, list(differences))
     return form
 
 
 def baseline_form(baseline: BaselineComparison) -> dict[str, Any]:
     """Return the JSON form of a comparison, with `agrees` for readers that need no more."""
-    form: dict[str, Any] = evaluation.to_json_form(_Baseline, baseline)
+    form: dict[str, Any] = evaluation.to_json_form(_BASELINE, [baseline])[0]
     return form
 
 

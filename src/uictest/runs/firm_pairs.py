@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 from itertools import chain, groupby
 from typing import Any, Final, NamedTuple
 
+from pydantic import TypeAdapter
+
 from uictest import rig
 from uictest.analysis.firmness import COMPARED
 from uictest.core import document
@@ -87,7 +89,7 @@ def firm_pairs_json(pairs: Sequence[FirmPair]) -> str:
 
 
 def _form(pair: FirmPair) -> dict[str, Any]:
-    whole = to_json_form(Firmness, pair.firmness)
+    whole = to_json_form(TypeAdapter(Firmness), pair.firmness)
     study = {name: whole[name] for name in _WRITTEN if name in whole}
     sides = {"first": pair.first, "second": pair.second}
     return {**sides, "quantities": whole["criteria"], "undecided": list(pair.undecided), **study}

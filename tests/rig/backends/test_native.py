@@ -29,8 +29,11 @@ print(float(simulate(load([Path(sys.argv[1])])[0]).measures.stopped))
 ON_AN_OLD_PROCESSOR = """
 import sys
 from pathlib import Path
-from uictest.core import processor
-processor.processor = lambda: processor.Processor("x86-64", "-fma")
+from llvmlite import binding
+class Features(dict):
+    flatten = str
+binding.get_host_cpu_name = lambda: "x86-64"
+binding.get_host_cpu_features = lambda: Features(fma=False)
 from uictest.rig import simulate
 from uictest.plans.scenario import load
 print(simulate(load([Path(sys.argv[1])])[0]).measures.tobytes().hex())

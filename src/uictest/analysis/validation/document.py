@@ -86,7 +86,7 @@ _VALIDATION: Final = TypeAdapter(Validation)
 
 def validation_json(validation: Validation) -> str:
     """Return a validation as JSON; NaN is null."""
-    form = {**document.head(document.RESULT, "validation"), **to_json_form(Validation, validation)}
+    form = {**document.head(document.RESULT, "validation"), **to_json_form(_VALIDATION, validation)}
     return json.dumps(form, indent=2, allow_nan=False) + "\n"
 
 

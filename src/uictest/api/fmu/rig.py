@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from html import escape
+from importlib import metadata
 from pathlib import Path
 from typing import Any, Final, Literal
 
@@ -16,7 +17,6 @@ from uictest import __version__, rig
 from uictest.api.fmu.building import archive_of, token_of
 from uictest.api.fmu.description import FmiVersion, Model, page, table, table_of_variables
 from uictest.api.fmu.variables import Variable, c_words, model_header, of_wheelsets
-from uictest.core.distributions import distribution_version
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.rig import STEP, STOP_MEMORY, StopInputs, bench
@@ -246,7 +246,7 @@ def _page(
     )
     yield from table_of_variables(variables)
     yield "<h2>Versions</h2>"
-    versions = [("uictest", __version__), *((name, distribution_version(name)) for name in _PACKAGES)]
+    versions = [("uictest", __version__), *((name, metadata.version(name)) for name in _PACKAGES)]
     yield from table(("program", "version"), versions)
     yield "<h2>Files</h2>"
     yield from table(("file", "SHA-256"), _files(case))

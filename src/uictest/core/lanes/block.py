@@ -6,8 +6,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.processor import processor
-
 _WIDTHS = (("avx512f", 8), ("avx", 4))
 """Extensions of x86 and how many double-precision numbers a register of theirs holds."""
 _SMALLEST = 2
@@ -19,14 +17,19 @@ CACHE_LINE = 64
 @cache
 def register_width() -> int:
     """Return how many double-precision numbers a SIMD register of this processor holds."""
-    return next((width for name, width in _WIDTHS if processor().has(name)), _SMALLEST)
+    from llvmlite import binding
+
+    features = binding.get_host_cpu_features()
+    return next((width for name, width in _WIDTHS if features.get(name)), _SMALLEST)
 
 
 @cache
 def fuses() -> bool:
     """Return whether this processor multiplies and adds in one instruction, as nearly all have since 2013."""
+    from llvmlite import binding
+
     # Where every processor of a kind does so, it is not listed.
-    return processor().has("fma", unlisted=True)
+    return bool(binding.get_host_cpu_features().get("fma", True))
 
 
 def block(layout: np.dtype[Any], width: int, count: int = 1) -> NDArray[Any]:

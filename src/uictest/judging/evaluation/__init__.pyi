@@ -36,6 +36,7 @@ from .json_values import (
     from_json_form as from_json_form,
     json_form as json_form,
     required as required,
+    to_json_form as to_json_form,
 )
 from .judgement import (
     Detail as Detail,
@@ -91,4 +92,3 @@ from .verdict import (
     definition_texts as definition_texts,
     relative_margin as relative_margin,
 )
-from .written_form import to_json_form as to_json_form

@@ -77,7 +77,7 @@ def required(*names: str) -> BeforeValidator:
 def from_json_form(
     adapter: TypeAdapter[_Content], content: object, *, place: str = "", context: object = None
 ) -> _Content:
-    """Return the data whose JSON form, as :func:`.to_json_form` writes it, is `content`.
+    """Return the data whose JSON form, as the adapter writes it, is `content`.
 
     `place` is where the content stands in its document. Raises ValueError that names the first place where
     the content is not of that form.
@@ -86,6 +86,11 @@ def from_json_form(
         return adapter.validate_python(content, context=context)
     except ValidationError as error:
         raise ValueError(_first_problem(error, place)) from error
+
+
+def to_json_form(adapter: TypeAdapter[Any], value: object) -> Any:
+    """Return the JSON form of a value: dicts, lists, text, finite numbers and None."""
+    return adapter.dump_python(value, mode="json", by_alias=True)
 
 
 def _first_problem(error: ValidationError, place: str) -> str:

@@ -11,8 +11,7 @@ from typing import Annotated, Any, Final
 
 from pydantic import ConfigDict, SerializerFunctionWrapHandler, TypeAdapter, WrapSerializer
 
-from uictest.judging.evaluation.json_values import from_json_form
-from uictest.judging.evaluation.written_form import to_json_form
+from uictest.judging.evaluation.json_values import from_json_form, to_json_form
 
 _DIGITS = 12
 """Hexadecimal digits of a digest: of ten thousand parts two share one with a probability below 1e-6."""
@@ -103,13 +102,12 @@ def parts_table(cases: Iterable[Mapping[str, EffectivePart]]) -> dict[str, Effec
     return {part.id: part for parts in cases for part in parts.values()}
 
 
-_Parts = dict[str, EffectivePart]
-_PARTS: Final = TypeAdapter(_Parts, config=ConfigDict(extra="forbid", defer_build=True))
+_PARTS: Final = TypeAdapter(dict[str, EffectivePart], config=ConfigDict(extra="forbid", defer_build=True))
 
 
 def parts_form(parts: Mapping[str, EffectivePart]) -> dict[str, Any]:
     """Return the JSON form of parts, under the keys given."""
-    form: dict[str, Any] = to_json_form(_Parts, parts)
+    form: dict[str, Any] = to_json_form(_PARTS, parts)
     return form
 
 

@@ -31,6 +31,7 @@ from uictest.judging.evaluation.json_values import (
     from_json_form,
     json_form,
     required,
+    to_json_form,
 )
 from uictest.judging.evaluation.parameters import DomainOfValidity, EffectivePart, parts_document, parts_of
 from uictest.judging.evaluation.repeats import WrittenRepeats, is_expected
@@ -42,7 +43,6 @@ from uictest.judging.evaluation.verdict import (
     relative_margin,
     with_outcome_of,
 )
-from uictest.judging.evaluation.written_form import to_json_form
 
 
 def _part_ids(parts: Mapping[str, EffectivePart]) -> dict[str, str]:
@@ -253,7 +253,7 @@ def result_document(results: Iterable[CaseResult], **header: Any) -> dict[str, A
 
 def cases_document(results: Iterable[CaseResult]) -> list[dict[str, Any]]:
     """Return the JSON form of results, NaN and infinity as None, without how long they took."""
-    form: list[dict[str, Any]] = to_json_form(list[WrittenCaseResult], list(results))
+    form: list[dict[str, Any]] = to_json_form(_CASES, list(results))
     return form
 
 

@@ -17,8 +17,7 @@ _FIELDS: Final = frozenset({"parts", "cases", "series"})
 _WrittenSeries = Annotated[
     SeriesResult, evaluation.absent_if_empty("requirements", "test_case", "bypassed_k_wet", "firmness")
 ]
-_Series = list[_WrittenSeries]
-_SERIES: Final = TypeAdapter(_Series, config=ConfigDict(extra="forbid", defer_build=True))
+_SERIES: Final = TypeAdapter(list[_WrittenSeries], config=ConfigDict(extra="forbid", defer_build=True))
 
 
 def series_document(results: Sequence[SeriesResult]) -> dict[str, Any]:
@@ -30,7 +29,7 @@ def series_document(results: Sequence[SeriesResult]) -> dict[str, Any]:
     return {
         "parts": evaluation.parts_document(case.parts for case in cases),
         "cases": evaluation.cases_document(cases),
-        "series": evaluation.to_json_form(_Series, list(results)),
+        "series": evaluation.to_json_form(_SERIES, list(results)),
     }
 
 

@@ -239,7 +239,7 @@ _RESULT: Final = TypeAdapter(SweepResult)
 
 def sweep_document(result: SweepResult) -> dict[str, Any]:
     """Return the JSON form of a result; parts are there once, by id."""
-    form: dict[str, Any] = evaluation.to_json_form(SweepResult, result)
+    form: dict[str, Any] = evaluation.to_json_form(_RESULT, result)
     names = list(form)
     place = names.index("worst")
     parts = evaluation.parts_document([result.base, *(case.parts for case in result.worst)])

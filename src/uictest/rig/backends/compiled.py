@@ -12,12 +12,12 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from functools import cache
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 from uictest.controllers import EXCHANGE, OUTPUTS_AT, Controller
 from uictest.core import lanes
-from uictest.core.distributions import distribution_version
 from uictest.core.lanes import translate
 from uictest.core.physics import fma
 from uictest.rig.model.controller import CHOICES, begin, call_step, decide, exchange_at
@@ -124,7 +124,7 @@ def compiler() -> Any:
 @cache
 def compiler_inputs() -> bytes:
     """Return a digest of everything that code depends on before it is made for a processor."""
-    versions = (sys.version_info[:2], *map(distribution_version, ("numba", "llvmlite", "numpy")))
+    versions = (sys.version_info[:2], *map(metadata.version, ("numba", "llvmlite", "numpy")))
     digest = hashlib.sha256(repr((OPTIONS, lanes.fuses(), versions)).encode())
     for source in sources():
         with open(source, "rb") as file:  # noqa: PTH123 - a warm start reads them all

@@ -1,7 +1,7 @@
 """Compiled functions as object files: a warm start loads them without the compiler.
 
-Importing numba and finding code in its own cache takes longer than a dozen stops, and even its code generator
-alone takes longer to load than a stop to run: see :mod:`uictest.rig.backends.loading`.
+Importing numba and finding code in its own cache takes longer than a dozen stops. Its code generator alone
+loads an object file in a tenth of that time.
 
 Code is kept in two forms: the bitcode of a unit, which numba takes some ten seconds to make and which is the
 same for every processor of a kind, and an object file for one processor and one entry of the unit, which is
@@ -19,9 +19,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from uictest.core import lanes, user_cache
-from uictest.core.processor import processor
 from uictest.rig.backends.compiled import OPTIONS, Function, compiler_inputs
-from uictest.rig.backends.loading import LoadedCode, load_object_file, target_machine
 
 Entries = Mapping[str, tuple[Function, tuple[Any, ...]]]
 """Functions of addresses and whole numbers by their names, as :func:`.bitcode` takes them."""
@@ -63,8 +61,8 @@ Watcher = Callable[[str, float], None]
 _BITCODE_SHARE: Final = 0.75
 """Share of the work that ends with the bitcode: measured, 10 of 14 s of single stops, 11 of 16 s of lanes."""
 _compiling = Lock()
-_loaded: dict[str, tuple[LoadedCode, Callable[..., int]]] = {}
-"""Functions by their name, and the code that they are in."""
+_loaded: dict[str, tuple[Any, Callable[..., int]]] = {}
+"""Functions by their name, and what keeps their code in this process."""
 
 
 def _log(title: str, done: float) -> None:
@@ -96,8 +94,8 @@ def native_function(unit: Unit, entry: str, arguments: int) -> Callable[..., int
     """
     with _compiling:
         if entry not in _loaded:
-            code = load_object_file(_object_code(unit, entry, host()))
-            _loaded[entry] = code, _function(code, entry, arguments)
+            engine = load_object_file(_object_code(unit, entry, host()))
+            _loaded[entry] = engine, _function(engine, entry, arguments)
     return _loaded[entry][1]
 
 
@@ -108,9 +106,9 @@ def loaded_beside(entry: str, name: str, arguments: int) -> Callable[..., int] |
     return _function(_loaded[entry][0], name, arguments)
 
 
-def _function(code: LoadedCode, name: str, arguments: int) -> Callable[..., int]:
+def _function(engine: Any, name: str, arguments: int) -> Callable[..., int]:
     prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_int64] * arguments)
-    return prototype(code.address_of(name))
+    return prototype(engine.get_function_address(name))
 
 
 def object_code(unit: Unit, entry: str, target: Target) -> bytes:
@@ -124,9 +122,12 @@ def is_kept(entry: str) -> bool:
     return user_cache.read(entry, _inputs(host())) is not None
 
 
+@cache
 def host() -> Target:
     """Return the processor of this process."""
-    return Target(*processor())
+    from llvmlite import binding
+
+    return Target(binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
 
 
 def address(values: Any, layout: Any, shape: tuple[int, ...] = ()) -> int:
@@ -192,7 +193,7 @@ def object_file(bitcode: bytes, entry: str, target: Target, beside: Collection[s
     """
     from llvmlite import binding
 
-    machine = target_machine(target.processor, target.features, in_library=target.in_library)
+    machine = _machine(target)
     module = binding.parse_bitcode(bitcode)
     for function in module.functions:
         if not function.is_declaration and function.name not in (entry, *beside):
@@ -210,3 +211,28 @@ def object_file(bitcode: bytes, entry: str, target: Target, beside: Collection[s
     unused.add_global_dead_code_eliminate_pass()
     unused.run(module, passes)
     return bytes(machine.emit_object(module))
+
+
+def load_object_file(code: bytes) -> Any:
+    """Load an object file into this process and return what gives its addresses and keeps it loaded."""
+    from llvmlite import binding
+
+    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _machine(host()))
+    engine.add_object_file(binding.ObjectFileRef.from_data(code))
+    engine.finalize_object()
+    return engine
+
+
+def _machine(target: Target) -> Any:
+    from llvmlite import binding
+
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+    return binding.Target.from_default_triple().create_target_machine(
+        cpu=target.processor,
+        features=target.features,
+        opt=3,
+        reloc="pic" if target.in_library else "default",
+        codemodel="small" if target.in_library else "jitdefault",
+        jit=not target.in_library,
+    )

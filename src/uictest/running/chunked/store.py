@@ -9,12 +9,12 @@ import platform
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
+from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from uictest import report
 from uictest.core import document, files
-from uictest.core.distributions import distribution_version
 from uictest.judging.evaluation import EffectiveParts
 from uictest.plans import library
 from uictest.plans.scenario import SURVEY
@@ -129,7 +129,7 @@ def program_digest() -> str:
 
 def _versions() -> dict[str, str]:
     python = ".".join(platform.python_version_tuple()[:2])
-    return {"python": python} | {name: distribution_version(name) for name in _PACKAGES}
+    return {"python": python} | {name: metadata.version(name) for name in _PACKAGES}
 
 
 if TYPE_CHECKING:
