@@ -18,7 +18,7 @@ from uictest.cli.entry import execute
 from uictest.core.measures import STOP_COLUMNS
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, error_result
-from uictest.running.campaign import CaseRun, StopRun, batch
+from uictest.running.campaign import CaseRun, StopRun, train_blocks
 
 STATED = tuple(
     f"--set={each}"
@@ -179,6 +179,6 @@ def made_up(monkeypatch):
         result = CaseResult(*given, outcome, measures=FIGURES, reason="made up")
         return StopRun(stop, CaseRun(result))
 
-    monkeypatch.setattr(batch, "run_stop", examine)
+    monkeypatch.setattr(train_blocks, "run_stop", examine)
     monkeypatch.setattr(rig, "compiled_stop", lambda: None)
     return examined

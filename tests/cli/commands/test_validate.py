@@ -12,7 +12,7 @@ import pytest
 from openpyxl import load_workbook
 
 from uictest.analysis.validation import read_validation
-from uictest.running.campaign import batch
+from uictest.running.campaign import train_blocks
 
 from ..conftest import FIGURES
 
@@ -118,13 +118,13 @@ def test_a_stop_that_the_numbers_come_from_is_listed_and_not_counted(validate):
 def test_every_recorded_stop_has_a_draw_of_its_own_whatever_the_others_are(validate, monkeypatch):
     """One draw for all stops of a speed would make the interval of the bias too narrow."""
     simulated = {}
-    run_stop = batch.run_stop
+    run_stop = train_blocks.run_stop
 
     def noted(stop, *rest):
         simulated[stop.case.id.rpartition(".")[2]] = stop.case.scenario.seed
         return run_stop(stop, *rest)
 
-    monkeypatch.setattr(batch, "run_stop", noted)
+    monkeypatch.setattr(train_blocks, "run_stop", noted)
     files = [record(f"r{error}.csv", SIMULATED - error) for error in (5, 10, 15)]
     answer = validate(f"recordings: [{', '.join(files)}]")
     seeds = dict(simulated)
