@@ -136,10 +136,7 @@ def test_magnets_and_rail_carry_the_attraction(rig):
 
 @pytest.mark.parametrize(
     ("position", "when", "acts"),
-    [
-        *(("R", "emergency", False), ("emergency", "emergency", True)),
-        *(("R", "always", True), ("emergency", "requested", False)),
-    ],
+    [("R", "emergency", False), ("emergency", "emergency", True), ("R", "always", True)],
 )
 def test_it_acts_in_the_position_that_is_said(rig, position, when, acts):
     brake = f"brake.track={{attraction: 100 kN, when: {when}}}"
@@ -319,6 +316,7 @@ def test_a_fault_of_a_brake_that_the_car_lacks_is_refused(rig):
         ("{magnets: 4}", "attraction"),
         ("{attraction: 100 kN, when: sometimes}", "emergency"),
         ("{attraction: 100 kN, attracts: 1}", "attracts"),
+        ("{attraction: 100 kN, when: requested}", "no controller that is built in asks for the track brake"),
     ],
 )
 def test_what_cannot_be_is_refused(rig, section, message):

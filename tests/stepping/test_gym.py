@@ -82,7 +82,10 @@ def test_a_stop_without_a_locked_wheelset_costs_its_distance():
     assert uictest.gym.distance_and_locks(before, locked) == pytest.approx(-0.4)
 
 
-MOTORS = "brake: {dynamic: {force: 60 kN, power: 1.6 MW}, track: {attraction: 50 kN, when: requested}}\n"
+MOTORS = (
+    "brake: {dynamic: {force: 60 kN, power: 1.6 MW}, track: {attraction: 50 kN, when: requested}}\n"
+    'controller: {connect: "tcp://127.0.0.1:1"}\n'
+)
 
 
 def test_with_contract_2_an_action_reduces_the_dynamic_brake_and_asks_for_the_track_brake(write_scenario):

@@ -214,7 +214,10 @@ def test_what_belongs_to_no_contract_is_refused(write_scenario):
 
 
 def test_a_request_of_version_2_brings_the_track_brake_where_the_scenario_says_so(write_scenario):
-    track = "brake: {track: {attraction: 100 kN, when: requested, delay: 0 s}}\n"
+    track = (
+        "brake: {track: {attraction: 100 kN, when: requested, delay: 0 s}}\n"
+        'controller: {connect: "tcp://127.0.0.1:1"}\n'
+    )
     rig = uictest.Rig(write_scenario(track), record=100, contract=2)
     rig.reset()
     while not rig.stopped:

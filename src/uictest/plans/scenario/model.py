@@ -32,6 +32,7 @@ from uictest.plans.scenario.parts.fault import Fault
 from uictest.plans.scenario.parts.measures import MeasureDefinitions
 from uictest.plans.scenario.parts.named_file import OutcomeOfRepeats, Repeat, TestFile, seeds_too_large
 from uictest.plans.scenario.parts.sand import Sander, impossible_sanders
+from uictest.plans.scenario.parts.track_brake import never_requested
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, distinct_values, wheelset_value
 from uictest.plans.scenario.sections import Brake, Drag, Rail, Rig, Simulation, load_share
@@ -155,6 +156,7 @@ class Scenario(TestFile):
         yield from self._brake_too_strong()
         yield from impossible_courses(self)
         yield from impossible_sanders(self)
+        yield from never_requested(self)
         yield from endless_stop(self)
 
     def _delay_too_long(self) -> Iterator[Inconsistency]:

@@ -1,7 +1,7 @@
 """The magnetic track brake of a car: its magnets, and when they are drawn to the rail."""
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -77,3 +77,14 @@ class TrackBrake(Model):
                 f"{denominator.text} is above {numerator.text}: friction would rise with speed",
                 "write the larger speed first: [9.26 km/h, 4.63 km/h]",
             )
+
+
+def never_requested(scenario: Any) -> Iterator[Inconsistency]:
+    """Yield a track brake that waits for the request of a controller that makes none."""
+    track = scenario.brake.track
+    if track is not None and track.when == "requested" and scenario.controller.program is None:
+        yield Inconsistency(
+            ("brake", "track", "when"),
+            "no controller that is built in asks for the track brake",
+            "write `when: always`, or name a controller from outside of contract version 2",
+        )
