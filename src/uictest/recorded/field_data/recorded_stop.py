@@ -31,6 +31,7 @@ from uictest.recorded.field_data.time_axis import (
     disorder,
     gap_defects,
     integrated,
+    interruption,
     low_passed,
     missing_samples,
     resampled,
@@ -114,7 +115,8 @@ def prepare(
         preparation: trigger, raster, filter and standstill.
 
     Raises:
-        UnusableError: the train speed has no usable time axis, no number, or none at the brake command.
+        UnusableError: the train speed has no usable time axis, no number, none at the brake command, or is
+            not recorded for a minute of the stop.
         MapError: nothing marks the brake command, the deceleration is none of a train, or the header states
             a time that is none.
 
@@ -131,8 +133,10 @@ def prepare(
     filtered = _filtered(plausible, preparation)
     speed = filtered["speed"]
     rest = find_standstill(speed.time, speed.samples, trigger.time, float(preparation.standstill_speed))
-    require_plausible_deceleration(speed, trigger.time)
     end = rest.time if rest else float(speed.time[-1])
+    if interrupted := list(interruption(speed.time, trigger.time, end)):
+        raise UnusableError((*defects, *interrupted))
+    require_plausible_deceleration(speed, trigger.time)
     defects += _sensor_defects(filtered, trigger, end)
     defects += distance_defects(filtered, trigger.time, min(end, rest.last) if rest else end, raster)
     defects += _cut_off(speed, trigger, rest)

@@ -51,6 +51,9 @@ class Defect:
 _GAP_INTERVALS = 2.5
 """An interval longer than this many usual ones is a gap, if it also exceeds the raster; chosen."""
 
+_LONGEST_GAP = 60.0
+"""s within a stop for which nothing may be recorded; chosen."""
+
 _COARSEST = 0.25
 """s between samples, a quarter of the time that the shipped criteria let a wheelset be locked; chosen."""
 
@@ -101,6 +104,15 @@ def gap_defects(time: Array, names: str, raster: float) -> Iterator[Defect]:
     more = f" and {len(starts) - 3} more" if len(starts) > 3 else ""
     if len(starts):
         yield Defect("gap", names, f"is not recorded from {listed}{more}")
+
+
+def interruption(time: Array, begin: float, end: float) -> Iterator[Defect]:
+    """Yield the longest gap between two times, s, where it is so long that they hold no stop."""
+    inside = time[(time >= begin) & (time <= end)]
+    k = int(np.argmax(np.diff(inside))) if len(inside) > 1 else 0
+    if len(inside) > 1 and inside[k + 1] - inside[k] > _LONGEST_GAP:
+        gap = f"is not recorded from {inside[k]:.6g} to {inside[k + 1]:.6g} s"
+        yield Defect("gap", "speed", f"{gap}: the clock steps, or the recording was interrupted", True)
 
 
 def is_coarse(interval: float) -> bool:

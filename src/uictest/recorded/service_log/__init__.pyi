@@ -1,3 +1,4 @@
+from .clocks import EARLIEST_DATE as EARLIEST_DATE
 from .command_course import (
     CommandCourse as CommandCourse,
     command_course as command_course,
@@ -5,7 +6,6 @@ from .command_course import (
     read_like as read_like,
 )
 from .finder import (
-    EARLIEST_DATE as EARLIEST_DATE,
     FinderSettings as FinderSettings,
     Log as Log,
     LoggedEvent as LoggedEvent,

@@ -56,7 +56,7 @@ def pieces_of(path: Path, channel_map: ChannelMap, needed: Collection[str] | Non
 
 def _believed(channel: RawChannel) -> RawChannel:
     """Return a channel with NaN for implausible samples."""
-    implausible = beyond(channel.samples, CHANNEL_UNITS[channel.name])
+    implausible = beyond(channel.samples, CHANNEL_UNITS[channel.name]) | np.isinf(channel.samples)
     if not implausible.any():
         return channel
     return replace(channel, samples=np.where(implausible, np.nan, channel.samples))

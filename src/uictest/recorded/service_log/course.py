@@ -8,16 +8,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.recorded.service_log.signals import (
-    Array,
-    Before,
-    Rows,
-    constant_before,
-    continuous_clock,
-    last_interval,
-    reference_speed,
-    steps_of_clock,
-)
+from uictest.recorded.service_log.clocks import continuous_clock, last_interval, steps_of_clock
+from uictest.recorded.service_log.signals import Array, Before, Rows, constant_before, reference_speed
 
 SHORTEST_RELEASE = 3.0
 """s: a shorter release belongs to the application: pressures fall where the WSP vents all; chosen."""
@@ -38,7 +30,7 @@ HELD = 0.1
 _LONG_HELD = 20.0
 """s for which a stop that keeps its speed after the application is remarked on; chosen."""
 ROWS_OF_SPEED = 6
-"""Most rows up to the application whose median is its speed; chosen."""
+"""Most known speeds up to the application whose median is its speed; chosen."""
 _SECONDS_OF_SPEED = 1.0
 """s that these rows span at most; chosen."""
 _TIE = 1e-6
@@ -63,7 +55,7 @@ class Course:
         self.unusable = ~np.isfinite(rows.train)
         self.clock = continuous_clock(rows.time, before)
         self.braked, self.unknown = _applied(self.clock, rows.braked)
-        self.signed = reference_speed(self.clock, rows.train, rows.wheels, before.constant)
+        self.signed = reference_speed(self.clock, rows.train, rows.wheels, before)
         self.speed = np.abs(self.signed)
         self.travelled = _distance(self.clock, self.speed, before.travelled)
         self.steps = steps_of_clock(rows.time)
@@ -80,7 +72,8 @@ class Course:
             float(self.clock[row]),
             last_interval(self.time[: row + 1], self._before),
             float(self.travelled[row]),
-            constant_before(row, self.clock, train, wheels, self._before.constant),
+            constant_before(row, self.clock, train, wheels, self._before.train),
+            constant_before(row, self.clock, wheels, train, self._before.wheels),
         )
 
     def row_before(self, row: int, seconds: float) -> int:
@@ -93,9 +86,9 @@ class Course:
 
     def speed_at(self, first: int) -> float:
         """Return the speed at which the brake is applied in a row."""
-        begin = max(first + 1 - ROWS_OF_SPEED, self.row_before(first, _SECONDS_OF_SPEED))
-        before = self.speed[begin : first + 1]
-        return float(np.nanmedian(before)) if np.isfinite(before).any() else float("nan")
+        before = self.speed[self.row_before(first, _SECONDS_OF_SPEED) : first + 1]
+        known = before[np.isfinite(before)][-ROWS_OF_SPEED:]
+        return float(np.median(known)) if len(known) else float("nan")
 
     def standstill(self, first: int, end: int, level: float) -> int | None:
         """Return the row at which a train that brakes from `first` to `end` falls to a speed and stays there.
@@ -115,6 +108,8 @@ class Course:
     def _drops(self, first: int, row: int) -> bool:
         """Return whether the speed falls to that of a row faster than a train slows down."""
         before = max(min(self.row_before(row, _FALL), row - 1), first)
+        known = np.flatnonzero(np.isfinite(self.speed[first : before + 1]))
+        before = first + int(known[-1]) if len(known) else before
         fall, seconds = self.speed[before] - self.speed[row], self.clock[row] - self.clock[before]
         return bool(fall > _LARGEST_JUMP + _STEEPEST * seconds)
 

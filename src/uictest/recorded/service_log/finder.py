@@ -5,17 +5,17 @@ The log is read once, piece by piece, and the rows of what is over are forgotten
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from uictest.core.recording.formats import UnreadableError
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.recorded.field_data import ChannelMap, MapError
+from uictest.recorded.service_log.clocks import FileClock, in_order
 from uictest.recorded.service_log.course import HELD, ROWS_OF_SPEED, SHORTEST_RELEASE, Course
 from uictest.recorded.service_log.signals import Before, Rows, rows_of
 
@@ -28,12 +28,6 @@ _CALM = 2.0 * SHORTEST_RELEASE
 """s after which it is known whether an application begins in a row; chosen."""
 _LONGEST = 3600.0
 """s: an application without standstill that lasts longer is no braking, its signal is stuck; chosen."""
-
-
-EARLIEST_DATE: Final = 946_684_800.0
-"""s: 2000-01-01 as Unix time; a clock that shows less counts from somewhere else."""
-_LARGEST_OVERLAP = 60.0
-"""s by which a clock may have been put right between two files; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,47 +93,29 @@ class Log:
 
 
 def find_stops(files: Sequence[Path], channel_map: ChannelMap, settings: FinderSettings | None = None) -> Log:
-    """Return the stops in a log of one or several files, which follow each other.
+    """Return the stops in a log of one or several files, which follow each other, by their dates if all have.
 
     Raises UnreadableError, MissingExtraError, MapError, OSError.
     """
-    if twice := next((path for path in files if files.count(path) > 1), None):
-        raise UnreadableError(f"{twice}: named twice, its stops would be found twice")
     finder = _Finder(settings or FinderSettings(), float(channel_map.preparation.standstill_speed))
     events: list[LoggedEvent] = []
-    spans: dict[Path, tuple[float, float]] = {}
-    for path in files:
-        finder.begin(path)
-        begin: float | None = None
+    clocks = [FileClock(path) for path in files]
+    for clock in clocks:
+        finder.begin(clock.file)
         try:
-            for rows in rows_of(path, channel_map):
+            for rows in rows_of(clock.file, channel_map):
                 events += finder.add(rows)
-                begin, end = float(rows.time[0]) if begin is None else begin, float(rows.time[-1])
-                spans[path] = begin, end
+                clock.add(rows)
+            clock.require_fine()
         except (UnreadableError, MapError) as error:
-            raise type(error)(f"{path}: {error}") from error
-    _reject_overlaps(spans)
+            raise type(error)(f"{clock.file}: {error}") from error
     events += finder.rest()
-    return Log(
-        files,
-        (*(begin.row for begin in finder.begun), finder.rows),
-        tuple(event for event in events if not event.reason),
-        tuple(event for event in events if event.reason),
-    )
-
-
-def _reject_overlaps(spans: Mapping[Path, tuple[float, float]]) -> None:
-    """Raise UnreadableError where files have the same rows: their stops would be found twice.
-
-    Only dates tell it; other clocks may begin anew in each file.
-    """
-    dated = sorted((*span, path) for path, span in spans.items() if min(span) > EARLIEST_DATE)
-    for (_, end, path), (begin, _, following) in pairwise(dated):
-        if end - begin > _LARGEST_OVERLAP:
-            raise UnreadableError(
-                f"{following}: begins {end - begin:.0f} s before {path} ends, its stops would be found twice:"
-                " cut one of them, or find the stops of each by itself"
-            )
+    stops = tuple(event for event in events if not event.reason)
+    ordered = in_order(clocks, {event.file for event in stops})
+    if ordered != list(files):
+        return find_stops(ordered, channel_map, settings)
+    first_rows = *(begin.row for begin in finder.begun), finder.rows
+    return Log(files, first_rows, stops, tuple(event for event in events if event.reason))
 
 
 class _Begin(NamedTuple):
@@ -240,7 +216,9 @@ class _Finder:
         elif rest is not None and initial >= self._settings.from_speed:
             reason = ""
         else:
-            reason = self._reason(initial, final, whole=course.is_whole(end), too_long=too_long)
+            known = np.append(initial, course.speed[first : stop_row + 1])
+            last = float(known[known > self._lowest][-1]) if initial > self._lowest else initial
+            reason = self._reason(initial, final, last, whole=course.is_whole(end), too_long=too_long)
         return self._noted(course, max(self._released - course.first_row, 0), first, stop_row, reason)
 
     def _noted(self, course: Course, begin_row: int, first: int, stop_row: int, reason: str) -> LoggedEvent:
@@ -259,7 +237,7 @@ class _Finder:
             tuple(course.remarks(rows, first, stop_row)),
         )
 
-    def _reason(self, initial: float, final: float, *, whole: bool, too_long: bool) -> str:
+    def _reason(self, initial: float, final: float, last: float, *, whole: bool, too_long: bool) -> str:
         """Return why an application of the brake is no stop."""
         kmh = KILOMETRE_PER_HOUR
         if not np.isfinite(initial):
@@ -268,6 +246,8 @@ class _Finder:
             return "without motion"
         if initial < self._settings.from_speed:
             return f"from {initial / kmh:.1f} km/h, below {self._settings.from_speed / kmh:g} km/h"
+        if not too_long and not final > self._lowest:
+            return f"the speed is lost at {last / kmh:.1f} km/h"
         if too_long:
             return f"longer than {_LONGEST / 60.0:g} min without standstill: the brake signal may be stuck"
         if not whole:

@@ -36,10 +36,10 @@ _LEAST_STUCK = 2.0
 """s for which a speed may show one number to the last digit while the wheels change theirs; chosen."""
 _TELLING_CHANGE = 0.5
 """m/s by which the wheels must change meanwhile; chosen."""
+_CREEPS = 1.0
+"""m/s below which a train speed may be that of a dead sensor if wheels roll; chosen."""
 STUCK_BEFORE = 5.0
 """s before a speed is known to be stuck from which it counts as stuck; chosen."""
-_LONGEST_INTERVAL = 60.0
-"""s: a longer interval between two rows is a step of the clock or an interruption; chosen."""
 
 
 class Rows(NamedTuple):
@@ -133,7 +133,7 @@ def _second_largest(wheels: Sequence[Array]) -> Array:
 
 
 class Constant(NamedTuple):
-    """A number that the train speed shows, since when, s, and the wheel speeds since, m/s."""
+    """A number that a speed shows, since when, s, and between which the other one ran since, m/s."""
 
     number: float = np.nan
     since: float = 0.0
@@ -149,7 +149,7 @@ class Before(NamedTuple):
         clock: of that row, without steps, s.
         interval: last one of the recorded clock that was no step, s.
         travelled: distance from the beginning of the log, m.
-        constant: what the train speed showed up to it.
+        train, wheels: what the two speeds showed up to it.
 
     """
 
@@ -157,71 +157,59 @@ class Before(NamedTuple):
     clock: float = 0.0
     interval: float = 1.0
     travelled: float = 0.0
-    constant: Constant = Constant()
+    train: Constant = Constant()
+    wheels: Constant = Constant()
 
 
-def reference_speed(clock: Array, train: Array, wheels: Array, begun: Constant) -> Array:
+def reference_speed(clock: Array, train: Array, wheels: Array, before: Before) -> Array:
     """Return the train speed, and that of the wheels where its sensor shows none, zero or one number.
 
-    A sensor that shows one number is known to be stuck once the wheels have changed meanwhile, and counts as
-    stuck from `STUCK_BEFORE` before. `begun` is what it showed before.
+    It is not that of the wheels where these show one number themselves, or spin while the train creeps.
     """
-    dead = ~np.isfinite(train) | (np.abs(train) < 0.5 * np.abs(wheels) - 1.0)
-    for first, end, since, least, largest in _constants(clock, train, wheels, begun):
-        if clock[end - 1] - since <= _LEAST_STUCK or train[first] == 0.0:
+    rolling = np.where(_stuck(clock, wheels, train, before.wheels), np.nan, wheels)
+    dead = ~np.isfinite(train) | (np.abs(train) < np.minimum(0.5 * np.abs(rolling) - 1.0, _CREEPS))
+    dead |= _stuck(clock, train, wheels, before.train)
+    return np.where(dead & np.isfinite(rolling), rolling, train)
+
+
+def _stuck(clock: Array, speed: Array, other: Array, begun: Constant) -> NDArray[np.bool_]:
+    """Return where a speed is stuck: it shows one number while the other one changes.
+
+    It is known then, and counts as stuck from `STUCK_BEFORE` before. `begun` is what it showed before.
+    """
+    stuck = np.zeros(len(clock), dtype=np.bool_)
+    for first, end, since, least, largest in _constants(clock, speed, other, begun):
+        if clock[end - 1] - since <= _LEAST_STUCK or speed[first] == 0.0:
             continue
-        lowest = np.fmin.accumulate(np.append(least, wheels[first:end]))[1:]
-        highest = np.fmax.accumulate(np.append(largest, wheels[first:end]))[1:]
+        lowest = np.fmin.accumulate(np.append(least, other[first:end]))[1:]
+        highest = np.fmax.accumulate(np.append(largest, other[first:end]))[1:]
         known = (highest - lowest > _TELLING_CHANGE) & (clock[first:end] - since > _LEAST_STUCK)
         if known.any():
             before = np.searchsorted(clock, clock[first + int(np.argmax(known))] - STUCK_BEFORE)
-            dead[max(first, int(before)) : end] = True
-    return np.where(dead & np.isfinite(wheels), wheels, train)
+            stuck[max(first, int(before)) : end] = True
+    return stuck
 
 
-def constant_before(row: int, clock: Array, train: Array, wheels: Array, begun: Constant) -> Constant:
-    """Return what the train speed shows up to a row, without it."""
-    *_, (first, end, since, least, largest) = _constants(clock[:row], train[:row], wheels[:row], begun)
-    low, high = (f.reduce(wheels[first:end]) for f in (np.fmin, np.fmax))
-    return Constant(float(train[first]), since, float(np.fmin(low, least)), float(np.fmax(high, largest)))
+def constant_before(row: int, clock: Array, speed: Array, other: Array, begun: Constant) -> Constant:
+    """Return what a speed shows up to a row, without it."""
+    *_, (first, end, since, least, largest) = _constants(clock[:row], speed[:row], other[:row], begun)
+    low, high = (f.reduce(other[first:end]) for f in (np.fmin, np.fmax))
+    return Constant(float(speed[first]), since, float(np.fmin(low, least)), float(np.fmax(high, largest)))
 
 
 def _constants(
-    clock: Array, train: Array, wheels: Array, begun: Constant
+    clock: Array, speed: Array, other: Array, begun: Constant
 ) -> Iterator[tuple[int, int, float, float, float]]:
-    """Yield the rows over which the train speed shows one number, if for long, and last of all the last ones.
+    """Yield the rows over which a speed shows one number, if for long, and last of all the last ones.
 
-    With them, since when it does, and between which speeds the wheels ran before the first row.
+    With them, since when it does, and between which speeds the other ran before the first row.
     """
-    edges = np.concatenate(([0], np.flatnonzero(np.diff(train) != 0.0) + 1, [len(train)]))
+    edges = np.concatenate(([0], np.flatnonzero(np.diff(speed) != 0.0) + 1, [len(speed)]))
     long = clock[edges[1:] - 1] - clock[edges[:-1]] > _LEAST_STUCK
     long[[0, -1]] = True
     for k in np.flatnonzero(long):
         first, end = int(edges[k]), int(edges[k + 1])
-        if k == 0 and train[0] == begun.number:
+        if k == 0 and speed[0] == begun.number:
             yield first, end, *begun[1:]
         else:
             yield first, end, float(clock[first]), np.nan, np.nan
-
-
-def continuous_clock(time: Array, before: Before) -> Array:
-    """Return a clock that runs on where the recorded one steps: there it takes the last interval before."""
-    intervals = np.concatenate(([before.interval], np.diff(time)))
-    sound = _runs_on(intervals)
-    last = np.maximum.accumulate(np.where(sound, np.arange(len(intervals)), 0))
-    return np.cumsum(np.concatenate(([before.clock], intervals[last][1:])))
-
-
-def last_interval(time: Array, before: Before) -> float:
-    """Return the last interval of the recorded clock that is no step, s."""
-    sound = np.flatnonzero(_runs_on(np.diff(time)))
-    return float(time[sound[-1] + 1] - time[sound[-1]]) if len(sound) else before.interval
-
-
-def steps_of_clock(time: Array) -> NDArray[np.intp]:
-    """Return the rows at which the recorded clock steps: back, not at all, or by more than a minute."""
-    return np.flatnonzero(~_runs_on(np.diff(time))) + 1
-
-
-def _runs_on(intervals: Array) -> NDArray[np.bool_]:
-    return (intervals > 0.0) & (intervals <= _LONGEST_INTERVAL)

@@ -81,13 +81,18 @@ def _joined(parts: list[dict[str, Array]]) -> dict[str, Array]:
     }
 
 
+def _runs_backwards(name: str, channels: dict[str, Array]) -> bool:
+    """Return whether a channel counts backwards; pole wheels do not, even where the train runs so."""
+    own = "speed" if name == "distance" else name
+    return name in _SIGNED and bool(np.nanmedian(np.append(channels[own], 0.0)) < 0.0)
+
+
 def _parquet(parts: list[_Part], event: LoggedEvent, lead: float) -> bytes:
     """Return a stop as a file; its clock is as recorded, steps included, which a recording could not hold.
 
     It states the brake command, `lead` before the brake is applied, unless it begins with the brake applied.
     """
     channels = _joined([part.channels for part in parts])
-    backwards = np.nanmedian(np.append(channels["speed"], 0.0)) < 0.0
     facts = {
         "source": event.file.name,
         "place": f"sample {event.row + 1}, {event.time:.12g} s, {event.distance:.6g} m",
@@ -98,5 +103,5 @@ def _parquet(parts: list[_Part], event: LoggedEvent, lead: float) -> bytes:
     if not event.begins_braked:
         facts[BRAKE_COMMAND_TIME] = f"{event.time - lead:.6f} s"
     units = {"time": "s", **CHANNEL_UNITS}
-    signed = {name: -v if backwards and name in _SIGNED else v for name, v in channels.items()}
+    signed = {name: -v if _runs_backwards(name, channels) else v for name, v in channels.items()}
     return recording.channels_bytes(signed, {name: units[name] for name in signed}, facts)

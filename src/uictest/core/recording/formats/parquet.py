@@ -27,7 +27,7 @@ def read(path: Path) -> Contents:
     try:
         with path.open("rb") as file, pq.ParquetFile(file) as parquet:
             rows, schema = parquet.metadata.num_rows, parquet.schema_arrow
-            _reject_same_names(schema.names)
+            reject_same_names(schema.names)
             names = [field.name for field in schema if _holds_samples(field.type)]
             check_size([(rows,)] * len(schema))
             table = parquet.read(columns=names, use_threads=False)
@@ -45,7 +45,8 @@ def encoded(recording: Recording) -> bytes:
     return parquet_bytes(recording)
 
 
-def _reject_same_names(names: list[str]) -> None:
+def reject_same_names(names: list[str]) -> None:
+    """Raise UnreadableError for a name that several columns have."""
     for name, count in Counter(names).items():
         if count > 1:
             raise UnreadableError(f"{count} columns have the name {name!r}")

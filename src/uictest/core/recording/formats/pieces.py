@@ -76,6 +76,7 @@ def _parquet(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Ta
     import pyarrow.parquet as pq
 
     file = pq.ParquetFile(path, pre_buffer=False)  # else all that is to be read stays in memory
+    parquet.reject_same_names(file.schema_arrow.names)
     names = [name for name in file.schema_arrow.names if wanted is None or name in wanted]
     units = parquet.units_of(file.schema_arrow)
     batches: Iterator[Any] = file.iter_batches(_ROWS, columns=names, use_threads=True)
@@ -149,5 +150,8 @@ def _samples(name: str, column: Any, dated: set[str]) -> Samples:
     if texts and name not in dated and (first is None or not csv_text.is_date(first.as_py())):
         return parquet.samples_of_column(column)
     dated.add(name)
-    stamps = pd.to_datetime(pd.Series(column.to_pandas()), format="ISO8601", errors="coerce", utc=True)
+    cells = pd.Series(column.to_pandas())
+    stamps = pd.to_datetime(cells, format="ISO8601", errors="coerce", utc=True)
+    if len(unread := cells[stamps.isna() & cells.notna()]):
+        raise UnreadableError(f"{name}: {unread.iloc[0]!r}: write dates as 2026-05-31T12:00:00.000")
     return np.asarray((stamps - pd.Timestamp(0, tz="UTC")).dt.total_seconds(), dtype=np.float64)

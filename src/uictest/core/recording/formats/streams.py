@@ -80,13 +80,13 @@ def tdms_pieces(
     """Yield a TDMS file as :func:`in_step`; see `read_pieces`."""
     nptdms = required_module("nptdms", tdms.EXTRA)
     with files.temporary_folder() as folder, nptdms.TdmsFile.open(path) as opened:
-        is_cut = opened.file_status.incomplete_final_segment
+        is_cut, begun = opened.file_status.incomplete_final_segment, tdms.begin_of(opened)
         streams = [
             _tdms_blocks(
                 group.name, raster, [_short_chunks(each, folder, at_once) for each in chosen], at_once
             )
             for group in opened.groups()
-            for raster, channels in tdms.rasters_of(group, is_cut=is_cut).items()
+            for raster, channels in tdms.rasters_of(group, begun, is_cut=is_cut).items()
             if (chosen := [each for each in channels if _is_wanted(each.name, group.name, wanted)])
         ]
         yield from in_step(streams, leading)

@@ -15,6 +15,8 @@ from uictest.core.recording.recording import TIME, Contents, Group, Recording, S
 
 EXTRA = "tdms"
 _GROUP = "stop"
+_NO_DATE = np.datetime64("1971-01-01", "us")
+"""Up to it a start is none: LabVIEW writes 1904-01-01 for an unknown one."""
 _EVEN = 1e-9
 """Share of the sampling interval by which samples of an even raster may miss it."""
 
@@ -29,7 +31,8 @@ def read(path: Path) -> Contents:
         channels = [channel for group in tdms.groups() for channel in group.channels()]
         check_size((len(channel),) for channel in channels)
         skipped: dict[str, str] = {}
-        groups = tuple(group for group in tdms.groups() for group in _groups(group, skipped))
+        begun = begin_of(tdms)
+        groups = tuple(each for group in tdms.groups() for each in _groups(group, begun, skipped))
         facts = {str(key): str(value) for key, value in tdms.properties.items()}
         return Contents(groups, facts, skipped)
 
@@ -69,8 +72,8 @@ def _names_of_states(name: str) -> dict[str, object]:
     return {"states": ", ".join(f"{number} = {state}" for state, number in STATES[kind].items())}
 
 
-def _groups(group: Any, skipped: dict[str, str]) -> Iterator[Group]:
-    for (length, interval, start), channels in rasters_of(group).items():
+def _groups(group: Any, begun: Any, skipped: dict[str, str]) -> Iterator[Group]:
+    for (length, interval, start), channels in rasters_of(group, begun).items():
         read = {channel.name: numbers(channel[:]) for channel in channels}
         kept = {name: samples for name, samples in read.items() if samples is not None}
         skipped |= {f"{group.name}/{name}": "holds no numbers" for name in read if name not in kept}
@@ -80,15 +83,27 @@ def _groups(group: Any, skipped: dict[str, str]) -> Iterator[Group]:
             yield Group(group.name, kept, {n: u for n, u in units.items() if n in kept}, time)
 
 
-def rasters_of(group: Any, *, is_cut: bool = False) -> dict[tuple[int, float, float], list[Any]]:
+def begin_of(tdms: Any) -> Any:
+    """Return when the first waveform of a file begins; None where not all of its channels say so."""
+    stamps = [each.properties.get("wf_start_time") for group in tdms.groups() for each in group.channels()]
+    known = [each for each in stamps if each is not None and np.datetime64(each) > _NO_DATE]
+    return min(known) if known and len(known) == len(stamps) else None
+
+
+def rasters_of(
+    group: Any, begun: Any = None, *, is_cut: bool = False
+) -> dict[tuple[int, float, float], list[Any]]:
     """Return the channels of a group by length, interval and start, s; interval zero: not stated.
 
+    A start counts from when the file has `begun`, where it says when its waveforms begin.
     Of a file that `is_cut` off, channels of one raster count as long as the shortest.
     """
     rasters: dict[tuple[int, float, float], list[Any]] = {}
     for channel in group.channels():
         interval = float(channel.properties.get("wf_increment", 0.0))
         start = float(channel.properties.get("wf_start_offset", 0.0))
+        if begun is not None:
+            start += float((channel.properties["wf_start_time"] - begun) / np.timedelta64(1, "us")) * 1e-6
         rasters.setdefault((0 if is_cut else len(channel), interval, start), []).append(channel)
     if is_cut:
         return {(min(map(len, each)), *key[1:]): each for key, each in rasters.items()}

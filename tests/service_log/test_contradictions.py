@@ -1,0 +1,163 @@
+"""Sensors that contradict each other, clocks that cannot be right, files with the same rows."""
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from pyarrow import parquet
+
+from tests.service_log.test_found_stops import MAP, STEP, UNITS, table, written
+from tests.service_log.test_odd_logs import KINDS, PLACES, found
+from uictest.core.recording.formats import UnreadableError, streams
+from uictest.recorded.field_data import UnusableError, stop_in
+from uictest.recorded.service_log import find_stops, write_stops
+
+BEGIN = 1.75e9
+
+
+def braking(speed, end=0.0):
+    """Return 10 s at a speed, and 30 s down to another one with the brake applied, then released."""
+    course = np.concatenate((np.full(100, speed), np.linspace(speed, end, 300), np.full(200, end)))
+    noise = np.random.default_rng(1).normal(0.0, 0.01, len(course)) * (course != 0.0)
+    brake = np.concatenate((np.zeros(100), np.ones(400), np.zeros(100)))
+    return {"time": STEP * np.arange(600), "speed": course + noise, "brake_command": brake}
+
+
+@pytest.mark.parametrize("number", [100.0 / 3.6, 655.35 / 3.6])
+def test_two_wheel_sensors_that_show_one_number_hide_no_stop(tmp_path, number):
+    columns = table(KINDS)
+    columns |= {f"wheel_speed_{n}": np.full(len(columns["time"]), number) for n in (3, 4)}
+    assert found(columns, tmp_path / "log.parquet")[1] == PLACES
+
+
+def test_wheels_that_spin_make_no_stop_of_a_slow_train(tmp_path):
+    columns = braking(14.0 / 3.6)
+    columns |= {f"wheel_speed_{n}": np.where(columns["speed"] > 3.0, 12.5, 0.0) for n in (1, 2, 3, 4)}
+    _, places, reasons = found(columns, tmp_path / "log.parquet")
+    assert places == []
+    assert reasons[0].startswith("from 14.")
+
+
+def test_a_speed_that_comes_back_as_zero_ends_no_stop(tmp_path):
+    columns = braking(30.0)
+    columns["speed"][180:190], columns["speed"][190:210] = np.nan, 0.0
+    log, places, _ = found(columns, tmp_path / "log.parquet")
+    assert places == [100]
+    assert log.stops[0].rows[1] > 400, "standstill, not the zeros"
+
+
+@pytest.mark.parametrize("lost", [0.0, np.nan])
+def test_a_speed_that_is_lost_below_a_limit_is_told_as_that(tmp_path, lost):
+    columns = braking(30.0)
+    columns["speed"][columns["speed"] < 5.0] = lost
+    (reason,) = found(columns, tmp_path / "log.parquet")[2]
+    assert reason.startswith("the speed is lost at 18.")
+
+
+def test_an_infinite_speed_is_none(tmp_path):
+    columns = braking(30.0)
+    columns["speed"][50] = np.inf
+    assert found(columns, tmp_path / "log.parquet")[0].stops[0].distance == pytest.approx(300.0, rel=0.02)
+
+
+def test_a_speed_recorded_in_every_tenth_row_is_known(tmp_path):
+    columns = {name: np.repeat(samples, 10) for name, samples in braking(30.0).items()}
+    columns["time"] = 0.1 * STEP * np.arange(6000)
+    columns["speed"][np.arange(6000) % 10 != 0] = np.nan
+    log, _, _ = found(columns, tmp_path / "log.parquet")
+    assert log.stops[0].speed == pytest.approx(30.0, abs=0.05)
+
+
+@pytest.mark.parametrize("digits", [0, 1])
+def test_a_clock_too_coarse_for_its_rows_is_refused(tmp_path, digits):
+    columns = braking(30.0)
+    columns["time"] = np.floor(0.01 * np.arange(600) * 10**digits) / 10**digits
+    with pytest.raises(UnreadableError, match=r"repeats its time in 9[09] % of the rows"):
+        found(columns, tmp_path / "log.parquet")
+
+
+@pytest.mark.parametrize("suffix", [" AM", " CET", ":00"])
+def test_dates_that_cannot_be_read_are_told(tmp_path, suffix):
+    columns = braking(30.0)
+    names = ["time", *(f"{name} [{UNITS.get(name, 'm/s')}]" for name in columns if name != "time")]
+    time = pa.array([f"2026-05-31 11:58:{k // 10 % 60:02d}.{k % 10}{suffix}" for k in range(600)])
+    pa.csv.write_csv(pa.table([time, *list(columns.values())[1:]], names=names), tmp_path / "log.csv")
+    with pytest.raises(UnreadableError, match=r"time: '2026-05-31 11:58:00\.0.*write dates as"):
+        find_stops([tmp_path / "log.csv"], MAP)
+
+
+def test_a_clock_put_forward_within_a_stop_makes_it_an_error(tmp_path):
+    columns = braking(30.0)
+    columns["time"][250:] += 28_800.0
+    log, _, _ = found(columns, tmp_path / "log.parquet")
+    (path,) = write_stops(log, MAP, tmp_path / "stops")
+    with pytest.raises(UnusableError, match=r"speed is not recorded from 24\.9 to 28825 s"):
+        stop_in(path, MAP)
+
+
+def test_a_copy_is_told_whatever_its_name_and_clock(tmp_path):
+    first = written(braking(30.0), tmp_path / "log.parquet")
+    (tmp_path / "other.parquet").symlink_to(first)
+    with pytest.raises(UnreadableError, match=r"other\.parquet: named twice, or a copy of .*log\.parquet"):
+        find_stops([first, tmp_path / "other.parquet"], MAP)
+
+
+def test_files_with_dates_are_read_in_their_order(tmp_path):
+    columns = table(KINDS)
+    columns["time"] += BEGIN
+    parts = {"a": slice(0, 1500), "b": slice(1500, None)}
+    late, early = (
+        written({k: v[parts[name]] for k, v in columns.items()}, tmp_path / f"{name}.parquet")
+        for name in ("b", "a")
+    )
+    log = find_stops([late, early], MAP)
+    assert [(event.file, event.row) for event in log.stops] == [(early, place) for place in PLACES]
+
+
+def test_stops_of_an_overlap_of_half_a_minute_are_not_found_twice(tmp_path):
+    columns = table(KINDS)
+    columns["time"] += BEGIN
+    parts = [slice(0, 500), slice(180, None)]
+    files = [
+        written({k: v[part] for k, v in columns.items()}, tmp_path / f"{n}.parquet")
+        for n, part in enumerate(parts)
+    ]
+    with pytest.raises(UnreadableError, match="begins 32 s before"):
+        find_stops(files, MAP)
+
+
+def test_pole_wheels_have_no_sign_when_the_train_runs_backwards(tmp_path):
+    columns = braking(30.0)
+    columns |= {f"wheel_speed_{n}": np.abs(columns["speed"]) for n in (1, 2, 3, 4)}
+    columns["speed"] = -columns["speed"]
+    log, _, _ = found(columns, tmp_path / "log.parquet")
+    (path,) = write_stops(log, MAP, tmp_path / "stops")
+    stop = stop_in(path, MAP).recording
+    assert np.median(stop["speed"]) == pytest.approx(np.median(stop["wheel_speed_1"]))
+    assert np.median(stop["speed"]) > 0.0
+
+
+def test_a_name_of_two_columns_is_told(tmp_path):
+    columns = braking(30.0)
+    names = [*columns, "speed"]
+    samples = pa.Table.from_arrays([pa.array(columns[name]) for name in names], names=names)
+    parquet.write_table(samples, tmp_path / "log.parquet")
+    with pytest.raises(UnreadableError, match="2 columns have the name 'speed'"):
+        find_stops([tmp_path / "log.parquet"], MAP)
+
+
+def test_waveforms_of_devices_that_start_apart_lie_where_they_began(tmp_path):
+    nptdms = pytest.importorskip("nptdms")
+    start = np.datetime64("2026-05-31T12:00:00", "us")
+    objects = [
+        nptdms.ChannelObject(
+            "g",
+            name,
+            np.arange(100.0),
+            {"wf_increment": 0.1, "wf_start_time": start + np.timedelta64(late, "s")},
+        )
+        for name, late in (("speed", 0), ("brake_line_pressure", 3))
+    ]
+    with nptdms.TdmsWriter(tmp_path / "log.tdms") as writer:
+        writer.write_segment(objects)
+    (piece,) = streams.tdms_pieces(tmp_path / "log.tdms", None, ("speed",), 1000)
+    assert [group.time[0] for group in piece.groups] == pytest.approx([0.0, 3.0])
