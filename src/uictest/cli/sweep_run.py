@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager
+from importlib import import_module
 from pathlib import Path
 from time import perf_counter
 
@@ -21,6 +22,31 @@ from uictest.plans import sweeps
 from uictest.report import counted, printable
 from uictest.running import chunked
 from uictest.runs import history
+
+
+class _WithoutPandas:
+    """A finder of modules that finds no pandas."""
+
+    @staticmethod
+    def find_spec(name: str, path: object = None, target: object = None) -> None:
+        """Raise ModuleNotFoundError for pandas, and leave all else to the other finders."""
+        if name == "pandas":
+            raise ModuleNotFoundError(name)
+
+
+def load_arrow() -> None:
+    """Load pyarrow without pandas, which a sweep has no use for and which takes longer to load than a stop.
+
+    With its first value pyarrow looks for pandas, once, to tell whether the value is an object of it. Where
+    one is asked for later, it loads pandas all the same.
+    """
+    if "pandas" in sys.modules:
+        return
+    sys.meta_path.insert(0, _WithoutPandas)
+    try:
+        import_module("pyarrow").scalar(True)
+    finally:
+        sys.meta_path.remove(_WithoutPandas)
 
 
 def selected_cases(plan: sweeps.Plan, expression: str | None) -> chunked.CaseSelection:

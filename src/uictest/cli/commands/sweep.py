@@ -121,6 +121,7 @@ def sweep(
     plan = sweeps.load_sweep(file, tuple(overrides or ()), seed, trusted or ())
     if plan.written_now and not quiet:
         message(f"{plan.file}: {plan.written_now}")
+    sweep_run.load_arrow()
     selection = sweep_run.selected_cases(plan, expression)
     if selection.size == 0:
         message(f"uictest: nothing selected among {report.counted(plan.size, 'case')}")

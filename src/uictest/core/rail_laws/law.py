@@ -3,7 +3,6 @@
 import pkgutil
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
-from inspect import signature
 from typing import Any, Final, NamedTuple
 
 from uictest.core.rail_laws import laws
@@ -66,7 +65,8 @@ class RailLaw(NamedTuple):
 
     def passed(self, function: Callable[..., float]) -> list[int]:
         """Return the places of those own numbers that one of the functions names."""
-        named = signature(function).parameters
+        code = function.__code__
+        named = code.co_varnames[: code.co_argcount]
         return [k for k, name in enumerate(self.numbers) if name in named]
 
 
