@@ -24,7 +24,7 @@ from growth import SCENARIO
 
 from uictest import rig
 from uictest.plans.sweeps import Plan, load_sweep
-from uictest.running.chunked import ChunkRunner, chunk_runner
+from uictest.running.chunked import BlockRunner, chunk_runner
 from uictest.running.chunked.chunk import parquet_bytes
 from uictest.running.chunked.table import rows
 
@@ -78,7 +78,7 @@ def plan_of(text: str, folder: Path) -> Plan:
     return load_sweep(file, trusted=[SCENARIO.parent.parent])
 
 
-def repeated_measures(runner: ChunkRunner) -> ChunkRunner:
+def repeated_measures(runner: BlockRunner) -> BlockRunner:
     """Return a runner that repeats the measures of some simulated cases instead of simulating."""
     block = runner.assembler.block(np.arange(SIMULATED))
     simulated = runner.simulate(block.parameters, block.wheelset_parameters, block.rail)
@@ -98,7 +98,7 @@ def seconds(call: Callable[[], Any]) -> tuple[float, Any]:
     return time.thread_time() - begin, result
 
 
-def turn(runner: ChunkRunner, indices: Any) -> tuple[list[float], Counter[str]]:
+def turn(runner: BlockRunner, indices: Any) -> tuple[list[float], Counter[str]]:
     """Return the times of assembling, judging and writing one chunk, and its outcomes."""
     assembling, block = seconds(lambda: runner.assembler.block(indices))
     judging, (results, repeated) = seconds(lambda: runner.results(block))
@@ -106,7 +106,7 @@ def turn(runner: ChunkRunner, indices: Any) -> tuple[list[float], Counter[str]]:
     return [assembling, judging, writing], Counter(each.outcome for each in results)
 
 
-def measure(runner: ChunkRunner, cases: int, turns: int) -> None:
+def measure(runner: BlockRunner, cases: int, turns: int) -> None:
     """Print the medians of a number of chunks, the first of which does not count."""
     times, outcomes = [], Counter[str]()
     for number in range(turns + 1):

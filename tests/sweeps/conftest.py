@@ -16,7 +16,7 @@ from uictest.controllers import HEADER
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.plans.sweeps import load_sweep
 from uictest.rig.model.rail import FRICTIONS
-from uictest.running.chunked import ChunkRunner, ChunkStore
+from uictest.running.chunked import BlockRunner, ChunkStore
 from uictest.running.chunked.case_blocks import BlockAssembler
 
 SCENARIO = """\
@@ -105,7 +105,7 @@ def formula(parameters, wheelset_parameters, rail):
 @pytest.fixture
 def made_up():
     """A runner whose stops are the formula."""
-    return lambda plan: ChunkRunner(BlockAssembler(plan), formula, plan, rig.run_block)
+    return lambda plan: BlockRunner(BlockAssembler(plan), formula, plan, rig.run_block)
 
 
 @pytest.fixture

@@ -16,6 +16,7 @@ from uictest.running.chunked import ChunkStore
 from uictest.runs.batch import simulate_cases
 from uictest.runs.errors import InvalidInputError
 from uictest.runs.observer import Observer
+from uictest.runs.scenario_files import require_cars_alone
 from uictest.runs.sweep_chunks import SweepRequest, prepared_runner, run_missing_chunks
 
 
@@ -42,6 +43,8 @@ def run_sweep(request: SweepRequest, observer: Observer) -> FinishedSweep | None
     is raised: InvalidInputError where the folder is in use or holds the chunks of other inputs, OSError,
     KeyboardInterrupt, MaxfailReached.
     """
+    if request.firm:
+        require_cars_alone([request.selection.plan.base, *request.calibration])
     with (
         _locked(request.folder, shared=request.shard.count > 1 and not request.restart),
         rig.Workers() as workers,

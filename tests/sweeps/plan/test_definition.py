@@ -218,8 +218,8 @@ def test_an_axis_has_one_error_at_its_place(load, text, column, expected):
 
 def test_only_the_first_rejected_value_is_read_as_a_scenario(load, monkeypatch):
     read = []
-    original = BaseCase.scenario_with
-    monkeypatch.setattr(BaseCase, "scenario_with", lambda *given: read.append(given) or original(*given))
+    original = BaseCase.contents
+    monkeypatch.setattr(BaseCase, "contents", lambda *given: read.append(given) or original(*given))
     with pytest.raises(ScenarioErrors):
         load("ranges: {rail.friction: {first: 0.001, last: 0.002, count: 1000}}\n")
     assert len(read) == 1

@@ -55,9 +55,9 @@ def test_a_file_of_0_2_has_the_same_cases(write):
     assert not now.written_now
 
 
-def test_a_sweep_of_a_train_is_refused_without_asking_for_one_of_its_cars(write):
+def test_a_file_of_0_2_sweeps_no_train_and_does_not_ask_for_one_of_its_cars(write):
     Path("stop.yaml").write_text(SCENARIO + "train: [{count: 2}]\n")
-    with pytest.raises(ScenarioErrors, match=r"'stop\.yaml' is a train; a sweep runs a car alone"):
+    with pytest.raises(ScenarioErrors, match=r"'stop\.yaml' is a train, which no file of 0.2 sweeps"):
         write(OLD_HEAD + "grid: {seed: [1, 2]}\n")
 
 

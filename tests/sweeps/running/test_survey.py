@@ -11,7 +11,7 @@ from uictest.plans import library
 from uictest.plans.scenario import ScenarioErrors, load as load_scenarios
 from uictest.plans.sweeps.plan import in_survey_steps
 from uictest.report import survey_notes
-from uictest.running.chunked import CaseSelection, ChunkRunner, chunk_runner, sweep_manifest
+from uictest.running.chunked import BlockRunner, CaseSelection, chunk_runner, sweep_manifest
 from uictest.running.chunked.case_blocks import BlockAssembler
 from uictest.running.chunked.store import program_digest
 from uictest.running.chunked.table import biases_by_measure, survey_biases, survey_step
@@ -28,7 +28,7 @@ def survey():
     """A runner of a survey whose stops are the formula, with the biases that are given."""
 
     def runner(plan, **biases):
-        regular = ChunkRunner(BlockAssembler(plan), formula, plan, rig.run_block)
+        regular = BlockRunner(BlockAssembler(plan), formula, plan, rig.run_block)
         assembler = BlockAssembler(in_survey_steps(plan))
         return replace(regular, assembler=assembler, biases={**NO_BIAS, **biases}, regular=regular)
 

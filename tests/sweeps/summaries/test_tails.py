@@ -15,7 +15,7 @@ from uictest.plans.sweeps.nominal import drawn_ranges, nominal_plan
 from uictest.report import titled_lines, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document
 from uictest.report.sweep.tail_tables import tail_tables
-from uictest.running.chunked import CaseSelection, ChunkRunner, select_cases
+from uictest.running.chunked import BlockRunner, CaseSelection, select_cases
 from uictest.running.chunked.case_blocks import BlockAssembler
 
 from ..conftest import formula, stored
@@ -45,7 +45,7 @@ def slippery_stops_unfinished(parameters, own, rail):
 
 def finish(plan, simulate=formula, only=None):
     selection = select_cases(plan, only) if only else CaseSelection(plan)
-    runner = ChunkRunner(BlockAssembler(plan), simulate, plan, rig.run_block)
+    runner = BlockRunner(BlockAssembler(plan), simulate, plan, rig.run_block)
     store = stored(selection, runner, Path("out"))
     result = summarize(selection, store, None, ["braking_distance_m"]).result
     write_sweep_result(store.folder, result, plan.file)

@@ -14,7 +14,7 @@ from uictest.judging.evaluation import Deviation, EffectiveParts
 from uictest.plans.scenario import Scenario
 from uictest.plans.sweeps import Plan
 from uictest.report import OutsideCount, SweepDomain
-from uictest.running.chunked import ScenarioVariants, number_column, text_column
+from uictest.running.chunked import number_column, text_column
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -82,9 +82,11 @@ class _ConditionsOfCases:
         self._plan = plan
         self._parts = EffectiveParts()
         self._known: dict[tuple[str, ...], validation.Conditions] = {}
-        keys = [key for key in plan.keys if validation.is_condition(key)]
+        # A key of one car of a train is no condition by its name.
+        keys = [key for key in plan.keys if plan.own_keys or validation.is_condition(key)]
         first = self._of_case(0)
-        pairs = {key: self._number_of(key, first) for key in keys if key in plan.numeric_keys}
+        numeric = () if plan.own_keys else plan.numeric_keys
+        pairs = {key: self._number_of(key, first) for key in keys if key in numeric}
         self._numbers = {key: number for key, number in pairs.items() if number is not None}
         self._others = [key for key in keys if key not in self._numbers]
 
@@ -118,8 +120,7 @@ class _ConditionsOfCases:
         return validation.conditions_of(self._parts.of(self._scenario(index)))
 
     def _scenario(self, index: int) -> Scenario:
-        settings = self._plan.settings(np.array([index]))
-        return ScenarioVariants(self._plan.base.scenario, settings, 1).at(0)
+        return self._plan.cases(np.array([index]))[0].scenario
 
     def _number_of(self, key: str, conditions: validation.Conditions) -> str | None:
         """Return the condition that a number is by itself, and no other; None where there is no such one."""

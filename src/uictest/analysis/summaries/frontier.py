@@ -185,7 +185,7 @@ def verdicts_of(plan: Plan, indices: NDArray[np.int64], runner: ChunkRunner, job
     runner = chunk_runner(plan, runner.run_block)
 
     def met(block: NDArray[np.int64]) -> list[bool]:
-        results, _ = runner.results(runner.assembler.block(block))
+        _, results, _ = runner.results_of(block)
         return [each.met for each in results]
 
     blocks = np.array_split(indices, max(jobs, -(-indices.size // _CASES_AT_ONCE)))

@@ -13,7 +13,7 @@ from uictest.core import files
 from uictest.plans.scenario import Case
 from uictest.plans.sweeps import Plan, in_survey_steps
 from uictest.report import csv_cell
-from uictest.running.chunked import ScenarioVariants, surveyed_cases
+from uictest.running.chunked import surveyed_cases
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -56,19 +56,11 @@ def _numbers(table: pa.Table, name: str) -> Any:
 
 def full_cases(plan: Plan, indices: Sequence[int], surveyed: Collection[int] = ()) -> list[Case]:
     """Return cases of a plan with their whole scenarios; those that are `surveyed` in survey steps."""
-    places = np.array(indices, np.int64)
-    settings = plan.settings(places)
-    regular = ScenarioVariants(plan.base.scenario, settings, len(indices))
-    survey = ScenarioVariants(in_survey_steps(plan).base.scenario, settings, len(indices))
+    survey = in_survey_steps(plan) if surveyed else plan
     return [
-        Case(
-            name,
-            (survey if index in surveyed else regular).at(place),
-            plan.base.path,
-            {key: settings[key][place].text for key in settings},
-            {},
-        )
-        for place, (index, name) in enumerate(zip(indices, plan.ids(places), strict=True))
+        case
+        for index in indices
+        for case in (survey if index in surveyed else plan).cases(np.array([index], np.int64))
     ]
 
 

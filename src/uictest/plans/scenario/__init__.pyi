@@ -138,7 +138,8 @@ from .resolution import (
     resolve as resolve,
     with_default_parts as with_default_parts,
 )
+from .resolved_cars import own_keys as own_keys, resolved_cars as resolved_cars
 from .sections import SURVEY as SURVEY, load_share as load_share
-from .train import is_train as is_train
+from .train import coupling_problem as coupling_problem, is_train as is_train
 from .yaml.diagnostics import Diagnostic as Diagnostic, ScenarioErrors as ScenarioErrors
 from .yaml.quantities import Quantity as Quantity

@@ -25,7 +25,6 @@ from uictest.plans.scenario.resolution import with_default_parts
 from uictest.plans.scenario.resolved_cars import resolved_cars
 from uictest.plans.scenario.train import (
     is_train,
-    require_no_train,
     with_default_vehicles,
     without_inherited_vehicle,
 )
@@ -52,11 +51,12 @@ from uictest.plans.scenario.yaml import (
 _SECTIONS_OF_SWEEPS: Final = ("grid", "ranges", "sample", "quantiles", "k_dry")
 """Keys that a scenario has only under `vary`, and `grid`, which 0.2 had for `matrix`."""
 
-_TRAINS_BY_LISTS: Final = "`uictest run` runs trains, and their cases by `matrix`"
-
 
 class LoadedCase(NamedTuple):
-    """A case and the tree that it is resolved from; `vary` is what a sweep of it varies."""
+    """A case and the tree that it is resolved from; `vary` is what a sweep of it varies.
+
+    Of a car that a sweep varies, the tree is that of its train.
+    """
 
     case: Case
     tree: Map
@@ -182,7 +182,6 @@ class _Loader:
             if (entry := own.entries.get(key)) is not None:
                 message = f"a sweep has no {quoted(key)} beside 'vary'"
                 raise single_error(entry.key, message, key, "list what a sweep varies under `vary`")
-        require_no_train(merged, "a sweep", _TRAINS_BY_LISTS)
         if vary is None:
             hint = "a scenario without `vary` is run with `uictest run`"
             raise single_error(own.place, "nothing varies", "vary", hint)
@@ -206,7 +205,8 @@ class _Loader:
         return [
             self._case(
                 *(file, variant, case_id(*named, car=number)),
-                *((scenario, read), car, TrainPlace(case_id(*named), number, scenarios)),
+                *((scenario, read), tree if self.varied else car),
+                TrainPlace(case_id(*named), number, scenarios),
             )
             for number, ((scenario, _), car) in enumerate(cars, start=1)
         ]

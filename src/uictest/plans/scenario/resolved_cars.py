@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from uictest.plans.scenario.model import Scenario
@@ -47,6 +47,32 @@ def resolved_cars(path: Path, tree: Map, parts: Parts) -> list[ResolvedCar]:
         entries = _entry_of_position(tree)
         raise ScenarioErrors(_named(each, entries) for each in diagnostics)
     return cars
+
+
+def own_keys(tree: Map, keys: Iterable[str]) -> list[dict[str, str]]:
+    """Return for each entry of `train` what its scenario calls those of some keys that reach it.
+
+    A key of the train does not reach a car that has something else of its own in its place.
+    """
+    node = tree.entries["train"].node
+    assert isinstance(node, Sequence)
+    every = list(keys)
+    named = ({key: _key_in_car(item, place, key) for key in every} for place, item in enumerate(node.items))
+    return [{key: own for key, own in of_entry.items() if own} for of_entry in named]
+
+
+def _key_in_car(item: Node | None, place: int, key: str) -> str:
+    head, _, below = key.partition(".")
+    if head == "train":
+        number, _, own = below.partition(".")
+        return own if number == str(place) else ""
+    for element in key.split("."):
+        if not isinstance(item, Map):
+            return ""
+        if element not in item.entries:
+            return key
+        item = item.entries[element].node
+    return key if isinstance(item, Map) else ""
 
 
 _Position = tuple[str, int, int]

@@ -128,12 +128,6 @@ def with_default_vehicles(tree: Map) -> Map:
     return filled.with_entry("train", Entry(train.key, List(tuple(items), train.node.place)))
 
 
-def require_no_train(tree: Map, what: str, hint: str) -> None:
-    """Raise ScenarioErrors at the `train` of a scenario, if it has one, where only a car alone will do."""
-    if (train := _written(tree, "train")) is not None:
-        raise single_error(train.key, f"{what} runs a car alone, no train", "train", hint)
-
-
 def car_trees(tree: Map) -> list[tuple[Map, int]]:
     """Return the tree of each entry of `train`, laid over what the train has in common, and its count.
 
@@ -235,6 +229,12 @@ def require_couplable(cars: Sequence[Scenario], trees: Sequence[Map]) -> None:
         diagnostics[diagnose(entry.node.place, problem.message, dotted(key), problem.hint)] = None
     if diagnostics:
         raise ScenarioErrors(diagnostics)
+
+
+def coupling_problem(cars: Sequence[Scenario]) -> str:
+    """Return why cars cannot run as one train, empty where they can."""
+    problems = (*_foreign_to_trains(cars), *_impossible_couplers(cars))
+    return next((f"{dotted(key)}: {problem.message}" for _, key, problem in problems), "")
 
 
 class _Problem(NamedTuple):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
 from uictest.plans.scenario import (
     CONDITION,
@@ -14,7 +14,9 @@ from uictest.plans.scenario import (
     Parts,
     Scenario,
     changed_alone,
+    own_keys,
     resolve,
+    resolved_cars,
     with_value,
 )
 from uictest.plans.scenario.yaml import (
@@ -31,6 +33,7 @@ from uictest.plans.scenario.yaml import (
     Sequence as List,
     default,
     parse_quantity,
+    plain,
     quoted,
     single_error,
 )
@@ -127,6 +130,8 @@ def _inner(value: Any, element: str) -> Any:
     raise KeyError(element)
 
 
+_OfCar = TypeVar("_OfCar")
+
 REPEAT_KEYS: Final = ("repeat", "outcome_of_repeats")
 SEEDS_IN_SWEEPS: Final = "list or sample `seed`, as in `matrix: {seed: [0, 1, 2]}`"
 
@@ -139,12 +144,47 @@ class BaseCase:
     tree: Map
     parts: Parts
 
-    def scenario_with(self, settings: Mapping[str, Entry]) -> tuple[Scenario, tuple[Document, ...]]:
-        """Return the scenario in which the dotted keys have other values, and the documents read for it.
+    def contents(self, settings: Mapping[str, Entry]) -> tuple[dict[str, Any], tuple[Document, ...]]:
+        """Return what the scenario has at dotted keys with other values there, and the documents read for it.
 
-        Raises ScenarioErrors as if the scenario's file had said so.
+        Raises ScenarioErrors as if the scenario's file had said so, and where a key of a train does not give
+        all cars that it reaches the same.
         """
-        return resolve(self._tree_with(settings), self.parts)
+        tree = self._tree_with(settings)
+        if self.case.train is None:
+            scenario, documents = resolve(tree, self.parts)
+            return {key: value_at(scenario, key) for key in settings}, documents
+        cars = [car for car, _ in resolved_cars(self.case.path, tree, self.parts)]
+        contents: dict[str, Any] = {}
+        for key, entry in settings.items():
+            reached = [value_at(car, own[key]) for (car, _), own in self._reached_by(cars, key)]
+            if not reached:
+                hint = f"write `train.0.{key}` for one car"
+                raise single_error(entry.key, "every car has one of its own", key, hint)
+            if any(each != reached[0] for each in reached):
+                hint = f"vary a number below it, or `train.0.{key}` of one car"
+                raise single_error(entry.key, "it would not be the same in all cars", key, hint)
+            contents[key] = reached[0]
+        return contents, tuple(document for _, documents in cars for document in documents)
+
+    def place_of(self, key: str) -> tuple[Scenario, str]:
+        """Return the scenario that has a key, of a train that of the first car, and what the key is there."""
+        if self.case.train is None:
+            return self.case.scenario, key
+        reached = self._reached_by(self.case.train.scenarios, key)
+        return next(((scenario, own[key]) for scenario, own in reached), (self.case.scenario, key))
+
+    def own_keys(self, keys: Iterable[str]) -> tuple[dict[str, str], ...]:
+        """Return for each car of a train what its scenario calls those of the keys that reach it."""
+        if self.case.train is None:
+            return ()
+        of_entries = own_keys(self.tree, keys)
+        node = self.tree.entries["train"].node
+        counts = [plain(item).get("count", 1) for item in items_of(node)]
+        return tuple(own for own, count in zip(of_entries, counts, strict=True) for _ in range(count))
+
+    def _reached_by(self, cars: Sequence[_OfCar], key: str) -> Iterator[tuple[_OfCar, dict[str, str]]]:
+        return (each for each in zip(cars, self.own_keys([key]), strict=True) if key in each[1])
 
     def conditions_alone(self, entries: Mapping[str, Entry]) -> Iterator[Diagnostic]:
         """Yield rail conditions that change without the friction of the scenario. Raises ScenarioErrors."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from math import prod
 from pathlib import Path
@@ -9,6 +10,7 @@ from typing import Final
 
 from uictest.plans import library
 from uictest.plans.scenario import (
+    CAR,
     CONDITION,
     FIXED,
     LONGEST,
@@ -41,6 +43,7 @@ from uictest.plans.sweeps.base_case import (
     survey_in_lists,
     survey_on_command_line,
 )
+from uictest.plans.sweeps.column import ParameterValue
 from uictest.plans.sweeps.group_reader import GroupReader, range_node
 from uictest.plans.sweeps.plan import (
     Group,
@@ -74,6 +77,9 @@ def reject_unsupported_tails(plan: Plan, file: SweepFile) -> None:
 
 def _problems(plan: Plan, *, of_dry_rail: bool) -> Iterator[tuple[str, str]]:
     """Yield what is wrong and what to write instead."""
+    if plan.own_keys:
+        yield "quantiles and K_dry are of a car alone", "leave it out, or sweep a scenario without `train`"
+        return
     last = plan.groups[-1]
     if not isinstance(last, SampledGroup):
         yield "the values of this sweep are listed, not drawn", _RANDOM
@@ -91,6 +97,7 @@ def _problems(plan: Plan, *, of_dry_rail: bool) -> Iterator[tuple[str, str]]:
 
 
 MOST_CASES: Final = 100_000_000
+_SETS_CARS: Final = re.compile(r"train(\.\d+(\.count)?)?")
 _SECTIONS: Final = ("matrix", "ranges", "zip")
 SAMPLE_NAME: Final = "sample"
 """Name of the number of a drawn point in case ids."""
@@ -124,6 +131,8 @@ def load_sweep(
         sections = sections if survey is None else _without_entries(sections, "matrix", {TIME_STEP})
     if survey is not None:
         require_regular_step(file.base, survey)
+        if file.base.case.train is not None:
+            raise single_error(survey, "what the survey step does to trains is not known", TIME_STEP)
     reader = GroupReader(file.base)
     groups = _groups(file, sections, [each for each in parsed if len(each.values) > 1], reader)
     if survey is not None:
@@ -143,6 +152,7 @@ def load_sweep(
         survey=survey is not None,
         cases_sha256=file.cases_sha256,
         written_now=file.written_now,
+        own_keys=file.base.own_keys(key for group in groups for key in group.keys),
     )
     reject_unsupported_tails(plan, file)
     return plan
@@ -171,6 +181,13 @@ def _groups(
         groups.append(reader.sampled(requested.model_copy(update={"parameters": parameters}), sample))
     if reader.diagnostics:
         raise ScenarioErrors(in_reading_order(reader.diagnostics))
+    train = file.base.case.train
+    if train is not None and requested is not None and requested.method == "saltelli":
+        message = "sensitivities are of a car alone"
+        raise single_error(sections.entries["sample"].key, message, file.key("sample"), "take method: sobol")
+    if train is not None:  # the cars of a case are neighbours, so that their train runs once
+        numbers = [str(number + 1) for number in range(len(train.scenarios))]
+        groups.append(ListedGroup((CAR,), tuple((ParameterValue(*3 * (each,)),) for each in numbers)))
     complete = tuple(group for group in groups if group is not None)
     size = prod(group.size for group in complete)
     if size > MOST_CASES:
@@ -209,6 +226,9 @@ def _bad_keys(file: SweepFile, sections: Map, axes: Sequence[_Axis]) -> Iterator
             if key.split(".")[0] in REPEAT_KEYS:
                 message = f"{quoted(key)} cannot vary: a sweep runs one stop per case"
                 yield diagnose(entry.key, message, shown, SEEDS_IN_SWEEPS)
+            if _SETS_CARS.fullmatch(key):
+                hint = "vary what a car has: `train.0.vehicle`"
+                yield diagnose(entry.key, "the cars of a train and their number cannot vary", shown, hint)
             section_of[key] = section
     if not any(map(sets_friction, section_of)):
         for _, entries in axes:

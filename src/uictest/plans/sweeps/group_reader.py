@@ -133,11 +133,11 @@ class GroupReader:
 
     def _resolved(self, row: Mapping[str, Entry]) -> dict[str, Any]:
         try:
-            scenario, documents = self._base.scenario_with(row)
+            contents, documents = self._base.contents(row)
         except ScenarioErrors as errors:
             raise self._at_new_values(errors, row) from None
         self.documents.extend(documents)
-        return {key: value_at(scenario, key) for key in row}
+        return contents
 
     def _at_new_values(self, errors: ScenarioErrors, row: Mapping[str, Entry]) -> ScenarioErrors:
         """Return errors in which one, at the new values, replaces those in the files of the base case."""
@@ -155,6 +155,8 @@ class GroupReader:
     def _plain_quantities(self, row: Mapping[str, Entry], explained: bool) -> dict[str, Any] | None:
         """Return the values of quantities without reading the scenario again, None where it must be read."""
         scenario = self._base.case.scenario
+        if self._base.case.train is not None:
+            return None
         contents: dict[str, Any] = {}
         for key, entry in row.items():
             field = quantity_field(scenario, key)
@@ -198,9 +200,10 @@ class GroupReader:
 
     def _kind(self, key: str, entry: Entry, unit: str) -> str:
         """Return the kind of quantity that is drawn, empty for plain numbers. Raises ScenarioErrors."""
-        if is_free(self._base.case.scenario, key) and not unit:
+        place = self._base.place_of(key)
+        if is_free(*place) and not unit:
             return ""
-        field = quantity_field(self._base.case.scenario, key)
+        field = quantity_field(*place)
         physical = None if field is None else _physical(field)
         if physical is None or physical.kind.name == "count":
             raise single_error(

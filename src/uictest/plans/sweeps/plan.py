@@ -3,14 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Final
 
-from uictest.plans.scenario import Case, Distribution, KDryRequest, Method, QuantileRequest, Scenario
+from uictest.plans.scenario import (
+    CAR,
+    Case,
+    Distribution,
+    KDryRequest,
+    Method,
+    QuantileRequest,
+    Scenario,
+    TrainPlace,
+)
 from uictest.plans.sweeps.base_case import SURVEY_STEP, TIME_STEP, with_values
 from uictest.plans.sweeps.column import Column, ParameterValue, drawn_column, listed_column
+
+_OF_CAR: Final = re.compile(rf",{CAR}=\d+\]$")
+"""What tells the id of a car from that of its train."""
 
 if TYPE_CHECKING:
     import numpy as np
@@ -118,7 +131,7 @@ class Plan:
     file: str
     """The sweep file, as shown to users."""
     base: Case
-    """The case whose values are varied."""
+    """The case whose values are varied; of a train its first car."""
     groups: tuple[Group, ...]
     short: dict[str, str]
     """The name of each key in case ids."""
@@ -132,6 +145,8 @@ class Plan:
     """SHA-256 of what the sweep file says of its cases, which `quantiles` and `k_dry` do not change."""
     written_now: str = ""
     """How a file of 0.2 is written now, empty for others."""
+    own_keys: tuple[dict[str, str], ...] = ()
+    """For each car of a train what its scenario calls the keys that reach it; the last group is the cars."""
 
     @property
     def size(self) -> int:
@@ -175,6 +190,39 @@ class Plan:
             for group, rows in zip(self.groups, self.rows(indices), strict=True)
         ]
         return [f"{self.name}[{','.join(labels)}]" for labels in zip(*labels_by_group, strict=True)]
+
+    def scenarios(self, contents: Mapping[str, Any]) -> tuple[Scenario, ...]:
+        """Return the scenario with other values at dotted keys; of a train those of all cars.
+
+        Nothing is validated, see :func:`~uictest.plans.sweeps.base_case.with_values`. Raises KeyError.
+        """
+        if self.base.train is None:
+            return (with_values(self.base.scenario, contents),)
+        # Equal cars share their scenario, so that the rig is assembled for them once.
+        changed: dict[int, Scenario] = {}
+        cars = self.base.train.scenarios
+        for car, own in zip(cars, self.own_keys, strict=True):
+            if id(car) not in changed:
+                changed[id(car)] = with_values(
+                    car, {own[key]: value for key, value in contents.items() if key in own}
+                )
+        return tuple(changed[id(car)] for car in cars)
+
+    def cases(self, indices: Numbers) -> list[Case]:
+        """Return cases with their whole scenarios; neighbours of one train share those of all cars."""
+        settings = self.settings(indices)
+        names = zip(indices.tolist(), self.ids(indices), strict=True)
+        found: list[Case] = []
+        train, scenarios = -1, tuple[Scenario, ...]()
+        for place, (index, name) in enumerate(names):
+            values = {key: column[place] for key, column in settings.items()}
+            if train != (train := index // len(self.own_keys or (self.base,))):
+                scenarios = self.scenarios({key: value.content for key, value in values.items()})
+            car = index % len(scenarios)
+            texts = {key: value.text for key, value in values.items()}
+            in_train = TrainPlace(_OF_CAR.sub("]", name), car + 1, scenarios) if self.own_keys else None
+            found.append(Case(name, scenarios[car], self.base.path, texts, {}, in_train))
+        return found
 
     def listed(self) -> dict[str, tuple[ParameterValue, ...]]:
         """Return the values of every parameter that has a group of its own."""

@@ -82,7 +82,7 @@ def read_sweep_file(path: Path, fixed: Sequence[Override], parts: Parts) -> Swee
     tree = parts.files.at(path)
     if require_schema(tree, SCENARIO_SCHEMA, SWEEP_SCHEMA) == SWEEP_SCHEMA:
         return _of_0_2(tree, fixed, parts)
-    (loaded,) = load_with_trees(path, fixed, parts, varied=True)
+    loaded, *_ = load_with_trees(path, fixed, parts, varied=True)
     assert loaded.vary is not None
     sections = loaded.vary.node
     if not isinstance(sections, Map):
@@ -126,8 +126,9 @@ def _of_0_2(tree: Map, fixed: Sequence[Override], parts: Parts) -> SweepFile:
     path = reference.node.place.document.folder / reference.node.text
     cases = load_with_trees(path, fixed, parts)
     if any(each.case.train is not None for each in cases):
-        message = f"{quoted(reference.node.text)} is a train; a sweep runs a car alone"
-        raise single_error(reference.node.place, message, "scenario")
+        message = f"{quoted(reference.node.text)} is a train, which no file of 0.2 sweeps"
+        hint = f"write `schema: {SCENARIO_SCHEMA}`, `extends: {reference.node.text}` and `vary`"
+        raise single_error(reference.node.place, message, "scenario", hint)
     loaded = _chosen(cases, case_id, reference.node)
     _reject_repeats(loaded, reference.node, "scenario", quoted(reference.node.text))
     lists = tree.entries.get("grid")

@@ -5,6 +5,7 @@ from .case_selection import (
     select_cases as select_cases,
 )
 from .chunk import (
+    BlockRunner as BlockRunner,
     ChunkRunner as ChunkRunner,
     RunBlock as RunBlock,
     WriteChunk as WriteChunk,

@@ -42,7 +42,16 @@ FieldValues = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
-class CaseBlock:
+class CaseValues:
+    """Some cases of a sweep: their indices, ids and values."""
+
+    indices: NDArray[np.int64]
+    ids: list[str]
+    settings: Settings
+
+
+@dataclass(frozen=True)
+class CaseBlock(CaseValues):
     """Some cases of a sweep in numbers.
 
     `rejections` holds for each case why it cannot be simulated, empty where it can; `judged_as` are scenarios
@@ -50,9 +59,6 @@ class CaseBlock:
     outside, None where the controller is built in.
     """
 
-    indices: NDArray[np.int64]
-    ids: list[str]
-    settings: Settings
     parameters: NDArray[Any]
     wheelset_parameters: NDArray[Any]
     rail: NDArray[np.float64]

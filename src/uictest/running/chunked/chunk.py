@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import io
+from abc import ABC, abstractmethod
 from collections import namedtuple
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain
+from itertools import chain, groupby
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -16,9 +17,11 @@ from uictest import rig
 from uictest.core.ensemble import rows_at
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.judging.evaluation import CaseResult, Detail, error_result, evaluate_simulated, may_be_biased
-from uictest.plans.sweeps import Plan, in_survey_steps
-from uictest.running.campaign import ThreadedMap
-from uictest.running.chunked.case_blocks import BlockAssembler, CaseBlock
+from uictest.plans.scenario import Case, coupling_problem
+from uictest.plans.scenario.yaml import dotted
+from uictest.plans.sweeps import Plan, in_survey_steps, inconsistencies
+from uictest.running.campaign import RecordingRequest, ThreadedMap, run_trains, stops_together
+from uictest.running.chunked.case_blocks import BlockAssembler, CaseBlock, CaseValues
 from uictest.running.chunked.case_selection import CaseSelection
 from uictest.running.chunked.table import REPEATED_TEXTS, biases_by_measure, rows
 
@@ -47,9 +50,78 @@ _QUEUES_AHEAD = 2
 """Queues that wait or are ready beyond those in progress: bounds memory."""
 
 
-@dataclass(frozen=True)
-class ChunkRunner:
+class ChunkRunner(ABC):
     """Simulates and judges the cases of one chunk; several threads may share a runner."""
+
+    plan: Plan
+    run_block: RunBlock
+
+    def run(self, indices: NDArray[np.int64]) -> bytes:
+        """Return the rows of the cases with the given indices as a Parquet file."""
+        [content] = self.run_together([indices])
+        return content
+
+    def run_together(self, chunks: Sequence[NDArray[np.int64]]) -> list[bytes]:
+        """Return the Parquet files of several chunks, whose cases are simulated in one queue."""
+        table = rows(self.plan, *self.results_of(np.concatenate(chunks)))
+        sizes = [indices.size for indices in chunks]
+        begins = np.cumsum([0, *sizes[:-1]]).tolist()
+        return [parquet_bytes(table.slice(*place)) for place in zip(begins, sizes, strict=True)]
+
+    @abstractmethod
+    def prepare(self) -> None:
+        """Compile the rig before several threads need it at once."""
+
+    @abstractmethod
+    def results_of(self, indices: NDArray[np.int64]) -> tuple[CaseValues, list[CaseResult], list[int]]:
+        """Return cases, their results, and the places of those of a survey that are of regular steps."""
+
+
+@dataclass(frozen=True)
+class TrainRunner(ChunkRunner):
+    """Runs the cars of trains: each train once for all of its cars in a queue."""
+
+    plan: Plan
+    run_block: RunBlock
+
+    def prepare(self) -> None:
+        """Compile the lanes."""
+        rig.load_train_lanes()
+
+    def results_of(self, indices: NDArray[np.int64]) -> tuple[CaseValues, list[CaseResult], list[int]]:
+        """Return cars and their results; an error in one is its result."""
+        cars = list(self._cars(indices))
+        sound = (case for case, reason in cars if not reason)
+        runs = iter(run_trains(list(stops_together(sound)), RecordingRequest("none")))
+        results = [
+            error_result(case, reason) if reason else next(runs).case_run.result for case, reason in cars
+        ]
+        return CaseValues(indices, self.plan.ids(indices), self.plan.settings(indices)), results, []
+
+    def _cars(self, indices: NDArray[np.int64]) -> Iterator[tuple[Case, str]]:
+        """Yield cars, and why their train cannot run, empty where it can."""
+        base = self.plan.base
+        for _, of_train in groupby(indices.tolist(), lambda index: index // len(self.plan.own_keys)):
+            places = np.array([*of_train])
+            try:
+                cars = self.plan.cases(places)
+                reason = self._rejection(cars[0])
+            except KeyError as error:  # a value of one key leaves no place for that of another
+                cars = [replace(base, id=name) for name in self.plan.ids(places)]
+                reason = f"{error.args[0]!r}: no such key beside the other values of this case"
+            yield from ((car, reason) for car in cars)
+
+    def _rejection(self, case: Case) -> str:
+        assert case.train is not None
+        for scenario, own in zip(case.train.scenarios, self.plan.own_keys, strict=True):
+            for problem in inconsistencies(scenario, own.values()):
+                return f"{dotted(problem.key)}: {problem.message}"
+        return coupling_problem(case.train.scenarios)
+
+
+@dataclass(frozen=True)
+class BlockRunner(ChunkRunner):
+    """Runs cars alone."""
 
     assembler: BlockAssembler
     simulate: Simulate
@@ -59,25 +131,17 @@ class ChunkRunner:
     """Of measures, in a survey: those of the step that the cases are simulated in."""
     detail: Detail = "status"
     """How much verdicts say, see :func:`uictest.judging.evaluation.judge`."""
-    regular: ChunkRunner | None = None
+    regular: BlockRunner | None = None
     """In a survey: simulates in regular steps what lies within its bias of a limit."""
 
-    def run(self, indices: NDArray[np.int64]) -> bytes:
-        """Return the rows of the cases with the given indices as a Parquet file."""
-        [content] = self.run_together([indices])
-        return content
-
-    def run_together(self, chunks: Sequence[NDArray[np.int64]]) -> list[bytes]:
-        """Return the Parquet files of several chunks, whose cases are simulated in one queue."""
-        block = self.assembler.block(np.concatenate(chunks))
-        table = rows(self.plan, block, *self.results(block))
-        sizes = [indices.size for indices in chunks]
-        begins = np.cumsum([0, *sizes[:-1]]).tolist()
-        return [parquet_bytes(table.slice(*place)) for place in zip(begins, sizes, strict=True)]
-
     def prepare(self) -> None:
-        """Compile the rig before several threads need it at once."""
+        """Compile the rig for the controllers of the plan."""
         rig.load_block(self.assembler.block(np.zeros(1, np.int64)).programs)
+
+    def results_of(self, indices: NDArray[np.int64]) -> tuple[CaseValues, list[CaseResult], list[int]]:
+        """Return cases and their results, see :meth:`results`."""
+        block = self.assembler.block(indices)
+        return block, *self.results(block)
 
     def results(self, block: CaseBlock) -> tuple[list[CaseResult], list[int]]:
         """Return the results of a block; an error in a case is its result.
@@ -143,7 +207,9 @@ class ChunkRunner:
 
 def chunk_runner(plan: Plan, run_block: RunBlock) -> ChunkRunner:
     """Return a runner for a plan; `run_block` is asked only where a controller comes from outside."""
-    regular = ChunkRunner(BlockAssembler(plan), rig.run_in_lanes, plan, run_block)
+    if plan.own_keys:
+        return TrainRunner(plan, run_block)
+    regular = BlockRunner(BlockAssembler(plan), rig.run_in_lanes, plan, run_block)
     if not plan.survey:
         return regular
     assembler = BlockAssembler(in_survey_steps(plan))

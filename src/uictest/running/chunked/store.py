@@ -43,7 +43,7 @@ def sweep_manifest(
     Files are named relative to the sweep file, so that the manifest is the same from every working folder;
     but `file`, which people and GitHub look up, is the path that the user gave.
     """
-    plan = selection.plan
+    plan, parts = selection.plan, EffectiveParts()
     folder = Path(plan.file).parent
     return {
         **document.head(document.MANIFEST, "sweep"),
@@ -58,7 +58,7 @@ def sweep_manifest(
         "set": list(overrides),
         "seed": seed,
         "parameters": list(plan.keys),
-        "parts": named_parts([EffectiveParts().of(plan.base.scenario)]),
+        "parts": named_parts([parts.of(car.scenario) for car in plan.base.cars]),
         "cases_sha256": plan.cases_sha256,
         "inputs": {_relative_to(folder, name): digest for name, digest in plan.inputs.items()},
         **({"time_step": SURVEY} if plan.survey else {}),

@@ -17,7 +17,7 @@ from uictest.judging.evaluation import CaseResult, narrowest_margin
 from uictest.plans import library
 from uictest.plans.sweeps import REGULAR_STEP, SURVEY_STEP, Plan, scenarios_with_each
 from uictest.report import SurveyBias, SurveyStep
-from uictest.running.chunked.case_blocks import CaseBlock
+from uictest.running.chunked.case_blocks import CaseValues
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -82,7 +82,7 @@ def _schema(keys: tuple[str, ...], numeric_keys: tuple[str, ...], survey: bool) 
 
 
 def rows(
-    plan: Plan, block: CaseBlock, results: Sequence[CaseResult], repeated: Sequence[int] = ()
+    plan: Plan, block: CaseValues, results: Sequence[CaseResult], repeated: Sequence[int] = ()
 ) -> pa.Table:
     """Return the rows of a block; a measure without a value is null.
 

@@ -15,7 +15,7 @@ from uictest.plans.scenario import Case
 from uictest.plans.sweeps import Column, ListedGroup, ParameterValue, Plan, value_at
 from uictest.running.campaign import ThreadedMap
 from uictest.running.chunked.case_blocks import BlockAssembler
-from uictest.running.chunked.chunk import ChunkRunner, RunBlock
+from uictest.running.chunked.chunk import BlockRunner, RunBlock
 from uictest.running.chunked.scenario_function import ScenarioVariants
 
 _TOGETHER: Final = 128
@@ -71,11 +71,11 @@ class VariedCase:
         return results
 
     @cached_property
-    def _runner(self) -> ChunkRunner:
+    def _runner(self) -> BlockRunner:
         keys = (*self.keys, "seed")
         nominal = tuple(ParameterValue("", value_at(self.case.scenario, key)) for key in keys)
         plan = Plan(self.case.id, "", "", self.case, (ListedGroup(keys, (nominal,)),), {})
-        return ChunkRunner(
+        return BlockRunner(
             BlockAssembler(plan, noise_of_base=True),
             rig.run_in_lanes,
             plan,

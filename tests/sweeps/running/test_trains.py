@@ -1,0 +1,123 @@
+"""Sweeps of trains: each car is a case with the bits of `uictest run`, whatever else is in its chunk."""
+
+import math
+
+import numpy as np
+import pytest
+
+from uictest import rig
+from uictest.plans import scenario
+from uictest.plans.scenario import ScenarioErrors
+from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
+from uictest.running.chunked import CaseSelection, chunk_runner, select_cases
+
+from ..conftest import rows
+
+TRAIN = """\
+schema: uictest/scenario/1
+name: study
+initial_speed: 14 km/h
+until: 12 km/h
+rail: {condition: wet-cleaning, friction: 0.05}
+criteria: uictest-rig
+expect: skipped
+train: [{}, {vehicle: crh380a, count: 2, brake: {command: 50 %}}]
+"""
+MATRIX = """\
+matrix:
+  rail.friction: [0.04, 0.05]
+  brake.command: [80 %, 100 %]
+  train.1.brake.position: [R, P]
+"""
+
+
+@pytest.fixture
+def loaded(load):
+    return lambda text=MATRIX, *overrides: load(text, *overrides, stop=TRAIN)
+
+
+def of_chunk(plan, indices):
+    return rows(chunk_runner(plan, rig.run_block).run(np.array(indices)))
+
+
+def known(figures, names=None):
+    """The figures that have a value, of some names."""
+    figures = {name: figures[name] for name in names or figures}
+    return {name: value for name, value in figures.items() if value is not None and not math.isnan(value)}
+
+
+def test_every_car_is_a_row_with_the_bits_of_the_same_case_of_a_scenario(loaded, tmp_path):
+    plan = loaded()
+    assert plan.size == 24
+    found = of_chunk(plan, range(plan.size))
+    path = tmp_path / "written.yaml"
+    path.write_text(TRAIN + MATRIX)
+    results = run_cases(scenario.load([path]), RunSettings(recording=RecordingRequest("none"))).whole()
+    assert [row["id"] for row in found] == [result.id for result in results]
+    for row, result in zip(found, results, strict=True):
+        assert (row["outcome"], row["met"], row["parameters.car"]) == (
+            *(result.outcome, result.met),
+            result.parameters["car"],
+        )
+        assert known(row, result.measures) == known(result.measures)
+        for place, wheelset in enumerate(result.wheelsets, start=1):
+            of_row = {name: row[f"{name}_{place}"] for name in wheelset}
+            assert known(of_row) == known(wheelset)
+    assert len({row["energy_residual"] for row in found}) == 24
+
+
+def test_a_car_is_the_same_in_whatever_chunk(loaded):
+    plan = loaded()
+    whole = of_chunk(plan, range(plan.size))
+    assert of_chunk(plan, [4, 5, 6, 11]) == [whole[place] for place in (4, 5, 6, 11)]
+    selection = select_cases(plan, "car=2")
+    assert isinstance(selection, CaseSelection)
+    assert of_chunk(plan, selection.indices(0, selection.size)) == whole[1::3]
+
+
+def test_cases_that_a_page_draws_are_cars_of_their_trains(loaded):
+    first, second, other = loaded().cases(np.array([3, 4, 23]))
+    assert first.train.scenarios is second.train.scenarios
+    assert (first.train.train, second.train.number) == ("study[friction=0.04,command=80,position=P]", 2)
+    assert [each.brake.command for each in other.train.scenarios] == [1.0, 0.5, 0.5]
+    assert other.train.scenarios[1] is other.train.scenarios[2] is other.scenario
+
+
+def test_a_train_that_cannot_run_is_an_error_of_its_cars_alone(loaded):
+    plan = loaded("matrix: {coupler.damping: [0.8 MN s/m, 6 MN s/m], simulation.time_step: [0.5 ms, 1 ms]}\n")
+    found = of_chunk(plan, range(plan.size))
+    assert [row["outcome"] for row in found] == [*9 * ["skipped"], *3 * ["error"]]
+    assert "coupler: too stiff or too much damped" in found[-1]["reason"]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("matrix: {train.1.count: [1, 2]}\n", "the cars of a train and their number cannot vary"),
+        ("matrix: {vehicle.load: [empty]}\n", "vehicles of their own"),
+        ("matrix: {simulation.time_step: [survey]}\n", "what the survey step does to trains is not known"),
+        ("matrix: {rail.friction: [0.1]}\nquantiles: [{of: braking_distance_m}]\n", "quantile"),
+        (
+            "sample: {method: saltelli, size: 4, parameters: {rail.friction: {uniform: [0.1, 0.2]}}}\n",
+            "sensitivities are of a car alone",
+        ),
+    ],
+)
+def test_what_a_sweep_of_trains_cannot_is_refused_at_its_key(loaded, text, message):
+    with pytest.raises(ScenarioErrors, match=message):
+        loaded(text)
+
+
+def test_a_key_that_every_car_has_of_its_own_reaches_none(load):
+    own = TRAIN.replace("{}, {", "{brake: {command: 70 %}}, {")
+    with pytest.raises(ScenarioErrors, match="every car has one of its own"):
+        load("matrix: {brake.command: [80 %, 100 %]}\n", stop=own)
+
+
+def test_numbers_of_one_car_are_drawn(loaded):
+    plan = loaded("sample: {size: 3, parameters: {train.0.vehicle.body.mass: {uniform: [30 t, 40 t]}}}\n")
+    cases = plan.cases(np.arange(9))
+    masses = [[float(car.vehicle.body.mass) for car in case.train.scenarios] for case in cases]
+    assert all(30e3 <= leading <= 40e3 for leading, *_ in masses)
+    assert len({leading for leading, *_ in masses}) == 3
+    assert len({tuple(others) for _, *others in masses}) == 1
