@@ -1,13 +1,17 @@
 """Sensors that contradict each other, clocks that cannot be right, files with the same rows."""
 
+import os
+
 import numpy as np
 import pyarrow as pa
 import pytest
 from pyarrow import parquet
 
-from tests.service_log.test_found_stops import MAP, STEP, UNITS, table, written
+from tests.service_log.test_found_stops import MAP, STATED, STEP, UNITS, table, written
 from tests.service_log.test_odd_logs import KINDS, PLACES, found
+from uictest.cli.entry import execute
 from uictest.core.recording.formats import UnreadableError, streams
+from uictest.recorded import service_log
 from uictest.recorded.field_data import UnusableError, stop_in
 from uictest.recorded.service_log import find_stops, write_stops
 
@@ -161,3 +165,59 @@ def test_waveforms_of_devices_that_start_apart_lie_where_they_began(tmp_path):
         writer.write_segment(objects)
     (piece,) = streams.tdms_pieces(tmp_path / "log.tdms", None, ("speed",), 1000)
     assert [group.time[0] for group in piece.groups] == pytest.approx([0.0, 3.0])
+
+
+def test_a_train_speed_that_drops_to_zero_is_replaced_down_to_standstill(tmp_path):
+    columns = braking(30.0)
+    columns |= {f"wheel_speed_{n}": columns["speed"].copy() for n in (1, 2, 3, 4)}
+    columns["speed"][200:] = 0.0
+    log, _, _ = found(columns, tmp_path / "log.parquet")
+    assert log.stops[0].end_speed < 1.0
+    assert log.stops[0].rows[1] == pytest.approx(400 + 30, abs=5)
+
+
+def test_a_brake_command_without_a_value_is_not_recorded(tmp_path):
+    columns = braking(30.0)
+    columns |= {f"cylinder_pressure_{n}": 3e5 * columns["brake_command"] for n in (1, 2, 3, 4)}
+    columns["brake_command"] = np.full(600, np.nan)
+    names = {f"cylinder_pressure_{n}": "Pa" for n in (1, 2, 3, 4)} | UNITS
+    fields = [pa.field(name, pa.float64(), metadata={"unit": names.get(name, "m/s")}) for name in columns]
+    parquet.write_table(pa.table(list(columns.values()), schema=pa.schema(fields)), tmp_path / "log.parquet")
+    assert [event.row for event in find_stops([tmp_path / "log.parquet"], MAP).stops] == [100]
+
+
+def test_a_pipe_is_no_log(tmp_path):
+    os.mkfifo(tmp_path / "log.csv")
+    with pytest.raises(UnreadableError, match=r"log\.csv: not a file"):
+        find_stops([tmp_path / "log.csv"], MAP)
+
+
+def test_stops_that_another_run_replaced_are_not_judged(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    written(braking(30.0), tmp_path / "fast.parquet")
+    written(braking(15.0), tmp_path / "slow.parquet")
+    write = service_log.write_stops
+
+    def overtaken(log, *others):
+        own = write(log, *others)
+        write(find_stops([tmp_path / "slow.parquet"], MAP), *others)
+        return own
+
+    monkeypatch.setattr(service_log, "write_stops", overtaken)
+    assert execute(["log", "fast.parquet", *STATED]) == 4
+    assert "stops: another log was written there" in capsys.readouterr().err
+    assert not list(tmp_path.glob("reports/2*"))
+
+
+def test_earlier_stops_stay_until_the_new_ones_stand_there(tmp_path, monkeypatch):
+    log, *_ = found(braking(30.0), tmp_path / "log.parquet")
+    write_stops(log, MAP, tmp_path / "stops")
+
+    def interrupted(*_):
+        assert stop_in(tmp_path / "stops" / "stop-0001.parquet", MAP)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("uictest.core.files.run_folder.remove_contents", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write_stops(log, MAP, tmp_path / "stops")
+    assert stop_in(tmp_path / "stops" / "stop-0001.parquet", MAP)

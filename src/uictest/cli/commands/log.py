@@ -87,7 +87,8 @@ def log(
     if not quiet:
         _write_events(found)
     if not written:
-        message("uictest: no stop found")
+        applied = "" if found.passed_over else ": by the channels of the map, the brake is never applied"
+        message(f"uictest: no stop found{applied}")
         return ExitCode.NOTHING_SELECTED
     named = {f"stop-{number:04d}": event for number, event in enumerate(found.stops, start=1)}
     on_dry_rail = _dry_stops(dry, named)
@@ -96,7 +97,11 @@ def log(
     def case_of(name: str, speed: float) -> scenarios.Case:
         return of_dry(name, speed) if name in on_dry_rail else stated(name, speed)
 
-    stops = runs.stops_in_recordings(written, _canonical(mapped), inputs, case_of, found=True)
+    stops = runs.stops_in_recordings(list(written), _canonical(mapped), inputs, case_of, found=True)
+    if any(file.digest != written[file.path] for file in stops.files):
+        raise runs.InvalidInputError(
+            f"{folder}: another log was written there: name a folder with --recordings"
+        )
     request = campaign.RecordingRequest("all")
     passed_over = [_sentence(event) for event in found.passed_over]
     times = {name: event.time for name, event in named.items()}
@@ -226,7 +231,7 @@ def _stops(
     mapped: field_data.ChannelMap,
     settings: service_log.FinderSettings,
     place: Path,
-) -> tuple[service_log.Log, list[Path]]:
+) -> tuple[service_log.Log, dict[Path, str]]:
     """Find and write the stops. Raises InvalidInputError where a file cannot be read."""
     try:
         found = service_log.find_stops(paths, mapped, settings)

@@ -10,7 +10,7 @@ import errno
 import itertools
 import logging
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
@@ -113,10 +113,11 @@ class ForeignFileError(Exception):
     """A folder holds something that uictest did not write, or that has changed; the message is its path."""
 
 
-def remove_run(parent: Path, name: str) -> None:
+def remove_run(parent: Path, name: str, replace: Callable[[], object] = lambda: None) -> None:
     """Remove the folder of a run.
 
-    It gets a hidden name first: should that be cut short, the next run removes the rest.
+    It gets a hidden name first: should that be cut short, the next run removes the rest. `replace` puts
+    another one in its place before any file of it is removed.
 
     Raises:
         ForeignFileError: the folder holds something else than the files of its list; all of it stays.
@@ -130,6 +131,7 @@ def remove_run(parent: Path, name: str) -> None:
         if not _renamed(place, name, hidden := _hidden(name)):
             raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), hidden)
         lock.leaves_file = True  # should this be cut short
+        replace()
         if stay := remove_contents(lock.place, LOCK):
             lock.leaves_file = not _renamed(place, hidden, name)
             raise ForeignFileError(stay[0])
@@ -157,8 +159,9 @@ def replaced_folder(folder: Path) -> Iterator[Path]:
         with suppress(OSError):  # it is missing, or holds something
             folder.rmdir()
         if os.path.lexists(folder):
-            remove_run(folder.parent, folder.name)
-        new.publish(folder.name)
+            remove_run(folder.parent, folder.name, lambda: new.publish(folder.name))
+        else:
+            new.publish(folder.name)
 
 
 def _remove_abandoned(parent: Path, place: int) -> None:

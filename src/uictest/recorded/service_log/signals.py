@@ -36,6 +36,8 @@ _LEAST_STUCK = 2.0
 """s for which a speed may show one number to the last digit while the wheels change theirs; chosen."""
 _TELLING_CHANGE = 0.5
 """m/s by which the wheels must change meanwhile; chosen."""
+_ROLLS = 2.0
+"""m/s above which a train rolls whose speed shows zero; chosen."""
 _CREEPS = 1.0
 """m/s below which a train speed may be that of a dead sensor if wheels roll; chosen."""
 STUCK_BEFORE = 5.0
@@ -79,8 +81,8 @@ def rows_of(path: Path, channel_map: ChannelMap) -> Iterator[Rows]:
     alternatives = SHOWN_BY[trigger]
     names = {*WHEELS, *(name for each in alternatives for name in each)}
     for piece in pieces_of(path, channel_map, names):
-        shown_by = _shown_by(piece.channels, alternatives)
         if threshold is None:
+            shown_by = _shown_by(piece.channels, alternatives)
             threshold = _ON if shown_by == _COMMAND else _threshold(path, channel_map, shown_by)
         shown = [piece.channels[name].samples for name in shown_by if name in piece.channels]
         speed = piece.channels["speed"]
@@ -94,9 +96,12 @@ def rows_of(path: Path, channel_map: ChannelMap) -> Iterator[Rows]:
 
 
 def _shown_by(channels: Mapping[str, RawChannel], alternatives: Sequence[tuple[str, ...]]) -> tuple[str, ...]:
-    for names in alternatives:
-        if any(name in channels for name in names):
+    mapped = [names for names in alternatives if any(name in channels for name in names)]
+    for names in mapped:
+        if any(np.isfinite(channels[name].samples).any() for name in names if name in channels):
             return names
+    if mapped:
+        return mapped[0]
     looked_for = ", ".join(name for names in alternatives for name in names)
     raise MapError(f"nothing shows when the brake is applied: map one of {looked_for}")
 
@@ -166,24 +171,28 @@ def reference_speed(clock: Array, train: Array, wheels: Array, before: Before) -
 
     It is not that of the wheels where these show one number themselves, or spin while the train creeps.
     """
-    rolling = np.where(_stuck(clock, wheels, train, before.wheels), np.nan, wheels)
+    stuck = (wheels != 0.0) & _stuck(clock, wheels, train, before.wheels)
+    rolling = np.where(stuck, np.nan, wheels)
     dead = ~np.isfinite(train) | (np.abs(train) < np.minimum(0.5 * np.abs(rolling) - 1.0, _CREEPS))
     dead |= _stuck(clock, train, wheels, before.train)
     return np.where(dead & np.isfinite(rolling), rolling, train)
 
 
 def _stuck(clock: Array, speed: Array, other: Array, begun: Constant) -> NDArray[np.bool_]:
-    """Return where a speed is stuck: it shows one number while the other one changes.
+    """Return where a speed is stuck: it shows one number while the other one changes, or zero while it rolls.
 
     It is known then, and counts as stuck from `STUCK_BEFORE` before. `begun` is what it showed before.
     """
     stuck = np.zeros(len(clock), dtype=np.bool_)
     for first, end, since, least, largest in _constants(clock, speed, other, begun):
-        if clock[end - 1] - since <= _LEAST_STUCK or speed[first] == 0.0:
+        if clock[end - 1] - since <= _LEAST_STUCK:
             continue
         lowest = np.fmin.accumulate(np.append(least, other[first:end]))[1:]
         highest = np.fmax.accumulate(np.append(largest, other[first:end]))[1:]
-        known = (highest - lowest > _TELLING_CHANGE) & (clock[first:end] - since > _LEAST_STUCK)
+        telling = highest - lowest > _TELLING_CHANGE
+        if speed[first] == 0.0:
+            telling = np.fmax(np.abs(lowest), np.abs(highest)) > _ROLLS
+        known = telling & (clock[first:end] - since > _LEAST_STUCK)
         if known.any():
             before = np.searchsorted(clock, clock[first + int(np.argmax(known))] - STUCK_BEFORE)
             stuck[max(first, int(before)) : end] = True

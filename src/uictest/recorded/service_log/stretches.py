@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,19 +20,19 @@ from uictest.recorded.service_log.signals import WHEELS, Array
 _SIGNED = ("speed", "distance", *WHEELS)
 
 
-def write_stops(log: Log, channel_map: ChannelMap, folder: Path) -> list[Path]:
-    """Write every stop as Parquet, in SI under the canonical names, and return the files in order.
+def write_stops(log: Log, channel_map: ChannelMap, folder: Path) -> dict[Path, str]:
+    """Write every stop as Parquet, in SI under canonical names; return the files in order, with SHA-256.
 
     They take the place of earlier stops in the folder at once.
 
     Raises UnreadableError, MapError, OSError; ForeignFileError where the folder holds something else.
     """
     with files.replaced_folder(folder) as new:
-        return [folder / name for name in _written(log, channel_map, new)]
+        return {folder / name: digest for name, digest in _written(log, channel_map, new)}
 
 
-def _written(log: Log, channel_map: ChannelMap, folder: Path) -> Iterator[str]:
-    """Write every stop, and yield the names of the files in order."""
+def _written(log: Log, channel_map: ChannelMap, folder: Path) -> Iterator[tuple[str, str]]:
+    """Write every stop, and yield the names of the files in order, with their SHA-256."""
     pending: dict[int, list[_Part]] = {}
     lead = float(channel_map.preparation.trigger_lead)
     following = 0
@@ -44,8 +45,9 @@ def _written(log: Log, channel_map: ChannelMap, folder: Path) -> Iterator[str]:
             pending.setdefault(k, []).append(_part(piece, slice(max(begin - first, 0), last - first)))
             if last <= end:
                 name = f"stop-{k + 1:04d}.parquet"
-                files.write(folder, name, _parquet(pending.pop(k), log.stops[k], lead))
-                yield name
+                content = _parquet(pending.pop(k), log.stops[k], lead)
+                files.write(folder, name, content)
+                yield name, hashlib.sha256(content).hexdigest()
                 following = k + 1
         if following == len(log.stops):
             break

@@ -35,6 +35,9 @@ def read_pieces(
 
     Raises as `read_contents`.
     """
+    path.stat()
+    if not path.is_file():
+        raise UnreadableError("not a file")
     kind = format_of(path)
     if kind in ("mdf", "tdms"):
         asked = None if wanted is None else sorted(wanted)
