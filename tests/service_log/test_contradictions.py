@@ -221,3 +221,27 @@ def test_earlier_stops_stay_until_the_new_ones_stand_there(tmp_path, monkeypatch
     with pytest.raises(KeyboardInterrupt):
         write_stops(log, MAP, tmp_path / "stops")
     assert stop_in(tmp_path / "stops" / "stop-0001.parquet", MAP)
+
+
+def test_a_brake_signal_that_ends_before_the_log_is_told_as_missing(tmp_path):
+    first, second = braking(30.0), braking(20.0)
+    columns = {name: np.concatenate((first[name], second[name])) for name in first}
+    columns["time"] = STEP * np.arange(1200)
+    columns["brake_command"][450:] = np.nan
+    _, places, reasons = found(columns, tmp_path / "log.parquet")
+    assert places == [100]
+    assert reasons == ["the brake signal is missing"]
+
+
+def test_a_gap_within_a_stop_is_told(tmp_path):
+    columns = braking(30.0)
+    columns["time"][250:] += 20.0
+    assert "not recorded for 20.1 s" in found(columns, tmp_path / "log.parquet")[0].stops[0].remarks
+
+
+def test_a_log_in_the_folder_of_the_stops_is_left_there(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (path,) = write_stops(found(braking(30.0), tmp_path / "log.parquet")[0], MAP, tmp_path / "stops")
+    assert execute(["log", str(path), *STATED]) == 4
+    assert "lies in stops, which the stops replace" in capsys.readouterr().err
+    assert path.is_file()

@@ -233,6 +233,10 @@ def _stops(
     place: Path,
 ) -> tuple[service_log.Log, dict[Path, str]]:
     """Find and write the stops. Raises InvalidInputError where a file cannot be read."""
+    if inside := next((path for path in paths if path.resolve().is_relative_to(place.resolve())), None):
+        raise runs.InvalidInputError(
+            f"{inside}: lies in {place}, which the stops replace: name another folder with --recordings"
+        )
     try:
         found = service_log.find_stops(paths, mapped, settings)
         return found, service_log.write_stops(found, mapped, place)

@@ -27,23 +27,24 @@ _LONGEST_INTERVAL = 60.0
 def continuous_clock(time: Array, before: Before) -> Array:
     """Return a clock that runs on where the recorded one steps: there it takes the last interval before."""
     intervals = np.concatenate(([before.interval], np.diff(time)))
-    sound = _runs_on(intervals)
+    sound = runs_on(intervals)
     last = np.maximum.accumulate(np.where(sound, np.arange(len(intervals)), 0))
     return np.cumsum(np.concatenate(([before.clock], intervals[last][1:])))
 
 
 def last_interval(time: Array, before: Before) -> float:
     """Return the last interval of the recorded clock that is no step, s."""
-    sound = np.flatnonzero(_runs_on(np.diff(time)))
+    sound = np.flatnonzero(runs_on(np.diff(time)))
     return float(time[sound[-1] + 1] - time[sound[-1]]) if len(sound) else before.interval
 
 
 def steps_of_clock(time: Array) -> NDArray[np.intp]:
     """Return the rows at which the recorded clock steps: back, not at all, or by more than a minute."""
-    return np.flatnonzero(~_runs_on(np.diff(time))) + 1
+    return np.flatnonzero(~runs_on(np.diff(time))) + 1
 
 
-def _runs_on(intervals: Array) -> NDArray[np.bool_]:
+def runs_on(intervals: Array) -> NDArray[np.bool_]:
+    """Return which intervals between two rows are no steps of the clock."""
     return (intervals > 0.0) & (intervals <= _LONGEST_INTERVAL)
 
 

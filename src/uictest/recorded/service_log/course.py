@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.recorded.service_log.clocks import continuous_clock, last_interval, steps_of_clock
+from uictest.recorded.service_log.clocks import continuous_clock, last_interval, runs_on, steps_of_clock
 from uictest.recorded.service_log.signals import Array, Before, Rows, constant_before, reference_speed
 
 SHORTEST_RELEASE = 3.0
@@ -23,6 +23,8 @@ _BEFORE, _AFTER = 5.0, 3.0
 """s that belong to a stop before the brake and after standstill; chosen."""
 _LARGEST_JUMP = 2.0
 """m/s between two rows beside a step of the clock: more, and the recording was interrupted; chosen."""
+_TOLD_GAP = 5.0
+"""s without a row within a stop that are told; chosen."""
 _FALL, _STEEPEST = 0.5, 5.0
 """s before standstill, and m/s2 by which a train slows down there at most: else its speed is lost; chosen."""
 HELD = 0.1
@@ -158,6 +160,8 @@ class Course:
             yield f"{len(inside) - _REMARKED_STEPS} further steps of the clock"
         if np.nanmedian(np.append(self.signed[begin:end], 0.0)) < 0.0:
             yield "runs backwards: speeds are recorded with their sign changed"
+        gaps = np.diff(self.time[first : stop_row + 1])
+        yield from (f"not recorded for {gap:.6g} s" for gap in gaps[(gaps > _TOLD_GAP) & runs_on(gaps)])
         if self.unusable[begin:end].any():
             yield "the train speed is missing in part"
         if self.unknown[begin:end].any():

@@ -28,6 +28,7 @@ _CALM = 2.0 * SHORTEST_RELEASE
 """s after which it is known whether an application begins in a row; chosen."""
 _LONGEST = 3600.0
 """s: an application without standstill that lasts longer is no braking, its signal is stuck; chosen."""
+_NO_SIGNAL = "the brake signal is missing"
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,8 +201,10 @@ class _Finder:
         rows = stood + np.flatnonzero(running[stood:end])
         if len(rows) and (all_of_them or course.clock[-1] - course.clock[rows[0]] >= _SETTLED):
             self._stood = -1
-            reason = "runs again with the brake still applied: its signal may be stuck or inverted"
             first = int(rows[0])
+            reason = "runs again with the brake still applied: its signal may be stuck or inverted"
+            if course.unknown[first]:
+                reason = _NO_SIGNAL
             yield self._noted(course, first, first, first, reason)
 
     def _event(self, course: Course, first: int, end: int) -> LoggedEvent:
@@ -212,7 +215,7 @@ class _Finder:
         self._stood = -1 if rest is None else course.first_row + rest
         initial, final = course.speed_at(first), float(course.speed[stop_row])
         if course.unknown[first]:
-            reason = "the brake signal is missing"
+            reason = _NO_SIGNAL
         elif rest is not None and initial >= self._settings.from_speed:
             reason = ""
         else:
