@@ -5,7 +5,13 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.analysis.logged_stops.drift import drifts
-from uictest.analysis.logged_stops.stop_groups import LoggedStop, dry_table, extensions, outliers_of
+from uictest.analysis.logged_stops.stop_groups import (
+    LoggedStop,
+    dry_table,
+    extensions,
+    outliers_of,
+    references,
+)
 from uictest.judging.evaluation import CaseResult
 
 KMH = 1.0 / 3.6
@@ -43,6 +49,18 @@ def test_an_outlier_is_named_and_hides_no_other(factor):
     lengths = [500.0, 505.0, 495.0, 500.0 * factor, 502.0, 500.0 * factor * factor]
     group = [stop(k, 120.0, length) for k, length in enumerate(lengths)]
     assert set(outliers_of(group)) == {"stop-0003", "stop-0005"}
+
+
+def test_of_two_stops_apart_neither_is_accepted():
+    stops = [stop(1, 100.0, 398.6), stop(2, 100.0, 563.9)]
+    (row,) = dry_table(stops).data.rows
+    assert row["accepted"] == "0 of 2"
+    assert references(stops) == {}
+
+
+def test_an_outlier_is_no_reference_of_wet_stops():
+    dry = [stop(k, 100.0, length) for k, length in enumerate((400.0, 396.0, 404.0, 667.0))]
+    assert extensions([*dry, stop(9, 100.0, 500.0, dry=False)]) == pytest.approx({"stop-0009": 25.0})
 
 
 def test_stops_within_15_percent_are_all_accepted():

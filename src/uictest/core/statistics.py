@@ -74,18 +74,13 @@ def difference_interval(
     The variances need not be equal. NaN at both ends where a sample has one value, or both have no spread: t
     would feign certainty.
     """
-    from scipy.special import stdtrit
+    from scipy.stats import ttest_ind
 
-    shares = [_of_sample(sample, confidence)[1] / len(sample) for sample in (first, second)]
-    total = sum(shares)
-    if not total > 0.0:
+    spread = max(max(sample) - min(sample) for sample in (first, second))
+    if min(len(first), len(second)) < 2 or not spread > 0.0:
         return math.nan, math.nan
-    degrees = total**2 / sum(
-        share**2 / (len(sample) - 1) for share, sample in zip(shares, (first, second), strict=True)
-    )
-    half = float(stdtrit(degrees, 0.5 + confidence / 2.0)) * math.sqrt(total)
-    difference = math.fsum(second) / len(second) - math.fsum(first) / len(first)
-    return difference - half, difference + half
+    low, high = ttest_ind(second, first, equal_var=False).confidence_interval(confidence)
+    return float(low), float(high)
 
 
 def share_difference_interval(

@@ -3,7 +3,6 @@ from .campaign import (
     Campaign as Campaign,
     CampaignColumn as CampaignColumn,
     CampaignTable as CampaignTable,
-    number_cell as number_cell,
 )
 from .case_table import measure_columns as measure_columns
 from .close_calls import close_lines as close_lines

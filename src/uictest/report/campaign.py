@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Literal, NamedTuple
@@ -48,7 +47,7 @@ class CampaignTable:
         basis: what it rests on, in one sentence.
         place: where it stands.
         columns: of the rows.
-        rows: a cell for each column; None where there is none.
+        rows: a cell for each column; None where there is none, or a number that is not known.
     """
 
     name: str
@@ -64,6 +63,8 @@ class CampaignTable:
             raise ValueError(f"table {self.name!r}: a row has not one cell for each column")
         if any(isinstance(each.digits, int) and each.digits not in _DIGITS for each in self.columns):
             raise ValueError(f"table {self.name!r}: digits of a column must be 0 to {_DIGITS[-1]}")
+        known = tuple(tuple(cell if cell == cell else None for cell in row) for row in self.rows)
+        object.__setattr__(self, "rows", known)
 
     @property
     def data(self) -> Data:
@@ -127,11 +128,6 @@ def file_name(table: CampaignTable) -> str:
 def campaign_data(campaign: Campaign | None) -> dict[str, Data]:
     """Return the tables for programs that have rows, by the names of their files."""
     return {file_name(each): each.data for each in campaign.tables if each.rows} if campaign else {}
-
-
-def number_cell(value: float) -> float | None:
-    """Return a number as a cell, None for NaN."""
-    return None if math.isnan(value) else float(value)
 
 
 _FORM: Final = TypeAdapter(tuple[Campaign, ...], config=ConfigDict(extra="forbid", defer_build=True))

@@ -89,14 +89,10 @@ def _drift(
     x, y = (np.array(side) for side in zip(*((places[key], values[key]) for key in values), strict=True))
     if len(x) < _FEWEST or not np.ptp(x) > 0.0:
         return Drift(name, unit, over, nan, nan, nan, nan, len(x), _LEAST_CHANGE)
-    from scipy.special import stdtrit  # here, since few logs are so long
+    from scipy import stats  # here, since few logs are so long
 
-    centred = x - x.mean()
-    spread = float(centred @ centred)
-    slope = float(centred @ y) / spread
-    left = y - y.mean() - slope * centred
-    error = math.sqrt(float(left @ left) / (len(x) - 2) / spread)
-    half = float(stdtrit(len(x) - 2, 0.5 + confidence / 2.0)) * error
+    line = stats.linregress(x, y)
+    slope, half = float(line.slope), float(stats.t.ppf(0.5 + confidence / 2.0, len(x) - 2) * line.stderr)
     change = slope * float(np.ptp(x))
     return Drift(name, unit, over, slope, slope - half, slope + half, change, len(x), _LEAST_CHANGE)
 
@@ -115,13 +111,12 @@ _COLUMNS: Final = (
 
 def drift_table(found: Sequence[Drift]) -> report.CampaignTable:
     """Return the slopes with their intervals."""
-    number = report.number_cell
 
     def row(each: Drift) -> tuple[Cell, ...]:
         few = f"too few stops: {_FEWEST} are needed"
         finding = few if math.isnan(each.slope) else "drifts" if each.told else "no drift told"
-        cells = *map(number, (each.slope, each.low, each.high)), f"{each.unit} per {each.over}"
-        return each.quantity, *cells, number(each.change), each.stops, finding
+        unit = f"{each.unit} per {each.over}"
+        return each.quantity, each.slope, each.low, each.high, unit, each.change, each.stops, finding
 
     return report.CampaignTable(
         "drift",

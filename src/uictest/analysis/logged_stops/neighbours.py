@@ -222,7 +222,6 @@ _COMPARED: Final = (
 
 def compared_table(differences: Sequence[NeighbourDifference]) -> report.CampaignTable:
     """Return every difference between a wheelset and its neighbours, with its interval."""
-    number = report.number_cell
     return report.CampaignTable(
         "wheelsets",
         "Wheelsets beside their neighbours",
@@ -232,11 +231,8 @@ def compared_table(differences: Sequence[NeighbourDifference]) -> report.Campaig
         _COMPARED,
         tuple(
             (
-                *(each.kind.meaning, each.wheelset, number(each.own), number(each.others), each.kind.unit),
-                *(
-                    number(value)
-                    for value in (each.difference.value, each.difference.low, each.difference.high)
-                ),
+                *(each.kind.meaning, each.wheelset, each.own, each.others, each.kind.unit),
+                *(each.difference.value, each.difference.low, each.difference.high),
                 *(each.unit, each.limit, each.difference.stops),
             )
             for each in differences

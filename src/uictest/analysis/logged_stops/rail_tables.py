@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 import numpy as np
@@ -29,6 +29,8 @@ _FRICTION_BIN: Final = 0.02
 _NOT_SEEN: Final = "not seen"
 _CONFIDENCE: Final = 0.95
 Uses = Sequence[service_log.RailUse]
+Bins = Mapping[str, Sequence[Sequence[Array]]]
+"""Adhesion by the range of a bin, wheelset and stop; stops without any are left out."""
 
 
 def rail_tables(
@@ -39,89 +41,86 @@ def rail_tables(
         return
     yield _outcome_map(uses, results, speeds)
     highest = max(speeds.values())
-    speed_edges = np.arange(0.0, highest + _SPEED_BIN, _SPEED_BIN)
     farthest = max((float(use.windows.place.max()) for use in uses if len(use.windows.place)), default=0.0)
     width = next((each for each in _PLACE_BINS if farthest <= each * _MOST_BINS), _PLACE_BINS[-1])
-    place_edges = np.arange(0.0, farthest + width, width)
-    by_speed = _Bins("speed", "km/h", speed_edges, [use.windows.speed / KILOMETRE_PER_HOUR for use in uses])
-    by_place = _Bins("place", "m", place_edges, [use.windows.place for use in uses])
-    for bins in (by_speed, by_place):
-        if len(bins.edges) > 1:
-            yield bins.map(uses)
-            yield bins.table(uses)
+    by_speed = [use.windows.speed / KILOMETRE_PER_HOUR for use in uses]
+    yield from _adhesion("speed", "km/h", by_speed, np.arange(0.0, highest + _SPEED_BIN, _SPEED_BIN), uses)
+    by_place = [use.windows.place for use in uses]
+    yield from _adhesion("place", "m", by_place, np.arange(0.0, farthest + width, width), uses)
     yield _friction_table(uses, speeds)
 
 
-class _Bins:
-    """Windows of sliding by one quantity, those of each stop apart."""
+def _adhesion(
+    name: str, unit: str, values: Sequence[Array], edges: Array, uses: Uses
+) -> Iterator[report.CampaignTable]:
+    """Yield the adhesion by one quantity: medians as a map, and the distribution in every bin.
 
-    def __init__(self, name: str, unit: str, edges: Array, values: Sequence[Array]) -> None:
-        self.name, self.unit, self.edges = name, unit, edges
-        self.numbers = [np.clip(np.digitize(each, edges) - 1, 0, len(edges) - 2) for each in values]
+    `values` are those of the windows of sliding, stop by stop; `edges` bound the bins.
+    """
+    wheelsets = _wheelsets(uses)
+    numbers = [np.clip(np.digitize(each, edges) - 1, 0, len(edges) - 2) for each in values]
+    bins: dict[str, list[list[Array]]] = {}
+    for number in range(len(edges) - 1):
+        inside = [(use.windows, own == number) for use, own in zip(uses, numbers, strict=True)]
+        parts = ([each.adhesion[own & (each.wheelset == n)] for each, own in inside] for n in wheelsets)
+        known = [[part for part in of_stops if len(part)] for of_stops in parts]
+        bins[f"{edges[number]:g} to {edges[number + 1]:g}"] = known
+    if bins:
+        first = report.CampaignColumn(name, f"{name}, {unit}")
+        yield _adhesion_map(first, bins, wheelsets, uses)
+        yield _adhesion_table(first, bins, wheelsets)
 
-    def adhesion(self, uses: Uses, number: int, wheelset: int) -> list[Array]:
-        """Return the adhesion of a wheelset in one bin, stop by stop; stops without any are left out."""
-        parts = (
-            use.windows.adhesion[(own == number) & (use.windows.wheelset == wheelset)]
-            for use, own in zip(uses, self.numbers, strict=True)
-        )
-        return [part for part in parts if len(part)]
 
-    @property
-    def basis(self) -> str:
-        return "" if self.name == "speed" else "Place: from the brake command. "
+def _adhesion_map(
+    first: report.CampaignColumn, bins: Bins, wheelsets: Sequence[int], uses: Uses
+) -> report.CampaignTable:
+    """Return the medians, a row for each bin and a column for each wheelset."""
+    columns = (report.CampaignColumn(f"wheelset_{n}", _heading(n), 3) for n in wheelsets)
+    rows = [
+        (text, *(float(np.median(np.concatenate(part))) if part else _NOT_SEEN for part in parts))
+        for text, parts in bins.items()
+    ]
+    basis = "Place: from the brake command. " if first.key == "place" else ""
+    return report.CampaignTable(
+        f"adhesion_over_{first.key}",
+        f"Adhesion given, over {first.key}",
+        f"Median where the wheelset slides; {_NOT_SEEN}: the brake never reached the limit of the rail."
+        f" {basis}By {'; '.join(dict.fromkeys(use.known_by for use in uses if use.known_by))}.",
+        "map",
+        (first, *columns),
+        tuple(rows if first.key == "place" else rows[::-1]),
+    )
 
-    def range_text(self, number: int) -> str:
-        return f"{self.edges[number]:g} to {self.edges[number + 1]:g}"
 
-    def map(self, uses: Uses) -> report.CampaignTable:
-        """Return the medians, a row for each bin and a column for each wheelset."""
-        wheelsets = _wheelsets(uses)
-        columns = [report.CampaignColumn(self.name, f"{self.name}, {self.unit}")]
-        columns += [report.CampaignColumn(f"wheelset_{n}", _heading(n), 3) for n in wheelsets]
-        rows: list[tuple[Cell, ...]] = []
-        for number in reversed(range(len(self.edges) - 1)):
-            parts = [self.adhesion(uses, number, n) for n in wheelsets]
-            middles = [float(np.median(np.concatenate(part))) if part else _NOT_SEEN for part in parts]
-            rows.append((self.range_text(number), *middles))
-        where = "over speed" if self.name == "speed" else "over place"
-        return report.CampaignTable(
-            f"adhesion_over_{self.name}",
-            f"Adhesion given, {where}",
-            f"Median where the wheelset slides; {_NOT_SEEN}: the brake never reached the limit of the rail."
-            f" {self.basis}By {'; '.join(dict.fromkeys(use.known_by for use in uses if use.known_by))}.",
-            "map",
-            tuple(columns),
-            tuple(rows if self.name == "speed" else rows[::-1]),
-        )
+def _adhesion_table(
+    first: report.CampaignColumn, bins: Bins, wheelsets: Sequence[int]
+) -> report.CampaignTable:
+    """Return the distribution in every bin of each wheelset."""
+    return report.CampaignTable(
+        f"adhesion_by_{first.key}",
+        f"Adhesion by {first.key} and wheelset",
+        "Over windows of 0.25 s in which the wheelset slides without being locked; the interval (95 %) is"
+        " that of the median over stops, since windows of one stop are alike.",
+        "detail",
+        (first, *_DISTRIBUTION),
+        tuple(
+            (text, wheelset, *_spread(part))
+            for text, parts in bins.items()
+            for wheelset, part in zip(wheelsets, parts, strict=True)
+        ),
+    )
 
-    def table(self, uses: Uses) -> report.CampaignTable:
-        """Return the distribution in every bin of each wheelset."""
-        keys = ("windows", "stops_seen"), ("p10", "median", "p90", "low", "high")
-        titles = "10 %", "median", "90 %", "median of stops\nfrom", "to"
-        columns = [
-            report.CampaignColumn(self.name, f"{self.name}, {self.unit}"),
-            report.CampaignColumn("wheelset", "wheelset", 0),
-            *(
-                report.CampaignColumn(key, title, 0)
-                for key, title in zip(keys[0], ("windows", "stops"), strict=True)
-            ),
-            *(report.CampaignColumn(key, title, 3) for key, title in zip(keys[1], titles, strict=True)),
-        ]
-        rows = tuple(
-            (self.range_text(number), wheelset, *_spread(self.adhesion(uses, number, wheelset)))
-            for number in range(len(self.edges) - 1)
-            for wheelset in _wheelsets(uses)
-        )
-        return report.CampaignTable(
-            f"adhesion_by_{self.name}",
-            f"Adhesion by {self.name} and wheelset",
-            "Over windows of 0.25 s in which the wheelset slides without being locked; the interval (95 %) is"
-            " that of the median over stops, since windows of one stop are alike.",
-            "detail",
-            tuple(columns),
-            tuple(rows),
-        )
+
+_DISTRIBUTION: Final = (
+    report.CampaignColumn("wheelset", "wheelset", 0),
+    report.CampaignColumn("windows", "windows", 0),
+    report.CampaignColumn("stops_seen", "stops", 0),
+    report.CampaignColumn("p10", "10 %", 3),
+    report.CampaignColumn("median", "median", 3),
+    report.CampaignColumn("p90", "90 %", 3),
+    report.CampaignColumn("low", "median of stops\nfrom", 3),
+    report.CampaignColumn("high", "to", 3),
+)
 
 
 def _spread(parts: Sequence[Array]) -> tuple[Cell, ...]:
@@ -129,9 +128,7 @@ def _spread(parts: Sequence[Array]) -> tuple[Cell, ...]:
         return 0, 0, _NOT_SEEN, _NOT_SEEN, _NOT_SEEN, None, None
     own = np.concatenate(parts)
     of_stops = median_of([float(np.median(part)) for part in parts], _CONFIDENCE)
-    quantiles = (float(np.quantile(own, level)) for level in (0.1, 0.5, 0.9))
-    ends = report.number_cell(of_stops.low), report.number_cell(of_stops.high)
-    return len(own), len(parts), *quantiles, *ends
+    return len(own), len(parts), *map(float, np.quantile(own, (0.1, 0.5, 0.9))), of_stops.low, of_stops.high
 
 
 def _wheelsets(uses: Uses) -> list[int]:
@@ -191,11 +188,10 @@ def _friction_table(uses: Uses, speeds: dict[str, float]) -> report.CampaignTabl
         report.CampaignColumn("half_width", "+-", 4),
         report.CampaignColumn("remark", "remark", wraps=True),
     )
-    number = report.number_cell
     rows = (
         (
-            *(use.stop, speeds[use.stop], *((number(use.place),) if on_line else ()), use.standing),
-            *(number(use.friction), number(use.half_width), use.remark),
+            *(use.stop, speeds[use.stop], *((use.place,) if on_line else ()), use.standing),
+            *(use.friction, use.half_width, use.remark),
         )
         for use in uses
     )

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from statistics import stdev
 from typing import Final
 
 from uictest import report
@@ -80,6 +81,15 @@ def dry_groups(stops: Sequence[LoggedStop]) -> dict[float, list[LoggedStop]]:
     return dict(sorted(groups.items()))
 
 
+def references(stops: Sequence[LoggedStop]) -> dict[float, list[LoggedStop]]:
+    """Return the dry stops that wet ones are compared with: those of :func:`dry_groups` without outliers."""
+    groups = {speed: (group, outliers_of(group)) for speed, group in dry_groups(stops).items()}
+    kept = {
+        speed: [stop for stop in group if stop.result.id not in off] for speed, (group, off) in groups.items()
+    }
+    return {speed: group for speed, group in kept.items() if group}
+
+
 def deviations(group: Sequence[LoggedStop]) -> dict[str, float]:
     """Return by how much the distance of each stop exceeds the mean of the others of its group, %.
 
@@ -122,26 +132,28 @@ def dry_table(stops: Sequence[LoggedStop]) -> report.CampaignTable:
 
 def _dry_row(speed: float, group: Sequence[LoggedStop]) -> tuple[Cell, ...]:
     distances = [stop.distance for stop in group]
-    mean, number = mean_of(distances, _CONFIDENCE), report.number_cell
-    spread = math.sqrt(math.fsum((d - mean.value) ** 2 for d in distances) / max(len(distances) - 1, 1))
-    outliers = outliers_of(group)
-    kept = f"{len(group) - len(outliers)} of {len(group)}" if len(group) > 1 else "one stop alone"
-    percent = 100.0 * spread / mean.value if len(group) > 1 else math.nan
-    names = ", ".join(outliers)
-    return speed, len(group), mean.value, number(mean.low), number(mean.high), number(percent), kept, names
+    mean, outliers = mean_of(distances, _CONFIDENCE), outliers_of(group)
+    percent, kept = math.nan, "one stop alone"
+    if len(group) > 1:
+        percent = 100.0 * stdev(distances) / mean.value
+        kept = f"{len(group) - len(outliers)} of {len(group)}"
+    return speed, len(group), mean.value, mean.low, mean.high, percent, kept, ", ".join(outliers)
 
 
 def outliers_of(group: Sequence[LoggedStop]) -> list[str]:
     """Return the stops that lie beyond the accepted width, the farthest first.
 
-    One after the other: an outlier moves the mean of the others, which is made without it then.
+    One after the other: an outlier moves the mean of the others, which is made without it then. Of two alone
+    nothing says which one is off: both are.
     """
-    remaining, outliers = list(group), []
-    while len(remaining) > 2:
+    remaining, outliers = list(group), list[str]()
+    while len(remaining) > 1:
         apart = deviations(remaining)
         farthest = max(apart, key=lambda name: abs(apart[name]))
         if abs(apart[farthest]) <= _ACCEPTED:
             break
+        if len(remaining) == 2:
+            return [*outliers, *apart]
         outliers.append(farthest)
         remaining = [stop for stop in remaining if stop.result.id != farthest]
     return outliers
@@ -150,7 +162,9 @@ def outliers_of(group: Sequence[LoggedStop]) -> list[str]:
 def wet_series(stops: Sequence[LoggedStop]) -> judged_series.SeriesResult | None:
     """Return the wet stops as a series beside the dry ones; None without wet stops in a speed group."""
     of_groups = [stop for stop in stops if stop.nominal is not None and stop.case is not None]
+    reference = {stop.result.id for group in references(stops).values() for stop in group}
     of_groups = [stop for stop in of_groups if stop.result.outcome not in _NO_MEASURES]
+    of_groups = [stop for stop in of_groups if not stop.dry or stop.result.id in reference]
     if not any(not stop.dry for stop in of_groups):
         return None
     ordered = sorted(of_groups, key=lambda stop: not stop.dry)
@@ -186,9 +200,7 @@ def series_table(result: judged_series.SeriesResult) -> report.CampaignTable:
         for name in _SHOWN:
             value, measure = speed.measures[name], SERIES_MEASURES[name]
             estimate = value.estimate
-            numbers: list[Cell] = [None] * 3
-            if estimate is not None:
-                numbers = [report.number_cell(n) for n in (estimate.value, estimate.low, estimate.high)]
+            numbers = (estimate.value, estimate.low, estimate.high) if estimate else (None, None, None)
             unit = "" if measure.unit == "1" else measure.unit
             counts = speed.dry.counted, speed.wet.counted
             rows.append((speed.speed_kmh, name, *numbers, unit, *counts, value.unavailable_reason))
@@ -227,13 +239,13 @@ def wet_table(stops: Sequence[LoggedStop], result: judged_series.SeriesResult | 
         grouped = stop.nominal is not None and stop.result.outcome not in _NO_MEASURES
         why = uncounted.get(name, "") if grouped else "in no group of speeds"
         counts = "yes" if grouped and name not in uncounted else "no"
-        cells = report.number_cell(distance), report.number_cell(lengths.get(name, math.nan))
-        rows.append((name, stop.speed, stop.result.outcome, counts, *cells, why or stop.result.reason))
+        cells = distance, lengths.get(name), why or stop.result.reason
+        rows.append((name, stop.speed, stop.result.outcome, counts, *cells))
     return report.CampaignTable(
         "wet_stops",
         "Wet stops",
-        "Extension: braking distance over the mean of the dry stops from the same nominal speed, each brought"
-        " to it.",
+        "Extension: braking distance over the mean of the dry stops, without outliers, from the same nominal"
+        " speed, each brought to it.",
         "detail",
         _WET,
         tuple(rows),
@@ -244,7 +256,7 @@ def extensions(stops: Sequence[LoggedStop]) -> dict[str, float]:
     """Return by how much the distance of each wet stop exceeds the mean of the dry ones of its speed, %."""
     means = {
         speed: math.fsum(stop.distance for stop in group) / len(group)
-        for speed, group in dry_groups(stops).items()
+        for speed, group in references(stops).items()
     }
     return {
         stop.result.id: 100.0 * (stop.distance / means[stop.nominal] - 1.0)

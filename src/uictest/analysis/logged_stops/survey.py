@@ -22,12 +22,14 @@ from uictest.analysis.logged_stops.stop_groups import (
     dry_groups,
     dry_table,
     outliers_of,
+    references,
     series_table,
     wet_series,
     wet_table,
 )
+from uictest.core.document import Cell, Data
 from uictest.core.units import KILOMETRE_PER_HOUR
-from uictest.judging.evaluation import CaseResult
+from uictest.judging.evaluation import CaseResult, narrowest_margin
 from uictest.judging.series import SeriesResult
 from uictest.plans.scenario import Case
 from uictest.recorded import field_data, service_log
@@ -108,10 +110,10 @@ class LogSurvey:
         groups = dry_groups(self._stops)
         outliers = [name for group in groups.values() for name in outliers_of(group)]
         if outliers:
-            yield f"dry stops beyond 15 % of their group's mean: {', '.join(outliers)}"
+            yield f"dry stops beyond 15 % of the others' mean, left out as reference: {', '.join(outliers)}"
         if series is None:
             return
-        if not groups:
+        if not references(self._stops):
             yield "no dry stop to compare wet stops with: say which are dry with --dry"
             return
         for speed in series.speeds:
@@ -130,3 +132,38 @@ class LogSurvey:
         if found:
             return f"{seen}: {min(found):.3f} to {max(found):.3f}"
         return f"{seen}: {'; '.join(dict.fromkeys(use.remark for use in self._uses))}"
+
+
+def stops_table(
+    stops: Mapping[str, service_log.LoggedEvent],
+    passed_over: Sequence[service_log.LoggedEvent],
+    ranked: Sequence[CaseResult],
+    places: Mapping[str, float],
+) -> Data:
+    """Return where in a log its stops lie, the worst first, and then every other application of the brake.
+
+    `stops` are by name, `ranked` their results; `places` are recorded distances at the brake command, m.
+    """
+    rows: list[dict[str, Cell]] = []
+    for result in ranked:
+        margin, criterion = narrowest_margin(result)
+        percent = None if margin is None else round(100.0 * margin, 1)
+        verdict = {"stop": result.id, "outcome": result.outcome, "narrowest_margin_percent": percent}
+        rows.append({**verdict, "criterion": criterion, **_row(stops[result.id], places[result.id])})
+    columns = "stop", "outcome", "narrowest_margin_percent", "criterion"
+    rows += [dict.fromkeys(columns) | _row(event) for event in passed_over]
+    return Data.of(rows)
+
+
+def _row(event: service_log.LoggedEvent, place: float = math.nan) -> dict[str, Cell]:
+    return {
+        "file": str(event.file),
+        "sample": event.row + 1,
+        "time_s": event.time,
+        "distance_m": round(event.distance, 1),
+        "place_m": round(place, 1),
+        "speed_kmh": round(event.speed / KILOMETRE_PER_HOUR, 2),
+        "end_speed_kmh": round(event.end_speed / KILOMETRE_PER_HOUR, 2),
+        "reason": event.reason,
+        "remarks": "; ".join(event.remarks),
+    }

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from statistics import fmean
 from typing import Any, Final
 
 from uictest import report
@@ -37,6 +38,7 @@ _FIGURES: Final[Mapping[str, Figure]] = {
 Group = tuple[str, float]
 """Rail and nominal speed, km/h."""
 Stops = Sequence[CountedStop]
+Pair = tuple[float, float]
 
 
 def compare_logs(first: report.RunContent, second: report.RunContent) -> report.CampaignTable:
@@ -115,36 +117,24 @@ def _enough(first: Stops, second: Stops, name: str) -> bool:
 
 def _means(group: Group, name: str, first: Stops, second: Stops, confidence: float) -> tuple[Cell, ...]:
     one, other = _values(first, name), _values(second, name)
-    means = [math.fsum(side) / len(side) for side in (one, other)]
-    low, high = difference_interval(one, other, confidence)
+    interval = difference_interval(one, other, confidence)
     unit = "" if name == "friction" else column_unit(name.removeprefix("largest_"))
-    return (*group, name, len(one), len(other), *_compared(means, low, high), unit, _finding(low, high))
+    return _row(group, name, (len(one), len(other)), (fmean(one), fmean(other)), interval, unit)
 
 
 def _shares(group: Group, first: Stops, second: Stops, confidence: float) -> tuple[Cell, ...]:
     one, other = ((sum(stop.passed for stop in side), len(side)) for side in (first, second))
     low, high = (100.0 * end for end in share_difference_interval(one, other, confidence))
-    shares = [100.0 * passed / stops for passed, stops in (one, other)]
-    return (
-        *group,
-        "stops that pass",
-        one[1],
-        other[1],
-        *_compared(shares, low, high),
-        "%",
-        _finding(low, high),
-    )
+    shares = 100.0 * one[0] / one[1], 100.0 * other[0] / other[1]
+    return _row(group, "stops that pass", (one[1], other[1]), shares, (low, high), "%")
 
 
-def _compared(values: Sequence[float], low: float, high: float) -> tuple[Cell, ...]:
-    ends = report.number_cell(low), report.number_cell(high)
-    return values[0], values[1], values[1] - values[0], *ends
-
-
-def _finding(low: float, high: float) -> str:
-    if low > 0.0:
-        return "B larger"
-    return "B smaller" if high < 0.0 else "not told apart"
+def _row(
+    group: Group, name: str, counts: tuple[int, int], values: Pair, interval: Pair, unit: str
+) -> tuple[Cell, ...]:
+    low, high = interval
+    finding = "B larger" if low > 0.0 else "B smaller" if high < 0.0 else "not told apart"
+    return (*group, name, *counts, *values, values[1] - values[0], low, high, unit, finding)
 
 
 def _group_text(group: Group) -> str:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import functools
-import io
 import math
 import sys
 from collections.abc import Iterable, Mapping, Sequence
@@ -23,7 +21,6 @@ from uictest.cli.progress import compilation_shown
 from uictest.core import files as file_system
 from uictest.core.document import Lines, Table
 from uictest.core.recording import formats
-from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import evaluation
 from uictest.plans import scenario as scenarios
 from uictest.plans.scenario import yaml
@@ -114,24 +111,20 @@ def log(
     if published is None:
         return ExitCode.INTERRUPTED
     places = {file.name: math.nan if file.stop is None else file.stop.place for file in stops.files}
-    table = _table(named, found.passed_over, published.content.ranked, places)
-    file_system.write(published.place, runs.STOPS_OF_LOG, table)
+    table = logged_stops.stops_table(named, found.passed_over, published.content.ranked, places)
+    file_system.write(published.place, runs.STOPS_OF_LOG, report.csv_text(*table))
     if shown is options.Format.TEXT and not quiet:
         _show_together(published.content.campaign)
     if made_in is not None and scenario is not None:
         own = {case.id: (file, case) for file, case in zip(stops.files, stops.cases, strict=True)}
         digest = functools.cache(field_data.digest_of)
-        sources = (
-            runs.Source(
-                own[result.id][0],
-                named[result.id],
-                digest(named[result.id].file),
-                result,
-                own[result.id][1],
-                _by_key((*(overrides or ()), *(_ON_DRY_RAIL if result.id in on_dry_rail else ()))),
-            )
-            for result in published.content.ranked
-        )
+
+        def source(result: evaluation.CaseResult) -> runs.Source:
+            event, (file, case) = named[result.id], own[result.id]
+            keys = _by_key((*(overrides or ()), *(_ON_DRY_RAIL if result.id in on_dry_rail else ())))
+            return runs.Source(file, event, digest(event.file), result, case, keys)
+
+        sources = map(source, published.content.ranked)
         _make_scenarios(sources, worst, scenario, mapped.preparation, made_in, trusted or ())
     return of_run(published)
 
@@ -280,30 +273,3 @@ def _sentence(event: service_log.LoggedEvent) -> str:
 
 def _place(event: service_log.LoggedEvent) -> str:
     return f"{event.file} at {event.time:.12g} s (sample {event.row + 1}, {event.distance:.0f} m)"
-
-
-def _table(
-    stops: Mapping[str, service_log.LoggedEvent],
-    passed_over: Sequence[service_log.LoggedEvent],
-    ranked: Sequence[evaluation.CaseResult],
-    places: Mapping[str, float],
-) -> str:
-    """Return stops.csv: the stops, the worst first, and then every other application of the brake."""
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    heading = ["stop", "outcome", "narrowest_margin_percent", "criterion", "file", "sample", "time_s"]
-    writer.writerow([*heading, "distance_m", "place_m", "speed_kmh", "end_speed_kmh", "reason", "remarks"])
-    for result in ranked:
-        margin, criterion = evaluation.narrowest_margin(result)
-        verdict = [result.outcome, "" if margin is None else f"{100.0 * margin:.1f}", criterion]
-        writer.writerow([result.id, *verdict, *_row(stops[result.id], places[result.id])])
-    for event in passed_over:
-        writer.writerow(["", "", "", "", *_row(event, math.nan)])
-    return text.getvalue()
-
-
-def _row(event: service_log.LoggedEvent, recorded: float) -> list[str]:
-    on_line = f"{recorded:.1f}" if math.isfinite(recorded) else ""
-    speeds = [f"{speed / KILOMETRE_PER_HOUR:.2f}" for speed in (event.speed, event.end_speed)]
-    place = [report.printable(str(event.file)), str(event.row + 1), f"{event.time:.12g}"]
-    return [*place, f"{event.distance:.1f}", on_line, *speeds, event.reason, "; ".join(event.remarks)]
