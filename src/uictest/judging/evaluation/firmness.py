@@ -8,7 +8,12 @@ from typing import Annotated, Literal
 
 from pydantic import PlainSerializer
 
-from uictest.judging.evaluation.json_values import OptionalNumber, absent_if_empty, json_form
+from uictest.judging.evaluation.json_values import (
+    BuiltWhenUsed,
+    OptionalNumber,
+    absent_if_empty,
+    json_form,
+)
 
 FirmnessStatus = Literal["firm", "turns", "noise", "not_shown"]
 """firm: no value at an end of its range, and no draw of all of them, turns the verdict. turns: one does.
@@ -158,6 +163,9 @@ class Firmness(VerdictFirmness):
 
 
 WrittenFirmness = Annotated[
-    Firmness, absent_if_empty("criterion", "calibrated", "calibrated_by", "without_range")
+    Firmness,
+    BuiltWhenUsed(
+        Annotated[Firmness, absent_if_empty("criterion", "calibrated", "calibrated_by", "without_range")]
+    ),
 ]
 """In JSON the outcome has no criterion, and what no stop calibrates no calibrated draws."""

@@ -5,18 +5,22 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Collection, Mapping
-from functools import partial
+from functools import cached_property, partial
 from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import (
     BeforeValidator,
+    ConfigDict,
+    GetCoreSchemaHandler,
     PlainSerializer,
     PlainValidator,
     SerializerFunctionWrapHandler,
     TypeAdapter,
     ValidationError,
+    ValidationInfo,
     WrapSerializer,
 )
+from pydantic_core import CoreSchema, core_schema
 
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 
@@ -72,6 +76,28 @@ def required(*names: str) -> BeforeValidator:
         return content
 
     return BeforeValidator(complete)
+
+
+class BuiltWhenUsed:
+    """Annotation of what most documents lack: pydantic builds its form when one has it, not before."""
+
+    def __init__(self, form: Any) -> None:
+        self._form = form
+
+    @cached_property
+    def _adapter(self) -> TypeAdapter[Any]:
+        return TypeAdapter(self._form | None, config=ConfigDict(extra="forbid"))
+
+    def _read(self, content: object, info: ValidationInfo) -> Any:
+        return self._adapter.validate_python(content, context=info.context)
+
+    def _write(self, value: object) -> Any:
+        return to_json_form(self._adapter, value)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.with_info_plain_validator_function(
+            self._read, serialization=core_schema.plain_serializer_function_ser_schema(self._write)
+        )
 
 
 def from_json_form(

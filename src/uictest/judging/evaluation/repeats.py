@@ -12,6 +12,7 @@ from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, Wrap
 
 from uictest.core import statistics as proportions
 from uictest.judging.evaluation.json_values import (
+    BuiltWhenUsed,
     CaseMeasures,
     CaseWheelsetMeasures,
     Expectation,
@@ -160,6 +161,9 @@ def _without_derived(content: object) -> object:
     return content
 
 
-WrittenRepeats = Annotated[Repeats, WrapSerializer(_with_derived), BeforeValidator(_without_derived)]
+WrittenRepeats = Annotated[
+    Repeats,
+    BuiltWhenUsed(Annotated[Repeats, WrapSerializer(_with_derived), BeforeValidator(_without_derived)]),
+]
 """In JSON the number of stops that passed, their share and its interval stand beside the stops, for readers
 that need no more."""

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from functools import cache
 from operator import ge, gt, le, lt
 from typing import Any, Final, NamedTuple
 
@@ -27,14 +28,20 @@ QUANTITY_KEYWORD: Final = "x-quantity"
 """Keyword that stands for the definition of a kind while a JSON Schema is put together."""
 
 
+class Bound(NamedTuple):
+    """An end of the values that are accepted: in words, as a keyword of JSON Schema, and as a comparison."""
+
+    words: str
+    keyword: str
+    value: Quantity
+    keeps: Callable[[float, float], bool]
+
+
 class QuantityField(NamedTuple):
-    """Annotation of a field that is a quantity of one ``kind`` (speed, pressure, ...), within bounds."""
+    """Annotation of a field that is a quantity of one ``kind`` (speed, pressure, ...), within a ``span``."""
 
     kind: Kind
-    above: Quantity | None = None
-    at_least: Quantity | None = None
-    at_most: Quantity | None = None
-    below: Quantity | None = None
+    span: str = ".."
 
     def validate(self, value: object) -> Quantity:
         """The quantity of a text, a number, or a mapping of value and source."""
@@ -96,25 +103,17 @@ class QuantityField(NamedTuple):
     def _within(self, value: Quantity) -> Quantity:
         if self.kind.name == "count" and not value.is_integer():
             raise QuantityError(f"{quoted(value.text)} is not a whole number")
-        for words, bound, keeps in self._bounds():
+        bounds = _bounds(self.kind.name, self.span)
+        for words, _, bound, keeps in bounds:
             if not keeps(value, bound):
-                accepted = " and ".join(f"{words} {bound.text}" for words, bound, _ in self._bounds())
+                accepted = " and ".join(f"{each.words} {each.value.text}" for each in bounds)
                 raise QuantityError(
                     f"{value.text} is out of range: it must be {words} {bound.text}", f"accepted: {accepted}"
                 )
         return value
 
     def _accepts(self, value: float) -> bool:
-        return all(keeps(value, bound) for _, bound, keeps in self._bounds())
-
-    def _bounds(self) -> list[tuple[str, Quantity, Callable[[float, float], bool]]]:
-        named = (
-            ("above", self.above, gt),
-            ("at least", self.at_least, ge),
-            ("at most", self.at_most, le),
-            ("below", self.below, lt),
-        )
-        return [(words, bound, keeps) for words, bound, keeps in named if bound is not None]
+        return all(keeps(value, bound) for _, _, bound, keeps in _bounds(self.kind.name, self.span))
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(
@@ -162,13 +161,21 @@ class QuantityField(NamedTuple):
         return {"type": "string", "pattern": rf"^\s*{NUMBER_PATTERN}\s*(?:{units})\s*$"}
 
     def _numeric_bounds(self) -> dict[str, float]:
-        named = {
-            "exclusiveMinimum": self.above,
-            "minimum": self.at_least,
-            "maximum": self.at_most,
-            "exclusiveMaximum": self.below,
-        }
-        return {keyword: float(bound) for keyword, bound in named.items() if bound is not None}
+        return {each.keyword: float(each.value) for each in _bounds(self.kind.name, self.span)}
+
+
+@cache
+def _bounds(kind: str, span: str) -> tuple[Bound, ...]:
+    """Return the ends of a span, the lower first; read when a value is compared, not when a model is made."""
+    first, last = (end.strip() for end in span.split(".."))
+    lower = ("above", "exclusiveMinimum", gt) if first.startswith(">") else ("at least", "minimum", ge)
+    upper = ("below", "exclusiveMaximum", lt) if last.startswith("<") else ("at most", "maximum", le)
+    ends = ((lower, first.lstrip("> ")), (upper, last.lstrip("< ")))
+    return tuple(
+        Bound(words, keyword, parse_quantity(text, kind), keeps)
+        for (words, keyword, keeps), text in ends
+        if text
+    )
 
 
 def written(quantity: Quantity) -> str | dict[str, Any]:
@@ -198,14 +205,7 @@ def of_kind(name: str, span: str = "..") -> QuantityField:
         span: such as ``"1 bar .. 4 bar"``; ``"> 0 s .. 10 s"`` leaves its first end out, ``"0 .. < 1"`` its
             last. An end that is empty bounds nothing.
     """
-    first, last = (end.strip() for end in span.split(".."))
-    ends = {
-        "above" if first.startswith(">") else "at_least": first.lstrip("> "),
-        "below" if last.startswith("<") else "at_most": last.lstrip("< "),
-    }
-    return QuantityField(
-        KINDS[name], **{key: parse_quantity(text, name) for key, text in ends.items() if text}
-    )
+    return QuantityField(KINDS[name], span)
 
 
 def default(text: str, name: str) -> Quantity:
