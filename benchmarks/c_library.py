@@ -225,6 +225,8 @@ MISSING = {
     "has_sanders": "sanders: it cannot run sanders",
     "has_dynamic_brake": "motors: it cannot run brake.dynamic",
     "has_track_brake": "magnets on the rail: it cannot run brake.track",
+    "has_train_speed": "second source of speed: it cannot run rig.sensors.train_speed",
+    "has_accelerometer": "accelerometer: it cannot run rig.sensors.acceleration",
     "fault_count": "faults: it cannot run a scenario with any",
     "varies_pad_friction": "pads that vary: it cannot run brake.pad other than constant",
     "models_disc_temperature": "discs that warm: it cannot run brake.disc_temperature=modelled",

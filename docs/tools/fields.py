@@ -6,7 +6,8 @@ from markup import table
 
 from uictest.core.measures import MEASURES
 from uictest.core.units import KINDS
-from uictest.plans.faults import FAULT_KINDS, FaultKind
+from uictest.plans.fault_effects import FaultKind
+from uictest.plans.faults import FAULT_KINDS
 
 _COURSES = {"grows": "grows", "falls": "falls", "settles": "stays"}
 

@@ -34,6 +34,8 @@ _VALVES: Final = 4
 _REQUESTS: Final = ("dynamic_reduction", "sand_request", "track_brake_request")
 _HEAVIEST_AXLE: Final = 400e3
 """Largest axle load observed, N; chosen: above any railway's."""
+_LARGEST_ACCELERATION: Final = 20.0
+"""Largest acceleration observed either way, m/s2; chosen: above any stop's."""
 FILL, HOLD, VENT = 0, 1, 2
 """What an action commands of a valve."""
 LOCKED_BELOW: Final = 0.5
@@ -61,10 +63,10 @@ class RigEnv(gymnasium.Env[Observation, Action]):
     :class:`uictest.controllers.Outputs` has them.
 
     Observation, SI units: four wheel speeds and four cylinder pressures (gauge) as the sensors show them, and
-    the brake demand (share of full service); with `contract=2` also the four `dynamic_brake`, `axle_load` and
-    `brake_command` of :class:`uictest.controllers.Inputs`. An episode is terminated when the train stands,
-    truncated after the scenario's longest duration. `info` holds the true state `time`, `distance` and
-    `train_speed`, and at the end the `outcome`.
+    the brake demand (share of full service); with `contract=2` also the four `dynamic_brake` and what follows
+    it in :class:`uictest.controllers.Inputs`, in that order, truth values as 0 and 1. An episode is
+    terminated when the train stands, truncated after the scenario's longest duration. `info` holds the true
+    state `time`, `distance` and `train_speed`, and at the end the `outcome`.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 - gymnasium declares it so
@@ -86,17 +88,21 @@ class RigEnv(gymnasium.Env[Observation, Action]):
         speed = _SPEED_RANGE * float(parameters["initial_speed"])
         pressure = float(parameters["compressor_cut_out"])  # absolute: above any gauge pressure of the rig
         high = np.array([speed] * 4 + [pressure] * 4 + [1.0])
+        low = np.zeros(len(high))
         valves: Any = spaces.MultiDiscrete([3] * _VALVES)
         self.action_space = valves
         if contract > 1:
-            high = np.array([*high, *([1.0] * _VALVES), _HEAVIEST_AXLE, 1.0])
+            of_train = [_HEAVIEST_AXLE, 1.0, speed, 1.0, _LARGEST_ACCELERATION, 1.0]
+            high = np.array([*high, *([1.0] * _VALVES), *of_train])
+            low = np.zeros(len(high))
+            low[-2] = -_LARGEST_ACCELERATION
             self.action_space = spaces.Dict(
                 valves=valves,
                 dynamic_reduction=spaces.Box(0.0, 1.0, (_VALVES,), np.float64),
                 sand_request=spaces.MultiBinary(_VALVES),
                 track_brake_request=spaces.Discrete(2),
             )
-        self.observation_space = spaces.Box(np.zeros(len(high)), high, dtype=np.float64)
+        self.observation_space = spaces.Box(low, high, dtype=np.float64)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -121,6 +127,8 @@ class RigEnv(gymnasium.Env[Observation, Action]):
         values = [*inputs.wheel_speed, *inputs.cylinder_pressure, inputs.brake_demand]
         if self._contract > 1:
             values += [*inputs.dynamic_brake, inputs.axle_load, inputs.brake_command]
+            values += [inputs.train_speed, inputs.train_speed_valid]
+            values += [inputs.acceleration, inputs.acceleration_valid]
         return np.clip(np.array(values), self.observation_space.low, self.observation_space.high)  # type: ignore[attr-defined]
 
 

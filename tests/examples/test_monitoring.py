@@ -65,10 +65,13 @@ def test_the_timer_gives_the_brake_back_and_reports(beside):
     assert len(filled) * CYCLE == pytest.approx(p["return_time"], abs=2 * CYCLE)
 
 
+OF_OTHER_TRAINS = ("dynamic-brake", "track-brake", "sander", "train-speed")
+
+
 def test_the_scenario_has_every_kind_of_fault_that_its_train_can_have(beside):
-    """It has neither motors nor track brake nor sand; those concern no wheelset that turns."""
+    """It has no motors, track brake, sand or second source; those concern no wheelset that turns."""
     kinds = {(case.scenario.faults[0].part, case.scenario.faults[0].kind) for case in load([FAULTS])}
-    lacking = {key for key in FAULT_KINDS if key[0] in ("dynamic-brake", "track-brake", "sander")}
+    lacking = {key for key in FAULT_KINDS if key[0] in OF_OTHER_TRAINS}
     assert kinds == set(FAULT_KINDS) - lacking
     assert all(FAULT_KINDS[key].report == "none" for key in lacking)
 

@@ -31,6 +31,10 @@ NOTHING = {
     "dynamic_failed": 0.0,
     "track_failed": 0.0,
     "sander_blocked": 0.0,
+    "train_speed_valid": 1.0,
+    "train_speed_held": 0.0,
+    "train_speed_factor": 1.0,
+    "train_speed_offset": 0.0,
 }
 """Sensors that read true, valves that open and close as commanded, no leak, a controller that is heard."""
 NO_VALUE = ""
@@ -67,6 +71,10 @@ FAULTS = [
     ("dynamic-brake", "failed", NO_VALUE, {"dynamic_failed": 1.0}),
     ("track-brake", "failed", NO_VALUE, {"track_failed": 1.0}),
     ("sander", "blocked", NO_VALUE, {"sander_blocked": 1.0}),
+    ("train-speed", "lost", NO_VALUE, {"train_speed_valid": 0.0, "train_speed_factor": 0.0}),
+    ("train-speed", "stuck", "36 km/h", {"train_speed_factor": 0.0, "train_speed_offset": 10.0}),
+    ("train-speed", "stuck", NO_VALUE, {"train_speed_held": 1.0}),
+    ("train-speed", "offset", "-36 km/h", {"train_speed_offset": -10.0}),
 ]
 
 

@@ -15,6 +15,7 @@ brake:
   dynamic: {force: 60 kN, power: 1.6 MW}
   track: {attraction: 50 kN, when: requested, delay: 0 s}
 sanders: [{wheelset: 1, when: requested, rate: 2 kg/min}]
+rig: {sensors: {extends: standard, train_speed: {}, acceleration: {}}}
 controller: {connect: "tcp://127.0.0.1:1"}
 """
 
@@ -48,6 +49,9 @@ def test_a_stop_has_the_bits_of_the_rig_in_python_under_the_same_commands(made, 
     while not stepped.stopped:
         assert made["axle_load"] == inputs.axle_load
         assert made["brake_command"] == inputs.brake_command
+        assert made["measured_train_speed"] == inputs.train_speed
+        assert made["acceleration"] == inputs.acceleration
+        assert made["train_speed_valid"] == made["acceleration_valid"] == 1
         assert made.four("dynamic_brake") == list(inputs.dynamic_brake)
         braked = inputs.cycle >= 100
         made.set_all(track_brake_request=braked)

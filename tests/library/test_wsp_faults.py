@@ -52,11 +52,12 @@ NOT_OF_A_SENSOR = "brake-force-returns"
 
 def judged(tmp_path, part, kind, controller="threshold"):
     """The stop from 80 km/h on a slippery rail with a fault of wheelset 2 from 3 s on."""
-    own = "" if part in ("brake-line", "controller", *OPTIONAL) else ", wheelset: 2"
+    own = "" if part in ("brake-line", "controller", "train-speed", *OPTIONAL) else ", wheelset: 2"
     brake = f"brake: {OPTIONAL[part]}\n" if part in OPTIONAL else ""
     brake += "sanders: [{wheelset: 2, density: 7.5 g/m}]\n" if part == "sander" else ""
     value = f", value: {VALUES[part, kind]}" if (part, kind) in VALUES else ""
     sensors = "{speed: {method: whole-teeth}, extends: standard}" if kind == "missing-teeth" else "standard"
+    sensors = "{train_speed: {}, extends: standard}" if part == "train-speed" else sensors
     path = tmp_path / "stop.yaml"
     path.write_text(
         "schema: uictest/scenario/1\nname: stop\ninitial_speed: 80 km/h\n"

@@ -84,7 +84,7 @@ def test_a_stop_without_a_locked_wheelset_costs_its_distance():
 
 MOTORS = (
     "brake: {dynamic: {force: 60 kN, power: 1.6 MW}, track: {attraction: 50 kN, when: requested}}\n"
-    'controller: {connect: "tcp://127.0.0.1:1"}\n'
+    'controller: {connect: "tcp://127.0.0.1:1"}\nrig: {sensors: {extends: standard, acceleration: {}}}\n'
 )
 
 
@@ -102,12 +102,15 @@ def test_with_contract_2_an_action_reduces_the_dynamic_brake_and_asks_for_the_tr
     }
     for _ in range(200):
         observation, *_ = env.step(action)
-    assert observation.shape == (15,)
-    motors, (axle_load, command) = observation[9:13], observation[13:]
+    assert observation.shape == (19,)
+    motors, (axle_load, command), second = observation[9:13], observation[13:15], observation[15:]
     assert motors[1] == 0.0
     assert min(motors[[0, 2, 3]]) > 0.5
     assert 50e3 < axle_load < 200e3
     assert command == 1.0
+    assert second.tolist()[:2] == [0.0, 0.0]
+    assert second[2] < -0.5
+    assert second[3] == 1.0
     for wrong in (action | {"dynamic_reduction": [0.0, 2.0, 0.0, 0.0]}, {"valves": [0] * 4}, [0] * 4):
         with pytest.raises(ValueError, match=r"is no action|expected 0 to 1"):
             env.step(wrong)

@@ -86,6 +86,10 @@ class BrakedTrain(TrainMemory):
 
     axle_load: float  # of one axle at rest, N
     brake_command: float  # of the train, share of full service, before the delays of the brake
+    train_speed: float  # from outside the wheelsets, m/s; 0 where it is not valid
+    train_speed_valid: int  # 0 without such a source, and while it reports a fault, else 1
+    acceleration: float  # as an accelerometer on the car shows it, m/s2; 0 where it is not valid
+    acceleration_valid: int  # 0 without an accelerometer, else 1
     track_brake_request: int  # set by the controller: 1 asks for the track brake
 
 

@@ -54,9 +54,15 @@ class Inputs:
         cylinder_pressure: as the sensor gives it, gauge, Pa, one per wheelset.
         brake_demand: share of full service; a brake is demanded above 0.
         dynamic_brake: what the motor gives of what it could at its speed, 0 to 1, one per wheelset; 0 without
-            a motor. This and the next two belong to version 2 of the contract.
+            a motor. This and all that follow belong to version 2 of the contract.
         axle_load: of one axle at rest, N.
         brake_command: of the train, share of full service, before the delays of the brake.
+        train_speed: from outside the wheelsets (radar, satellites, the train's computer), m/s; 0 where it is
+            not valid.
+        train_speed_valid: False without such a source, and while it reports a fault.
+        acceleration: of the car along the track, as an accelerometer on it shows it, m/s2: on a gradient with
+            the share of gravity, braking is negative; 0 where it is not valid.
+        acceleration_valid: False without an accelerometer.
     """
 
     cycle: int
@@ -68,6 +74,10 @@ class Inputs:
     dynamic_brake: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0)
     axle_load: float = 0.0
     brake_command: float = 0.0
+    train_speed: float = 0.0
+    train_speed_valid: bool = False
+    acceleration: float = 0.0
+    acceleration_valid: bool = False
 
 
 @dataclass(slots=True)
@@ -123,6 +133,10 @@ INPUTS: Final = np.dtype(
         ("dynamic_brake", "f8", WHEELSETS),
         ("axle_load", "f8"),
         ("brake_command", "f8"),
+        ("train_speed", "f8"),
+        ("acceleration", "f8"),
+        ("train_speed_valid", "i4"),
+        ("acceleration_valid", "i4"),
     ]
 )
 """`uictest_inputs` of version 2."""

@@ -53,6 +53,10 @@ typedef struct {
     double dynamic_brake[UICTEST_WHEELSETS];    /* what the motor gives of what it could at its speed, 0 to 1 */
     double axle_load;                           /* of one axle at rest, N */
     double brake_command;                       /* share of full service, before the delays of the brake */
+    double train_speed;                         /* from outside the wheelsets, m/s; 0 where it is not valid */
+    double acceleration;                        /* by an accelerometer on the car, m/s2; 0 where it is not valid */
+    int32_t train_speed_valid;                  /* 0: there is no such source, or it reports a fault */
+    int32_t acceleration_valid;                 /* 0: there is no accelerometer */
 #endif
 } uictest_inputs;
 

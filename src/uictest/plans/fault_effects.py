@@ -1,7 +1,11 @@
-"""What a fault can change: each effect is a table of the rig, and no code asks what kind of fault it is."""
+"""What a fault can change, and what a kind of fault declares.
+
+Each effect is a table of the rig, and no code asks what kind of fault it is.
+"""
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Literal, NamedTuple
 
 
 class Effects(NamedTuple):
@@ -27,6 +31,10 @@ class Effects(NamedTuple):
         dynamic_failed: 1 where the dynamic brake of the car gives nothing.
         track_failed: 1 where the rail does not attract the magnets of the track brake.
         sander_blocked: 1 where the sander of the wheelset lays nothing.
+        train_speed_valid: 0 where the train's second source of speed reports a fault.
+        train_speed_held: 1 where it goes on giving what it gave last.
+        train_speed_factor: factor on what it gives.
+        train_speed_offset: added to it, m/s.
     """
 
     speed_valid: float = 1.0
@@ -51,3 +59,53 @@ class Effects(NamedTuple):
     dynamic_failed: float = 0.0
     track_failed: float = 0.0
     sander_blocked: float = 0.0
+    train_speed_valid: float = 1.0
+    train_speed_held: float = 0.0
+    train_speed_factor: float = 1.0
+    train_speed_offset: float = 0.0
+
+
+Report = Literal["required", "by rotation", "none"]
+"""What a controller is to report of a fault: that it is there; the wheelset, if its speed deviates from the
+train's; nothing, as the fault takes brake force and lets the wheelset turn, or shows in no input.
+
+Only the second is in a rule (TB/T 3009-2019, 4.2.5, second-hand); which kind is which is chosen. A report of
+a wheelset that has a fault is never false.
+"""
+
+
+class FaultValue(NamedTuple):
+    """The value that a kind of fault takes.
+
+    Attributes:
+        kind: of quantity, a name of :data:`uictest.core.units.KINDS`.
+        at_least, at_most: its range, as a user would write it.
+        without: what the fault does without one; empty where it must have one.
+    """
+
+    kind: str
+    at_least: str
+    at_most: str
+    without: str = ""
+
+
+class FaultKind(NamedTuple):
+    """One kind of fault of one part.
+
+    Attributes:
+        part: what is faulty.
+        name: how.
+        description: one sentence for people; `value` stands for the value of the fault.
+        effects: returns what it changes, from its value in SI units or None without one.
+        value: the value that it takes; None where it takes none.
+        of_wheelset: whether each wheelset has such a part.
+        report: what the controller is to report of it.
+    """
+
+    part: str
+    name: str
+    description: str
+    effects: Callable[[float | None], Effects]
+    value: FaultValue | None = None
+    of_wheelset: bool = True
+    report: Report = "by rotation"

@@ -8,9 +8,9 @@ equations of the rig.
 
 from collections.abc import Callable
 from types import MappingProxyType
-from typing import Final, Literal, NamedTuple
+from typing import Final
 
-from uictest.plans.fault_effects import Effects
+from uictest.plans.fault_effects import Effects, FaultKind, FaultValue
 
 MOST_FAULTS: Final = 8
 """Faults that a stop can have."""
@@ -19,54 +19,10 @@ SPEED_SENSOR: Final = "speed-sensor"
 DYNAMIC_BRAKE: Final = "dynamic-brake"
 TRACK_BRAKE: Final = "track-brake"
 """The parts that a car need not have."""
+TRAIN_SPEED: Final = "train-speed"
+"""The part that a rig need not have."""
 SANDER: Final = "sander"
 """A part that a wheelset need not have."""
-
-Report = Literal["required", "by rotation", "none"]
-"""What a controller is to report of a fault: that it is there; the wheelset, if its speed deviates from the
-train's; nothing, as the fault takes brake force and lets the wheelset turn, or shows in no input.
-
-Only the second is in a rule (TB/T 3009-2019, 4.2.5, second-hand); which kind is which is chosen. A report of
-a wheelset that has a fault is never false.
-"""
-
-
-class FaultValue(NamedTuple):
-    """The value that a kind of fault takes.
-
-    Attributes:
-        kind: of quantity, a name of :data:`uictest.core.units.KINDS`.
-        at_least, at_most: its range, as a user would write it.
-        without: what the fault does without one; empty where it must have one.
-    """
-
-    kind: str
-    at_least: str
-    at_most: str
-    without: str = ""
-
-
-class FaultKind(NamedTuple):
-    """One kind of fault of one part.
-
-    Attributes:
-        part: what is faulty.
-        name: how.
-        description: one sentence for people; `value` stands for the value of the fault.
-        effects: returns what it changes, from its value in SI units or None without one.
-        value: the value that it takes; None where it takes none.
-        of_wheelset: whether each wheelset has such a part.
-        report: what the controller is to report of it.
-    """
-
-    part: str
-    name: str
-    description: str
-    effects: Callable[[float | None], Effects]
-    value: FaultValue | None = None
-    of_wheelset: bool = True
-    report: Report = "by rotation"
-
 
 _ANY_SPEED = "600 km/h"
 _SHARE_OF_AREA = FaultValue("share", "0 %", "100 %")
@@ -284,6 +240,35 @@ _ROWS: Final = (
         report="none",
     ),
     FaultKind(SANDER, "blocked", "No sand leaves it.", _always(Effects(sander_blocked=1.0)), report="none"),
+    FaultKind(
+        TRAIN_SPEED,
+        "lost",
+        "The second source of speed reports its fault (`train_speed_valid` is 0) and gives 0.",
+        _always(Effects(train_speed_valid=0.0, train_speed_factor=0.0)),
+        of_wheelset=False,
+        report="none",
+    ),
+    FaultKind(
+        TRAIN_SPEED,
+        "stuck",
+        "It goes on giving `value` and reports no fault.",
+        _valued(
+            lambda value: Effects(train_speed_factor=0.0, train_speed_offset=value),
+            Effects(train_speed_held=1.0),
+        ),
+        FaultValue("speed", "0 km/h", _ANY_SPEED, without="what it gave when the fault began"),
+        of_wheelset=False,
+        report="none",
+    ),
+    FaultKind(
+        TRAIN_SPEED,
+        "offset",
+        "It gives the speed and `value`, no less than 0.",
+        _valued(lambda value: Effects(train_speed_offset=value)),
+        FaultValue("speed", "-200 km/h", "200 km/h"),
+        of_wheelset=False,
+        report="none",
+    ),
 )
 
 FAULT_KINDS: Final = MappingProxyType({(row.part, row.name): row for row in _ROWS})

@@ -257,6 +257,21 @@ def _contact(p: Parameters, scenario: Scenario) -> None:
     p.creep_stiffness = scenario.rail.condition.contact.creep_stiffness
 
 
+@_reads("rig.sensors.train_speed", "rig.sensors.acceleration", "controller.cycle_time")
+def _train_sensors(p: Parameters, scenario: Scenario) -> None:
+    speed, acceleration = scenario.rig.sensors.train_speed, scenario.rig.sensors.acceleration
+    cycle = float(scenario.controller.cycle_time)
+    p.has_train_speed, p.has_accelerometer = float(speed is not None), float(acceleration is not None)
+    p.train_speed_period = p.train_speed_delay = 0
+    p.train_speed_noise = p.train_speed_gain_error = p.accelerometer_noise = p.accelerometer_offset = 0.0
+    if speed is not None:
+        p.train_speed_period = max(round(speed.period / cycle), 1)
+        p.train_speed_delay = min(round(speed.delay / cycle), 3 * p.train_speed_period)
+        p.train_speed_noise, p.train_speed_gain_error = speed.noise, speed.gain_error
+    if acceleration is not None:
+        p.accelerometer_noise, p.accelerometer_offset = acceleration.noise, acceleration.offset
+
+
 @_reads("rig.sensors.speed", "vehicle.wheelsets")
 def _pole_wheels(p: Parameters, scenario: Scenario) -> None:
     def differs(number: int) -> bool:

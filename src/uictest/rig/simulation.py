@@ -17,6 +17,7 @@ from uictest.rig.backends.trains import compiled_train
 from uictest.rig.coupled_cars import CouplerPeaks, coupler_peaks, run_coupled
 from uictest.rig.external.workers import RunInputs, Workers
 from uictest.rig.model.trace import (
+    ACCELERATION_CHANNELS,
     CAR_CHANNELS,
     CONTROLLER_CHANNELS,
     DISC_CHANNELS,
@@ -25,6 +26,7 @@ from uictest.rig.model.trace import (
     REQUEST_CHANNELS,
     SAND_CHANNELS,
     TRACK_BRAKE_CHANNELS,
+    TRAIN_SPEED_CHANNELS,
     WHEELSET_CHANNELS,
 )
 from uictest.rig.single_stop import FinishedStop, noise_key_text
@@ -203,6 +205,8 @@ def _recorded(
         *(() if case.scenario.brake.models_disc_temperature else DISC_CHANNELS),
         *(() if case.scenario.brake.dynamic else DYNAMIC_BRAKE_CHANNELS),
         *(() if case.scenario.brake.track else TRACK_BRAKE_CHANNELS),
+        *(() if case.scenario.rig.sensors.train_speed else TRAIN_SPEED_CHANNELS),
+        *(() if case.scenario.rig.sensors.acceleration else ACCELERATION_CHANNELS),
         *(() if any(car.scenario.sanders for car in case.cars) else SAND_CHANNELS),
         *(() if case.scenario.faults else FAULT_CHANNELS),
     }

@@ -32,6 +32,7 @@ def step(controller, cycle=0):
         1.1e5,
         0.75,
     )
+    inputs["train_speed"], inputs["acceleration"], inputs["train_speed_valid"] = 9.5, -0.5, 1
     status = controller._callback(None, inputs.ctypes.data, outputs.ctypes.data)
     return status, outputs[0]
 
@@ -96,8 +97,9 @@ def test_a_program_that_answers_with_version_2_gets_its_inputs_and_gives_its_out
     controller.close()
     greeting, _, step_frame, _ = program.frames()
     assert struct.unpack_from("<3I", greeting[2]) == (1, 104, 48)
-    assert (controller.contract, status, len(step_frame[2])) == (2, 0, 152)
+    assert (controller.contract, status, len(step_frame[2])) == (2, 0, 176)
     assert struct.unpack_from("<6d", step_frame[2], 104) == (0.1, 0.2, 0.3, 0.4, 1.1e5, 0.75)
+    assert struct.unpack_from("<2d2i", step_frame[2], 152) == (9.5, -0.5, 1, 0)
     assert outputs["dynamic_reduction"].tolist() == [0.0, 0.25, 0.5, 1.0]
     assert (outputs["sand_request"].tolist(), outputs["track_brake_request"]) == ([0, 1, 0, 0], 1)
 

@@ -115,7 +115,8 @@ sys.modules["numba"] = None
 from pathlib import Path
 import numpy as np
 from uictest.rig.backends.lanes import longest_first, run_in_lanes
-inputs = [np.load(Path(sys.argv[1], f"{name}.npy")) for name in ("parameters", "wheelsets", "rail")]
+files = [Path(sys.argv[1], f"{name}.npy") for name in ("parameters", "wheelsets", "rail")]
+inputs = [np.load(file, max_header_size=100_000) for file in files]  # a header names all parameters
 print(run_in_lanes(*inputs).measures.tobytes().hex())
 """
 

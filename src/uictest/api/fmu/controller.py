@@ -24,8 +24,8 @@ _LIBRARY: Final = "controller.so"
 """The controller, beside the shared library of the FMU."""
 
 
-def _input(name: str, description: str, unit: str = "", *, is_truth: bool = False) -> Variable:
-    kind, start = ("boolean", "true") if is_truth else ("real", "0.0")
+def _input(name: str, description: str, unit: str = "", *, truth: str = "") -> Variable:
+    kind, start = ("boolean", truth) if truth else ("real", "0.0")
     return Variable(name, f"inputs.{name}", description, unit, kind, "input", start=start)  # type: ignore[arg-type]
 
 
@@ -37,7 +37,7 @@ VARIABLES: Final = (
     Variable("time", "time", "Time of the simulation", "s", causality="independent"),
     *of_wheelsets(
         _input("wheel_speed", "Circumferential, as its sensor gives it", "m/s"),
-        _input("speed_valid", "False where the speed sensor reports a fault", is_truth=True),
+        _input("speed_valid", "False where the speed sensor reports a fault", truth="true"),
         _input("cylinder_pressure", "Above atmospheric, as its sensor gives it", "Pa"),
     ),
     _input("brake_demand", "Share of full service; a brake is demanded above 0"),
@@ -55,6 +55,10 @@ VARIABLES_2: Final = (
     *of_wheelsets(_input("dynamic_brake", "What the motor gives of what it could at its speed")),
     _input("axle_load", "Of one axle at rest", "N"),
     _input("brake_command", "Share of full service, before the delays of the brake"),
+    _input("train_speed", "From outside the wheelsets; 0 where it is not valid", "m/s"),
+    _input("train_speed_valid", "False without such a source, and while it is lost", truth="false"),
+    _input("acceleration", "As an accelerometer on the car shows it; 0 where it is not valid", "m/s2"),
+    _input("acceleration_valid", "False without an accelerometer", truth="false"),
     *of_wheelsets(
         _output("dynamic_reduction", "Share that is taken off the dynamic brake", kind="real"),
         _output("sand_request", "Asks for sand"),

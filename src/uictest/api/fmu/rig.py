@@ -102,6 +102,30 @@ VARIABLES_2: Final = (
         "stop.exchange.brake_command",
         "Share of full service, before the delays of the brake",
     ),
+    Variable(
+        "measured_train_speed",
+        "stop.exchange.train_speed",
+        "From outside the wheelsets: the controller's train_speed; 0 where it is not valid",
+        "m/s",
+    ),
+    Variable(
+        "train_speed_valid",
+        "stop.exchange.train_speed_valid",
+        "False without such a source, and while it is lost",
+        kind="boolean",
+    ),
+    Variable(
+        "acceleration",
+        "stop.exchange.acceleration",
+        "As an accelerometer on the car shows it; 0 where it is not valid",
+        "m/s2",
+    ),
+    Variable(
+        "acceleration_valid",
+        "stop.exchange.acceleration_valid",
+        "False without an accelerometer",
+        kind="boolean",
+    ),
 )
 """Further ones of a rig whose commands keep version 2 of the contract of controllers."""
 

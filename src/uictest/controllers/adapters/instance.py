@@ -162,11 +162,16 @@ def at_address(address: int, layout: Any) -> Any:
 
 def read_inputs(record: Any) -> Inputs:
     """Return inputs as a Python controller sees them."""
-    cycle, time, speeds, pressures, demand, valid, dynamic, load, command = record.tolist()
+    cycle, time, speeds, pressures, demand, valid, dynamic, load, command, *train = record.tolist()
     # Arrays give their numbers as Python's by tolist alone.
     valid, dynamic = tuple(map(bool, valid.tolist())), tuple(dynamic.tolist())
     read = tuple(speeds.tolist()), valid, tuple(pressures.tolist()), demand
-    return Inputs(cycle, time, *read, dynamic, load, command)
+    train_speed, acceleration, *found = train
+    has_speed, has_acceleration = map(bool, found)
+    return Inputs(
+        *(cycle, time, *read, dynamic, load, command),
+        *(train_speed, has_speed, acceleration, has_acceleration),
+    )
 
 
 def checked_contract(version: Any, said: str) -> int:

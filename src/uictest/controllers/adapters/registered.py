@@ -242,6 +242,10 @@ def _nothing(train: Any, wheelsets: Any, memory: Any) -> None:
 def _give_version_2(train: Any, wheelsets: Any, inputs: Any) -> None:
     train.axle_load = inputs.axle_load
     train.brake_command = inputs.brake_command
+    train.train_speed = inputs.train_speed
+    train.train_speed_valid = inputs.train_speed_valid
+    train.acceleration = inputs.acceleration
+    train.acceleration_valid = inputs.acceleration_valid
     for i in range(WHEELSETS):
         wheelsets[i].dynamic_brake = inputs.dynamic_brake[i]
 

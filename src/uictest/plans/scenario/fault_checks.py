@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any, Final
 
-from uictest.plans.faults import DYNAMIC_BRAKE, SANDER, TRACK_BRAKE
+from uictest.plans.faults import DYNAMIC_BRAKE, SANDER, TRACK_BRAKE, TRAIN_SPEED
 from uictest.plans.scenario.parts.fault import SPEED
 from uictest.plans.scenario.parts.wheelsets import wheelset_value
 from uictest.plans.scenario.yaml import Inconsistency
@@ -37,6 +37,12 @@ def impossible_faults(scenario: Any) -> Iterator[Inconsistency]:
                 ("faults", place, "wheelset"),
                 f"wheelset {fault.wheelset} has no sander",
                 f"give it one: sanders: [{{wheelset: {fault.wheelset}, density: 7.5 g/m}}]",
+            )
+        if fault.part == TRAIN_SPEED and scenario.rig.sensors.train_speed is None:
+            yield Inconsistency(
+                ("faults", place, "part"),
+                "this rig has no second source of speed",
+                "give it one: rig.sensors.train_speed: {period: 100 ms, delay: 100 ms}",
             )
         if fault.wheelset is not None and fault.effects.lost_teeth > 0.0:
             yield from _without_teeth(scenario, place, fault)

@@ -22,9 +22,9 @@ from uictest.plans.scenario.parts.rail import (
     out_of_order,
 )
 from uictest.plans.scenario.parts.sand import Sand
+from uictest.plans.scenario.parts.sensors import Sensors
 from uictest.plans.scenario.parts.track_brake import EMERGENCY, TrackBrake
 from uictest.plans.scenario.parts.vehicle import Vehicle
-from uictest.plans.scenario.parts.wheelsets import Sensors
 from uictest.plans.scenario.yaml import Inconsistency, Key, Model, PartReference, Quantity, quoted, suggestion
 from uictest.plans.scenario.yaml.quantity_field import default, field, of_kind, optional, quantity
 

@@ -42,6 +42,7 @@ from uictest.rig.model.track_brake import (
     drag_magnets,
 )
 from uictest.rig.model.traction import hold_speed
+from uictest.rig.model.train_sensors import read_train_sensors
 
 IDLE = -1
 """Number of a lane's case when it has none."""
@@ -183,6 +184,8 @@ def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Need
         case = running[k]
         if case != IDLE:
             p = cases.parameters[case]
+            if p.has_train_speed + p.has_accelerometer > 0.0:
+                read_train_sensors(lane(rig.car, k), p)
             start_cycle(lane(rig.car, k), lane(rig.wheelsets, k), p, cases.rail[case])
             if p.cleans_rail > 0.0:
                 clean_rail(lane(rig.car, k), lane(rig.wheelsets, k), p, memories[k])

@@ -68,6 +68,10 @@ def write_inputs(exchange: Any, car: Car, wheelsets: Sequence[Wheelset], p: Para
     exchange.diagnosis = 0
     exchange.axle_load = car.axle_load
     exchange.brake_command = car.brake_command
+    exchange.train_speed = car.train_speed
+    exchange.train_speed_valid = car.train_speed_valid
+    exchange.acceleration = car.acceleration
+    exchange.acceleration_valid = car.acceleration_valid
     exchange.track_brake_request = 0
     exchange.guard = GUARD
     for i in range(4):

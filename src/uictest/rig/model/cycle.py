@@ -39,6 +39,8 @@ SPEED, _PRESSURE, _LOADCELL = 0, 1, 2
 """Noise channels of a wheelset's sensors."""
 _LINE = 4 * CHANNELS
 """Noise channel of the brake line's pressure sensor, behind those of the wheelsets."""
+TRAIN_SPEED, TRAIN_ACCELERATION = _LINE + 1, _LINE + 2
+"""Noise channels of the second source of speed and of the accelerometer."""
 _PHASE = 3
 """Noise channel of a wheelset that gives the angle of its pole wheel at the brake command."""
 _PER_RADIAN = 0.5 / math.pi

@@ -52,4 +52,8 @@ class FaultTables(Record):
     fault_dynamic_failed: FaultTable = derived()  # 0 or 1
     fault_track_failed: FaultTable = derived()  # 0 or 1
     fault_sander_blocked: FaultTable = derived()  # 0 or 1
+    fault_train_speed_valid: FaultTable = derived()
+    fault_train_speed_held: FaultTable = derived()
+    fault_train_speed_factor: FaultTable = derived()
+    fault_train_speed_offset: FaultTable = derived()  # m/s
     fault_release_cycles: FaultTable = derived()  # controller cycles of silence after which the valves fill

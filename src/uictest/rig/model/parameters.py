@@ -18,6 +18,7 @@ from uictest.rig.model.command_tables import CommandTables
 from uictest.rig.model.fault_tables import FaultTables
 from uictest.rig.model.sand_tables import SandTables
 from uictest.rig.model.track_brake_numbers import TrackBrakeNumbers
+from uictest.rig.model.train_sensor_numbers import TrainSensor
 
 PadTable = Annotated[MutableSequence[float], MOST_PAD_POINTS]
 MotorTable = Annotated[MutableSequence[float], 4]
@@ -35,7 +36,7 @@ def of_both_sides(value: float) -> float:
 
 
 class Parameters(
-    ControllerCycle, MeasureDefinition, FaultTables, CommandTables, TrackBrakeNumbers, SandTables
+    ControllerCycle, MeasureDefinition, FaultTables, CommandTables, TrackBrakeNumbers, SandTables, TrainSensor
 ):
     """What a case fixes for all wheelsets, but for the parameters of its controller."""
 

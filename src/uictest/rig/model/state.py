@@ -84,6 +84,13 @@ class Car(Frame, BrakedTrain):
     # sanders: rig.model.sand
     wsp_acting_cycles: int  # for which it has held or vented a wheelset of the car without a break
     wsp_resting_cycles: int  # since it last did
+    # second source of speed, accelerometer: rig.model.train_sensors
+    train_speed_1: float  # its newest value, m/s
+    train_speed_2: float  # the ones before
+    train_speed_3: float
+    train_speed_4: float
+    held_train_speed: float  # that the controller was given last, m/s
+    speed_before: float  # of the car one controller cycle ago, m/s
     # drag braking: rig.model.traction
     drag_phase: int
     drag_ends: float  # s

@@ -41,6 +41,7 @@ from uictest.rig.model.track_brake import (
     drag_magnets,
 )
 from uictest.rig.model.traction import hold_speed
+from uictest.rig.model.train_sensors import read_train_sensors
 from uictest.rig.model.wheelset_parameters import WheelsetParameters
 
 
@@ -114,6 +115,8 @@ def begin_cycle(
     read_sensors(car, wheelsets, p)
     if p.uses_pole_wheels > 0.0:
         read_pole_wheels(car, wheelsets, p)
+    if p.has_train_speed + p.has_accelerometer > 0.0:
+        read_train_sensors(car, p)
     start_cycle(car, wheelsets, p, rail)
     if p.cleans_rail > 0.0:
         clean_rail(car, wheelsets, p, memory)

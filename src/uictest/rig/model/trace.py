@@ -19,6 +19,9 @@ class TrainSample(Record):
     diagnosis: float = channel("1")  # 32 bits of a controller from outside, as a number
     track_brake_force: float = channel("N")  # of the magnets against the motion
     track_brake_request: float = channel("1")  # 1 while the controller asks for the track brake
+    measured_train_speed: float = channel("m/s")  # of the second source, as the controller is given it
+    train_speed_valid: float = channel("1")  # 0 while that reports a fault
+    measured_acceleration: float = channel("m/s2")  # of the accelerometer
     active_faults: float = channel("1")  # one bit for each fault of the list, as a number
     demanded_pressure: float = channel("Pa")
     brake_line_pressure: float = channel("Pa")
@@ -66,6 +69,10 @@ DYNAMIC_BRAKE_CHANNELS = ("dynamic_torque", "dynamic_reduction")
 """Channels of each wheelset that mean something only where the car has a dynamic brake."""
 TRACK_BRAKE_CHANNELS = ("track_brake_force",)
 """Channels of the train that mean something only where the car has a track brake."""
+TRAIN_SPEED_CHANNELS = ("measured_train_speed", "train_speed_valid")
+"""Channels of the train that mean something only where its speed has a second source."""
+ACCELERATION_CHANNELS = ("measured_acceleration",)
+"""Channels of the train that mean something only where the car has an accelerometer."""
 CONTROLLER_CHANNELS = ("diagnosis",)
 """Channels of the train that mean something only where the controller comes from outside."""
 REQUEST_CHANNELS = ("track_brake_request", "sand_request")
@@ -106,6 +113,9 @@ def _sample_train(row: TrainSample, car: Car, p: Parameters) -> None:
     row.diagnosis = car.diagnosis
     row.track_brake_force = car.track_brake_force
     row.track_brake_request = car.track_brake_request
+    row.measured_train_speed = car.train_speed
+    row.train_speed_valid = car.train_speed_valid
+    row.measured_acceleration = car.acceleration
     row.active_faults = car.active_faults
     row.demanded_pressure = car.demanded_pressure
     row.brake_line_pressure = car.line_pressure - p.atmospheric_pressure

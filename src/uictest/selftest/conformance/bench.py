@@ -87,6 +87,9 @@ class PlainInstance(CalledInstance):
     def step(self, inputs: Inputs) -> Outputs:
         """Decide as in a stop."""
         self._train.axle_load, self._train.brake_command = inputs.axle_load, inputs.brake_command
+        self._train.train_speed, self._train.acceleration = inputs.train_speed, inputs.acceleration
+        self._train.train_speed_valid = int(inputs.train_speed_valid)
+        self._train.acceleration_valid = int(inputs.acceleration_valid)
         readings = zip(
             *(self._wheelsets, inputs.wheel_speed, inputs.speed_valid, inputs.dynamic_brake), strict=True
         )

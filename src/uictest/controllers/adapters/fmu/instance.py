@@ -54,6 +54,10 @@ INPUTS_2: Final = (
     Declared("dynamic_brake", "input", WHEELSETS),
     Declared("axle_load", "input"),
     Declared("brake_command", "input"),
+    Declared("train_speed", "input"),
+    Declared("train_speed_valid", "input", is_whole=True),
+    Declared("acceleration", "input"),
+    Declared("acceleration_valid", "input", is_whole=True),
 )
 """Set in every cycle as well, in version 2."""
 OUTPUTS_2: Final = (
@@ -176,6 +180,10 @@ class FmuInstance(CalledInstance):
             "dynamic_brake": inputs.dynamic_brake,
             "axle_load": (inputs.axle_load,),
             "brake_command": (inputs.brake_command,),
+            "train_speed": (inputs.train_speed,),
+            "train_speed_valid": (inputs.train_speed_valid,),
+            "acceleration": (inputs.acceleration,),
+            "acceleration_valid": (inputs.acceleration_valid,),
         }
         _set(self._inputs, values)
 

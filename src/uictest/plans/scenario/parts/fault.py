@@ -14,8 +14,8 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from uictest.core.units import KINDS
-from uictest.plans.fault_effects import Effects
-from uictest.plans.faults import FAULT_KINDS, PARTS, FaultKind
+from uictest.plans.fault_effects import Effects, FaultKind
+from uictest.plans.faults import FAULT_KINDS, PARTS
 from uictest.plans.scenario.yaml import (
     QUANTITY_KEYWORD,
     Inconsistency,

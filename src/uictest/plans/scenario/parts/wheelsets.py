@@ -1,15 +1,16 @@
-"""The sensors, and what one wheelset has of its own: a worn wheel, a weak brake, sensors that err."""
+"""What one wheelset has of its own: a worn wheel, a weak brake, sensors that err."""
 
 from collections.abc import Iterator, Mapping
 from functools import cache
 from operator import attrgetter
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
 
 from pydantic import AfterValidator, BaseModel, Field, create_model
 from pydantic_core import PydanticCustomError
 
 from uictest.plans.scenario.parts.brake import Caliper, PadFriction, WspValve
+from uictest.plans.scenario.parts.sensors import Loadcell, PressureSensor, SpeedSensor
 from uictest.plans.scenario.program_files import ProgramFile
 from uictest.plans.scenario.yaml import (
     DEFAULT_SOURCE,
@@ -27,75 +28,7 @@ from uictest.plans.scenario.yaml.quantity_field import (
     field,
     of_kind,
     optional,
-    quantity,
-    schema_field,
 )
-
-ErrorShare = Annotated[Quantity, of_kind("share", "-50 % .. 50 %")]
-NoiseShare = Annotated[Quantity, of_kind("share", "0 % .. 50 %")]
-
-
-class SpeedSensor(Section):
-    """A toothed wheel on the axle; speed from the time between teeth."""
-
-    teeth: Quantity = quantity("Teeth of the wheel.", "count", "1 .. 1000")
-    timer_resolution: Quantity = quantity(
-        "Resolution of the timer between teeth.", "time", "1e-6 ms .. 10 ms"
-    )
-    minimum_speed: Quantity = quantity(
-        "Wheel speed below which the sensor reads zero.", "speed", "0.01 km/h .. 50 km/h"
-    )
-    noise: NoiseShare = field("Standard deviation of the noise as a share of the reading.")
-    gain_error: ErrorShare = field("Error in proportion to the reading.", default=default("0 %", "share"))
-    method: Literal["momentary", "whole-teeth"] = field(
-        "momentary: the speed at the instant of reading; whole-teeth: that of the last whole"
-        " teeth, which is older the slower the wheel turns.",
-        default="momentary",
-    )
-    eccentricity: Quantity = quantity(
-        "Error once per turn: largest deviation as a share of the reading.",
-        "share",
-        "0 % .. 50 %",
-        default="0 %",
-    )
-    missing_teeth: Quantity = quantity(
-        "Teeth missing in one gap of the wheel; only with method whole-teeth.",
-        "count",
-        "0 .. 100",
-        default="0",
-    )
-
-
-class PressureSensor(Section):
-    """A pressure sensor of a tank or of the reservoir."""
-
-    range: Quantity = quantity("Highest gauge pressure it reads.", "pressure", "0.1 bar .. 100 bar")
-    gain_error: ErrorShare = field("Error in proportion to the reading.")
-    offset: Quantity = quantity("Reading at zero gauge pressure.", "pressure", "-1 bar .. 1 bar")
-    noise: Quantity = quantity("Standard deviation of the noise.", "pressure", "1e-6 bar .. 1 bar")
-    resolution: Quantity = quantity("Smallest step of the reading.", "pressure", "1e-6 bar .. 1 bar")
-
-
-class Loadcell(Section):
-    """One of the loadcells between pad and disc."""
-
-    range: Quantity = quantity("Highest force it reads.", "force", "0.1 kN .. 1000 kN")
-    gain_error: ErrorShare = field("Error in proportion to the reading.")
-    offset: Quantity = quantity("Reading without force.", "force", "-10 kN .. 10 kN")
-    noise: Quantity = quantity("Standard deviation of the noise.", "force", "0.001 N .. 10 kN")
-    resolution: Quantity = quantity("Smallest step of the reading.", "force", "0.001 N .. 10 kN")
-
-
-class Sensors(Part):
-    """The sensors of the rig."""
-
-    folder: ClassVar[str] = "sensors"
-
-    schema_id: Literal["uictest/sensors/1"] = schema_field("uictest/sensors/1")
-    speed: SpeedSensor = field("Speed sensor of a wheelset.")
-    pressure: PressureSensor = field("Pressure sensors.")
-    loadcell: Loadcell = field("Loadcells between pad and disc.")
-
 
 NUMBERS: Final = ("1", "2", "3", "4")
 """Numbers of the wheelsets from the leading end, as keys."""

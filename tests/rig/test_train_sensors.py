@@ -1,0 +1,242 @@
+"""What a controller of version 2 is told of the train: a second source of speed, an accelerometer."""
+
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+import uictest
+from uictest.controllers import HEADER, Outputs
+from uictest.plans.scenario import ScenarioErrors, load
+from uictest.rig.assembly import assemble
+from uictest.rig.external.block import BlockInputs, run_block
+from uictest.rig.external.in_process import run_in_process
+from uictest.rig.simulation import simulate
+
+SCENARIO = """\
+schema: uictest/scenario/1
+name: stop
+initial_speed: 60 km/h
+rail: {{condition: wet, friction: 0.07, gradient: 5 permille}}
+rig: {{sensors: {{extends: standard, {sensors}}}}}
+controller: {controller}
+"""
+EXACT = "train_speed: {{period: {period}, delay: {delay}, noise: 0 km/h, gain_error: {gain}}}"
+QUIET = "acceleration: {noise: 0 m/s2}"
+PYTHON = """\
+from uictest.controllers import Outputs
+PARAMETERS = {"second_source": {"default": True}}
+class Wsp:
+    '''Takes the train's speed from the second source, or from the fastest wheelset, falling by 2 m/s2.'''
+    contract = 2
+    def __init__(self, config):
+        self.config = config
+    def reset(self):
+        self.reference = self.config.initial_speed
+    def step(self, inputs):
+        self.reference = max(*inputs.wheel_speed, self.reference - 2.0 * self.config.cycle_time)
+        if inputs.train_speed_valid and self.config.parameters["second_source"]:
+            self.reference = inputs.train_speed
+        slides = [1.0 - speed / max(self.reference, 1.0) for speed in inputs.wheel_speed]
+        acts = self.reference > 2.0
+        vent = [acts and slide > 0.15 for slide in slides]
+        return Outputs([acts and slide > 0.08 for slide in slides], vent, self.reference)
+"""
+SHOWN = """\
+class Shown:
+    contract = 2
+    def __init__(self, config): pass
+    def reset(self): pass
+    def step(self, inputs):
+        held = [inputs.train_speed_valid, inputs.acceleration_valid, inputs.train_speed > 10.0, 0]
+        return Outputs(held, [0] * 4, inputs.acceleration if inputs.cycle % 2 else inputs.train_speed)
+"""
+C = """\
+#define UICTEST_ABI_VERSION 2
+#include "uictest_controller.h"
+uint32_t uictest_abi_version(void) { return UICTEST_ABI_VERSION; }
+void *uictest_create(const uictest_config *config) { (void)config; static int any; return &any; }
+int32_t uictest_reset(void *controller) { (void)controller; return 0; }
+int32_t uictest_step(void *controller, const uictest_inputs *inputs, uictest_outputs *outputs)
+{
+    (void)controller;
+    outputs->hold[0] = inputs->train_speed_valid;
+    outputs->hold[1] = inputs->acceleration_valid;
+    outputs->hold[2] = inputs->train_speed > 10.0;
+    outputs->reference_speed = inputs->cycle % 2 ? inputs->acceleration : inputs->train_speed;
+    return 0;
+}
+void uictest_destroy(void *controller) { (void)controller; }
+const char *uictest_last_error(void *controller) { (void)controller; return ""; }
+"""
+
+
+@pytest.fixture
+def case(tmp_path, monkeypatch):
+    """One case with such sensors; the classes are in the folder."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "wsp.py").write_text(PYTHON + SHOWN)
+
+    def of(sensors, *overrides, controller="threshold"):
+        path = tmp_path / "stop.yaml"
+        path.write_text(SCENARIO.format(sensors=sensors, controller=controller))
+        return load([path], list(overrides))[0]
+
+    return of
+
+
+@pytest.fixture
+def columns(case):
+    """Channels of a stop at the beginning of every controller cycle but the last."""
+
+    def of(sensors, *overrides):
+        recording = simulate(case(sensors, *overrides), 0.01).recording
+        assert recording is not None
+        return recording
+
+    return of
+
+
+def exact(period, delay, gain="0 %"):
+    return EXACT.format(period=period, delay=delay, gain=gain)
+
+
+@pytest.mark.parametrize(("period", "delay"), [(1, 0), (1, 3), (10, 0), (10, 7), (10, 10), (25, 60)])
+def test_a_value_is_the_speed_at_the_last_whole_period_before_the_delay(columns, period, delay):
+    """A sample shows what was read at the beginning of the cycle before it."""
+    stop = columns(exact(f"{10 * period} ms", f"{10 * delay} ms", "1 %"))
+    speed, shown = stop["speed"], stop["measured_train_speed"]
+    cycle = np.arange(len(speed) - 1)
+    taken = (cycle - delay) // period * period
+    # Before the command the source gave the speed at it.
+    expected = np.where(taken < 0, speed[0], 1.01 * speed[np.maximum(taken, 0)])
+    assert shown[1:] == pytest.approx(expected, rel=1e-12)
+    assert set(stop["train_speed_valid"]) == {1.0}
+
+
+def test_an_accelerometer_shows_the_change_of_speed_and_the_share_of_gravity(columns):
+    stop = columns("acceleration: {noise: 0 m/s2, offset: 0.25 m/s2}")
+    change = np.diff(stop["speed"])[:-1] / 0.01
+    assert stop["measured_acceleration"][2:] == pytest.approx(change + 9.80665 * 0.005 + 0.25, abs=1e-9)
+    assert stop["measured_acceleration"][1] == pytest.approx(9.80665 * 0.005 + 0.25)
+
+
+def test_noise_is_of_the_size_that_is_stated(columns):
+    noisy = columns("train_speed: {period: 10 ms, delay: 0 s, noise: 1.8 km/h}, acceleration: {}")
+    quiet = columns(f"{exact('10 ms', '0 s')}, {QUIET}")
+    for channel, deviation in (("measured_train_speed", 0.5), ("measured_acceleration", 0.05)):
+        moving = slice(1, round(0.9 * len(noisy["speed"])))
+        error = (noisy[channel] - quiet[channel])[moving]
+        assert np.std(error) == pytest.approx(deviation, rel=0.1)
+        assert abs(np.mean(error)) < 0.1 * deviation
+
+
+def test_a_stop_whose_controller_does_not_look_keeps_its_bits(case):
+    without = simulate(case("name: own", "rail.friction=0.06"))
+    looked_at = simulate(case("train_speed: {}, acceleration: {}", "rail.friction=0.06"))
+    assert looked_at.measures.tobytes() == without.measures.tobytes()
+    assert looked_at.wheelset_measures.tobytes() == without.wheelset_measures.tobytes()
+
+
+LOST = "{at: 2 s, until: 3 s, part: train-speed, kind: lost}"
+STUCK = "{at: 4 s, until: 5 s, part: train-speed, kind: stuck}"
+STUCK_AT = "{at: 6 s, until: 7 s, part: train-speed, kind: stuck, value: 36 km/h}"
+OFFSET = "{at: 8 s, until: 9 s, part: train-speed, kind: offset, value: -7.2 km/h}"
+
+
+def test_faults_of_the_second_source(columns):
+    """A lost one gives the defined value 0 and says so; the others say nothing."""
+    stop = columns(exact("10 ms", "0 s"), f"faults=[{LOST}, {STUCK}, {STUCK_AT}, {OFFSET}]")
+    sound = columns(exact("10 ms", "0 s"))
+    time, shown = stop["time"], stop["measured_train_speed"]
+    within = lambda begin: (time > begin + 0.005) & (time < begin + 1.005)  # noqa: E731
+    assert set(shown[within(2.0)]) == {0.0}
+    assert set(stop["train_speed_valid"][within(2.0)]) == {0.0}
+    assert set(stop["train_speed_valid"][~within(2.0)]) <= {1.0}
+    assert set(shown[within(4.0)]) == {shown[time <= 4.005][-1]}
+    assert set(shown[within(6.0)]) == {10.0}
+    assert shown[within(8.0)] == pytest.approx(sound["measured_train_speed"][within(8.0)] - 2.0)
+    free = ~(within(2.0) | within(4.0) | within(6.0) | within(8.0))
+    assert np.array_equal(shown[free], sound["measured_train_speed"][free])
+
+
+def test_without_sensors_a_controller_gets_zeros_that_are_not_valid(case):
+    stop = run_in_process(assemble(case("name: own", controller="{python: wsp.py, class: Shown}")), 20)
+    assert set(stop.trace.train["reference_speed"][1:]) == {0.0}
+    assert not stop.trace.wheelsets["hold_magnet"].any()
+
+
+def test_every_kind_of_controller_is_given_the_same_alone_and_in_lanes(case, tmp_path):
+    compiler = shutil.which("gcc")
+    if compiler is None:
+        pytest.skip("no C compiler")
+    (tmp_path / "wsp.c").write_text(C)
+    built = [compiler, "-O1", "-fPIC", "-shared", f"-I{HEADER.parent}", "-o", "libwsp.so", "wsp.c"]
+    subprocess.run(built, cwd=tmp_path, check=True)
+    sensors = "train_speed: {delay: 250 ms}, acceleration: {}"
+    python, c = (
+        assemble(case(sensors, f"faults=[{LOST}, {OFFSET}]", controller=controller))
+        for controller in ("{python: wsp.py, class: Shown}", "{library: libwsp.so}")
+    )
+    alone = [run_in_process(each, 20) for each in (python, c)]
+    assert alone[0].trace.train.tobytes() == alone[1].trace.train.tobytes()
+    stops = [c, assemble(case("name: own")), python]
+    programs, configs = ([getattr(each, name) for each in stops] for name in ("program", "config"))
+    records = ("parameters", "wheelset_parameters", "rail")
+    run = run_block(
+        BlockInputs(
+            programs, configs, *(np.array([getattr(each, name) for each in stops]) for name in records)
+        )
+    )
+    assert run.failures == ["", "", ""]
+    for place in (0, 2):
+        assert run.measures[place].tobytes() == alone[0].measures.tobytes()
+        assert run.wheelset_measures[place].tobytes() == alone[0].wheelset_measures.tobytes()
+    case(sensors, controller="{python: wsp.py, class: Shown}")
+    rig = uictest.Rig("stop.yaml", contract=2, record=100)
+    inputs = rig.reset()
+    given = []
+    while not rig.stopped:
+        given.append((inputs.train_speed, inputs.acceleration))
+        held = [inputs.train_speed_valid, inputs.acceleration_valid, inputs.train_speed > 10.0, 0]
+        inputs = rig.step(Outputs(held, [0] * 4))
+    undisturbed = run_in_process(
+        assemble(case(sensors, controller="{python: wsp.py, class: Shown}")), 20
+    ).trace.train
+    assert [pair[0] for pair in given] == undisturbed["measured_train_speed"][1 : len(given) + 1].tolist()
+    assert [pair[1] for pair in given] == undisturbed["measured_acceleration"][1 : len(given) + 1].tolist()
+
+
+def test_a_controller_that_takes_its_reference_from_it_keeps_braking_when_all_slide(case):
+    """By the fastest wheelset all four are lost together; so they are once the source is lost."""
+
+    def stopped(second_source, *faults):
+        controller = f"{{python: wsp.py, class: Wsp, parameters: {{second_source: {second_source}}}}}"
+        slippery = ("initial_speed=120 km/h", f"faults=[{', '.join(faults)}]")
+        stop = run_in_process(assemble(case("train_speed: {}", *slippery, controller=controller)), 20)
+        moving = stop.trace.train["speed"] > 5.0
+        return stop.measures.braking_distance, stop.trace.wheelsets["slide"][moving].mean()
+
+    (distance, slide), (blind_distance, blind_slide) = stopped("true"), stopped("false")
+    assert distance < 0.8 * blind_distance
+    assert slide < 0.3 < blind_slide
+    lost_distance, lost_slide = stopped("true", "{at: 5 s, part: train-speed, kind: lost}")
+    assert distance < lost_distance < blind_distance
+    assert lost_slide > slide
+
+
+@pytest.mark.parametrize(
+    ("sensors", "overrides", "told"),
+    [
+        ("train_speed: {period: 50 ms, delay: 151 ms}", (), "151 ms is more than 3 periods of 50 ms"),
+        ("name: own", (f"faults=[{LOST}]",), "this rig has no second source of speed"),
+        ("train_speed: {}", ("faults=[{at: 0 s, wheelset: 1, part: train-speed, kind: lost}]",), "has one"),
+        ("train_speed: {}", ("faults=[{at: 0 s, part: train-speed, kind: offset}]",), "needs a value"),
+        ("train_speed: {noise: 0.2}", (), "unit"),
+        ("acceleration: {noises: 1 m/s2}", (), "noises"),
+    ],
+)
+def test_what_cannot_be_is_refused(case, sensors, overrides, told):
+    with pytest.raises(ScenarioErrors, match=told):
+        case(sensors, *overrides)
