@@ -121,7 +121,6 @@ def test_what_changes_in_a_train_changes_in_all_of_its_cars(cases):
             ["6:23: train.1.faults.0.at: missing key 'at'", "7:40: train.1.brake.command: unknown unit 'm'"],
         ),
         ("train: [{}, {}]\nbrake: {command: 120 %}\n", ["7:18: brake.command: 120 % is out of range"]),
-        ("train: [{}]\nfirm: true\n", ["7:7: firm: how firm verdicts are is not known of trains"]),
         ("coupler: {damping: 1 MN s/m}\n", ["6:1: coupler: only a train has it"]),
         ("brake: {transmission: wire}\n", ["6:9: brake.transmission: only a train has it"]),
         (

@@ -123,15 +123,23 @@ def simulate_cars(cases: Sequence[Case], record_every: float | None = None) -> l
     return _stops_of_train(cases, measures, stop.couplers, stop.parameters, recording)
 
 
-def simulate_trains(trains: Sequence[Sequence[Case]]) -> list[list[SimulatedStop]]:
+def simulate_trains(
+    trains: Sequence[Sequence[Case]], noise_of: Case | None = None
+) -> list[list[SimulatedStop]]:
     """Simulate trains side by side in lanes, each as :func:`simulate_cars` does without a recording.
 
     Args:
         trains: cars of each train.
+        noise_of: car of a train whose noise all meet [default: each its own].
     """
     from uictest.rig.backends.train_lanes import run_trains_in_lanes  # single stops do without them
 
     inputs = [assemble_train(cars := _train_of(cases), coupling_of(cars[0].scenario)) for cases in trains]
+    if noise_of is not None:
+        cars = list(noise_of.cars)
+        keys = assemble_train(cars, coupling_of(cars[0].scenario)).parameters["noise_key"]
+        for each in inputs:
+            each.parameters["noise_key"] = keys
     return [
         _stops_of_train(
             cases,

@@ -17,7 +17,7 @@ from uictest.plans import scenario, series as series_plans
 from uictest.running import campaign
 from uictest.runs.drawing import TraceCollection
 from uictest.runs.observer import Observer
-from uictest.runs.scenario_files import references_of, require_cars_alone
+from uictest.runs.scenario_files import references_of
 
 Keep = Callable[[str, recording.Recording], object]
 """Takes the id of a case and its recording."""
@@ -107,13 +107,12 @@ def batch_of(
         drawn_first: ids of the cases whose stops a page draws before all others.
 
     Compensations are identified here, before any display: up to minutes. Raises InvalidInputError where a
-    validation cannot be read, or where --firm meets a train.
+    validation cannot be read.
     """
     everything = all_cases(cases, planned)
     references = references_of(everything, validated)
     parts = campaign.parts_of_cases(everything)
     settings = settings or campaign.RunSettings()
-    require_cars_alone([*filter(settings.asks_firmness_of, everything), *settings.calibration])
     read_for: Sequence[scenario.Case | series_plans.Series] = (*everything, *settings.calibration, *planned)
     read = {name: digest for each in read_for for name, digest in each.inputs.items()}
     manifest = report.run_manifest(arguments, seed, read, len(everything), parts.values())

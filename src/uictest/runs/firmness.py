@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Final
 
@@ -47,6 +47,8 @@ class FirmnessRun:
     run_block: chunked.RunBlock = rig.run_block
     effort: Effort = EFFORT
     calibration: Sequence[scenario.Case] = ()
+    trains: dict[str, chunked.VariedTrain] = field(default_factory=dict)
+    """The train that cases were cars of last, by its id."""
 
     def of_case(self, case: scenario.Case) -> Firmness:
         """Return how firm the verdicts of a case are; of a repeated one, those of its stops one by one."""
@@ -103,8 +105,8 @@ class FirmnessRun:
             if criterion.layer == "validity"
         )
         hold = self._hold(numbers) if self.calibration else None
-        random_rail = any(each.varied.case.scenario.rail.variation_in_force for each in cases)
-        repeats = sum(each.varied.case.scenario.repeat for each in cases)
+        random_rail = any(each.case.scenario.rail.variation_in_force for each in cases)
+        repeats = sum(each.case.scenario.repeat for each in cases)
         study = FirmnessStudy(
             *(list(numbers.values()), judge, hold, validity, self.effort, random_rail),
             expect=lambda stops: self.advance(0, stops * repeats),
@@ -112,9 +114,7 @@ class FirmnessRun:
         return study.run(
             on_four_calipers=any(each.on_four_calipers for each in cases),
             calibrated_by=[each.id for each in self.calibration],
-            without_range=[
-                key for each in cases for key in sweeps.numbers_without_range(each.varied.case.scenario)
-            ],
+            without_range=[key for each in cases for key in sweeps.numbers_without_range(each.case.scenario)],
         )
 
     def _hold(self, numbers: Mapping[_Identity, RangedNumber]) -> HoldDraws:
@@ -156,20 +156,20 @@ class _VariedStops:
     only for the rig that it was identified for. So all stops are run with a caliper in every module.
     """
 
-    varied: chunked.VariedCase
+    varied: chunked.VariedCase | chunked.VariedTrain
+    case: scenario.Case
+    of_cars: Sequence[Mapping[_Identity, RangedNumber]]
     numbers: Mapping[_Identity, RangedNumber]
     run: FirmnessRun
     on_four_calipers: bool
 
     @classmethod
     def of(cls, case: scenario.Case, run: FirmnessRun) -> _VariedStops:
-        numbers = {_identity(each): each for each in sweeps.ranged_numbers(case.scenario)}
-        built = case.scenario.rig
-        moved = built.topology != "four-caliper"
-        four = built.model_copy(update={"topology": "four-caliper"})
-        changed = replace(case, scenario=case.scenario.model_copy(update={"rig": four}))
-        keys = [each.key for each in numbers.values()]
-        return cls(chunked.VariedCase(changed, keys, run.jobs, run.run_block), numbers, run, moved)
+        of_cars = [_numbers_of(car) for car in case.cars]
+        numbers = {identity: number for own in of_cars for identity, number in own.items()}
+        moved = any(car.scenario.rig.topology != "four-caliper" for car in case.cars)
+        varied = _varied_train(case, run) if case.train is not None else _varied_car(case, numbers, run)
+        return cls(varied, case, of_cars, numbers, run, moved)
 
     def results(self, columns: _Columns, seeds: Sequence[int]) -> list[list[CaseResult]]:
         """Return for each row of the columns the results of the stops, one for each repeat of the case.
@@ -177,24 +177,60 @@ class _VariedStops:
         A number without a column is nominal.
         A seed counts from that of the case, in steps of its repeats, and goes on from 0 behind the largest.
         """
-        resolved = self.varied.case.scenario
+        resolved = self.case.scenario
         repeat = resolved.repeat
         rows = np.repeat(np.arange(len(seeds)), repeat)
         known = scenario.LARGEST_SEED + 2 - repeat  # how many seeds a case with these repeats may have
         numbers = [(resolved.seed + seed * repeat + k) % known for seed in seeds for k in range(repeat)]
         nominal = np.full(len(seeds), np.nan)
-        settings = {
-            number.key: (columns[key] if key in columns else number.at(nominal)).take(rows)
+        drawn = {
+            key: (columns[key] if key in columns else number.at(nominal)).take(rows)
             for key, number in self.numbers.items()
         }
-        settings["seed"] = sweeps.listed_column([sweeps.ParameterValue(str(k), k) for k in numbers])
-        results = self.varied.results(settings, self.run.advance)
+        seed = {"seed": sweeps.listed_column([sweeps.ParameterValue(str(k), k) for k in numbers])}
+        settings = [{number.key: drawn[key] for key, number in own.items()} | seed for own in self.of_cars]
+        if isinstance(self.varied, chunked.VariedTrain):
+            assert self.case.train is not None
+            car = self.case.train.number - 1
+            results = [each[car] for each in self.varied.results(settings, self.run.advance)]
+        else:
+            results = self.varied.results(settings[0], self.run.advance)
         return [results[first : first + repeat] for first in range(0, len(results), repeat)]
 
     def as_expected(self, columns: _Columns, count: int) -> list[bool]:
         """Return for each row of the columns whether all stops come to what the case expects."""
-        expected = self.varied.case.scenario.expect
+        expected = self.case.scenario.expect
         return [all(stop.outcome == expected for stop in each) for each in self.results(columns, [0] * count)]
+
+
+def _numbers_of(case: scenario.Case) -> dict[_Identity, RangedNumber]:
+    return {_identity(each): each for each in sweeps.ranged_numbers(case.scenario)}
+
+
+def _varied_car(
+    case: scenario.Case, numbers: Mapping[_Identity, RangedNumber], run: FirmnessRun
+) -> chunked.VariedCase:
+    changed = replace(case, scenario=_on_four_calipers(case.scenario))
+    return chunked.VariedCase(changed, [each.key for each in numbers.values()], run.jobs, run.run_block)
+
+
+def _varied_train(case: scenario.Case, run: FirmnessRun) -> chunked.VariedTrain:
+    """Return the train of a car: that of the case before, where it was a car of the same."""
+    assert case.train is not None
+    four = {id(each): _on_four_calipers(each) for each in case.train.scenarios}
+    cars = tuple(four[id(each)] for each in case.train.scenarios)
+    place = replace(case.train, scenarios=cars)
+    known = run.trains.get(place.train)
+    if known is None or known.case.train is None or known.case.train.scenarios != cars:
+        run.trains.clear()
+        changed = replace(case, scenario=cars[place.number - 1], train=place)
+        run.trains[place.train] = chunked.VariedTrain(changed, run.jobs)
+    return run.trains[place.train]
+
+
+def _on_four_calipers(stated: scenario.Scenario) -> scenario.Scenario:
+    four = stated.rig.model_copy(update={"topology": "four-caliper"})
+    return stated.model_copy(update={"rig": four})
 
 
 def _identity(number: RangedNumber) -> _Identity:
@@ -220,7 +256,8 @@ def _repeated(case: scenario.Case, stops: Sequence[CaseResult]) -> CaseResult:
 
 def stops_of_case(case: scenario.Case, settings: campaign.RunSettings) -> int:
     """Return how many stops are run for a case before turning values are searched."""
-    return EFFORT.stops(len(sweeps.ranged_numbers(case.scenario))) + _calibrating_stops(settings)
+    numbers = {identity for car in case.cars for identity in _numbers_of(car)}
+    return EFFORT.stops(len(numbers)) + _calibrating_stops(settings)
 
 
 def stops_of_pair(first: scenario.Case, second: scenario.Case, settings: campaign.RunSettings) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from uictest import report
@@ -137,16 +137,6 @@ def _require_distinct(loaded: Sequence[series.Series]) -> None:
                 f"a second series {each.id!r} in {where}: give every series a name of its own"
             )
         file_of[each.id] = each.path
-
-
-def require_cars_alone(asked: Iterable[scenario.Case]) -> None:
-    """Raise InvalidInputError for a car of a train among cases whose verdicts are to be firm or not."""
-    for case in asked:
-        if case.train is not None:
-            raise InvalidInputError(
-                f"{case.id} is {case.train.label}: how firm verdicts are is found out of cars that run alone;"
-                " leave out --firm, or the train with -k"
-            )
 
 
 def nothing_selected(cases: Sequence[scenario.Case], planned: Sequence[series.Series] = ()) -> str:

@@ -16,7 +16,6 @@ from uictest.running.chunked import ChunkStore
 from uictest.runs.batch import simulate_cases
 from uictest.runs.errors import InvalidInputError
 from uictest.runs.observer import Observer
-from uictest.runs.scenario_files import require_cars_alone
 from uictest.runs.sweep_chunks import SweepRequest, prepared_runner, run_missing_chunks
 
 
@@ -43,8 +42,12 @@ def run_sweep(request: SweepRequest, observer: Observer) -> FinishedSweep | None
     is raised: InvalidInputError where the folder is in use or holds the chunks of other inputs, OSError,
     KeyboardInterrupt, MaxfailReached.
     """
-    if request.firm:
-        require_cars_alone([request.selection.plan.base, *request.calibration])
+    if request.firm and (train := request.selection.plan.base.train) is not None:
+        raise InvalidInputError(
+            f"{train.train} is a train: a sweep says of cars alone how firm the nominal case is; leave out"
+            " --firm, or run the scenario with it",
+            arguments=("firm",),
+        )
     with (
         _locked(request.folder, shared=request.shard.count > 1 and not request.restart),
         rig.Workers() as workers,

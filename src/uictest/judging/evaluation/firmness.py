@@ -146,7 +146,7 @@ class Firmness(VerdictFirmness):
         on_four_calipers: whether all of these stops were run on the rig with four calipers: numbers of the
             caliper, its tank or the valves vary, for which the compensation was not identified.
         calibrated_by: ids of the stops by which the numbers are known.
-        without_range: keys of numbers of further brakes and sanders that were not varied: they state none.
+        without_range: keys of numbers of further brakes, sanders and couplers that state no range.
 
     """
 

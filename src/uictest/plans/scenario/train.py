@@ -170,11 +170,6 @@ def _problems_beside(tree: Map) -> Iterator[Diagnostic]:
     if (vehicle := _written(tree, "vehicle")) is not None:
         hint = "leave it out, or write `train: null`; the vehicle of the first cars is train.0.vehicle"
         yield diagnose(vehicle.key, "the cars of a train have vehicles of their own", "vehicle", hint)
-    firm = _written(tree, "firm")
-    if firm is not None and isinstance(firm.node, Scalar) and firm.node.value is True:
-        yield diagnose(
-            firm.node.place, "how firm verdicts are is not known of trains", "firm", "leave it out"
-        )
 
 
 def _car(common: Map, item: Any, key: str) -> tuple[Map, int]:

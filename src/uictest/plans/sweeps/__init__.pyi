@@ -3,6 +3,7 @@ from .base_case import (
     SURVEY_STEP as SURVEY_STEP,
     inconsistencies as inconsistencies,
     is_free as is_free,
+    train_problem as train_problem,
     value_at as value_at,
     with_values as with_values,
 )

@@ -14,6 +14,7 @@ from uictest.plans.scenario import (
     Parts,
     Scenario,
     changed_alone,
+    coupling_problem,
     own_keys,
     resolve,
     resolved_cars,
@@ -32,6 +33,7 @@ from uictest.plans.scenario.yaml import (
     Scalar,
     Sequence as List,
     default,
+    dotted,
     parse_quantity,
     plain,
     quoted,
@@ -78,6 +80,19 @@ def inconsistencies(scenario: Scenario, keys: Iterable[str]) -> Iterator[Inconsi
         if isinstance(model, Model):
             for inconsistency in model.inconsistencies():
                 yield inconsistency._replace(key=(*path, *inconsistency.key))
+
+
+def train_problem(cars: Sequence[Scenario], keys: Iterable[Iterable[str]]) -> str:
+    """Return why a train cannot run, empty where it can.
+
+    Args:
+        cars: its scenarios.
+        keys: of the changed values of each car.
+    """
+    for car, own in zip(cars, keys, strict=True):
+        for problem in inconsistencies(car, own):
+            return f"{dotted(problem.key)}: {problem.message}"
+    return coupling_problem(cars)
 
 
 _UNCHANGED: Final = object()

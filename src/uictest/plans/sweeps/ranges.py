@@ -137,7 +137,17 @@ def ranged_numbers(scenario: Scenario) -> list[RangedNumber]:
     own, and the definitions of measures.
     """
     numbers = []
-    for section in ("vehicle", "initial_speed", "brake", "until", "drag", "rail", "sanders", "rig"):
+    for section in (
+        "vehicle",
+        "initial_speed",
+        "brake",
+        "until",
+        "drag",
+        "rail",
+        "sanders",
+        "rig",
+        "coupler",
+    ):
         for key, quantity in quantities_in(getattr(scenario, section), (section,)):
             if quantity.range is not None and _is_used(scenario, key):
                 sources = _sources_at(scenario, key)
@@ -147,14 +157,15 @@ def ranged_numbers(scenario: Scenario) -> list[RangedNumber]:
 
 
 def numbers_without_range(scenario: Scenario) -> list[str]:
-    """Return the keys of those numbers of further brakes and of sanders that state no range.
+    """Return the keys of those numbers of further brakes, sanders and couplers that state no range.
 
     A scenario writes them itself, and no part of the library with a reason why a number has none.
     """
     equipment = (("brake", "dynamic"), scenario.brake.dynamic), (("brake", "track"), scenario.brake.track)
+    others = (("sanders",), scenario.sanders), (("coupler",), scenario.coupler)
     return [
         dotted(key)
-        for place, value in (*equipment, (("sanders",), scenario.sanders))
+        for place, value in (*equipment, *others)
         for key, quantity in quantities_in(value, place)
         if quantity.range is None
     ]

@@ -34,4 +34,4 @@ from .table import (
     text_column as text_column,
     wheelset_columns as wheelset_columns,
 )
-from .varied_case import VariedCase as VariedCase
+from .varied_case import VariedCase as VariedCase, VariedTrain as VariedTrain

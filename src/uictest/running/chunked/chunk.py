@@ -17,9 +17,8 @@ from uictest import rig
 from uictest.core.ensemble import rows_at
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.judging.evaluation import CaseResult, Detail, error_result, evaluate_simulated, may_be_biased
-from uictest.plans.scenario import Case, coupling_problem
-from uictest.plans.scenario.yaml import dotted
-from uictest.plans.sweeps import Plan, in_survey_steps, inconsistencies
+from uictest.plans.scenario import Case
+from uictest.plans.sweeps import Plan, in_survey_steps, train_problem
 from uictest.running.campaign import RecordingRequest, ThreadedMap, run_trains, stops_together
 from uictest.running.chunked.case_blocks import BlockAssembler, CaseBlock, CaseValues
 from uictest.running.chunked.case_selection import CaseSelection
@@ -105,18 +104,13 @@ class TrainRunner(ChunkRunner):
             places = np.array([*of_train])
             try:
                 cars = self.plan.cases(places)
-                reason = self._rejection(cars[0])
+                assert cars[0].train is not None
+                keys = (own.values() for own in self.plan.own_keys)
+                reason = train_problem(cars[0].train.scenarios, keys)
             except KeyError as error:  # a value of one key leaves no place for that of another
                 cars = [replace(base, id=name) for name in self.plan.ids(places)]
                 reason = f"{error.args[0]!r}: no such key beside the other values of this case"
             yield from ((car, reason) for car in cars)
-
-    def _rejection(self, case: Case) -> str:
-        assert case.train is not None
-        for scenario, own in zip(case.train.scenarios, self.plan.own_keys, strict=True):
-            for problem in inconsistencies(scenario, own.values()):
-                return f"{dotted(problem.key)}: {problem.message}"
-        return coupling_problem(case.train.scenarios)
 
 
 @dataclass(frozen=True)

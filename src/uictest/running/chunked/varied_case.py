@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Final
 
 import numpy as np
 
 from uictest import rig
-from uictest.judging.evaluation import CaseResult
-from uictest.plans.scenario import Case
-from uictest.plans.sweeps import Column, ListedGroup, ParameterValue, Plan, value_at
+from uictest.judging.evaluation import CaseResult, error_result, evaluate_simulated
+from uictest.plans.scenario import Case, Scenario
+from uictest.plans.sweeps import (
+    Column,
+    ListedGroup,
+    ParameterValue,
+    Plan,
+    train_problem,
+    value_at,
+    with_values,
+)
 from uictest.running.campaign import ThreadedMap
 from uictest.running.chunked.case_blocks import BlockAssembler
 from uictest.running.chunked.chunk import BlockRunner, RunBlock
@@ -82,3 +90,86 @@ class VariedCase:
             self.run_block,
             detail="readings",
         )
+
+
+@dataclass(frozen=True)
+class VariedTrain:
+    """Runs a train with other values in its cars; all of its stops meet the noise of the train itself.
+
+    A stop that was run already is not run again: what is asked of one car is often asked of the next.
+
+    Args:
+        case: any of its cars.
+        jobs: number of threads.
+
+    """
+
+    case: Case
+    jobs: int = 1
+    _known: dict[tuple[str, ...], list[CaseResult]] = field(default_factory=dict)
+
+    def results(
+        self, settings: Sequence[Mapping[str, Column]], advance: Callable[[int], None] = lambda count: None
+    ) -> list[list[CaseResult]]:
+        """Return the results of all cars in each stop; an error in one is that of all cars.
+
+        Args:
+            settings: for each car the values at keys of its scenario, and of `seed`, in each stop.
+            advance: called in this thread with how many more stops are finished.
+
+        """
+        rows = list(zip(*(column.texts for own in settings for column in own.values()), strict=True))
+        new = {row: place for place, row in enumerate(rows) if row not in self._known}
+        advance(len(rows) - len(new))
+        size = max(_TOGETHER // len(settings), 1)
+        places = list(new.values())
+        blocks = [places[first : first + size] for first in range(0, len(places), size)]
+        with ThreadedMap(lambda block: self._run(settings, block), blocks, jobs=self.jobs) as done:
+            for block, of_block in zip(blocks, done, strict=True):
+                self._known.update(zip((rows[place] for place in block), of_block, strict=True))
+                advance(len(block))
+        return [self._known[row] for row in rows]
+
+    def _run(self, settings: Sequence[Mapping[str, Column]], places: Sequence[int]) -> list[list[CaseResult]]:
+        trains = [self._scenarios(settings, place) for place in places]
+        problems = [train_problem(each, settings) for each in trains]
+        sound = [self._cars(each) for each, problem in zip(trains, problems, strict=True) if not problem]
+        try:
+            stops = iter(rig.simulate_trains(sound, self.case))
+        except Exception as error:  # which train it is shows when they run one by one
+            if len(places) > 1:
+                return [each for place in places for each in self._run(settings, [place])]
+            problems = [f"{type(error).__name__}: {error}"]
+        assert self.case.train is not None
+        # Judged as the train itself, see above.
+        cars = self._cars(self.case.train.scenarios)
+        return [
+            [error_result(car, problem) for car in cars]
+            if problem
+            else [
+                evaluate_simulated(car, stop.measures, stop.wheelset_measures, detail="readings")
+                for car, stop in zip(cars, next(stops), strict=True)
+            ]
+            for problem in problems
+        ]
+
+    def _scenarios(self, settings: Sequence[Mapping[str, Column]], place: int) -> tuple[Scenario, ...]:
+        assert self.case.train is not None
+        changed: dict[int, Scenario] = {}  # equal cars share theirs
+        for car, own in zip(self.case.train.scenarios, settings, strict=True):
+            if id(car) not in changed:
+                changed[id(car)] = with_values(
+                    car, {key: column[place].content for key, column in own.items()}
+                )
+        return tuple(changed[id(car)] for car in self.case.train.scenarios)
+
+    def _cars(self, scenarios: tuple[Scenario, ...]) -> list[Case]:
+        assert self.case.train is not None
+        return [
+            replace(
+                self.case,
+                scenario=each,
+                train=replace(self.case.train, number=number, scenarios=scenarios),
+            )
+            for number, each in enumerate(scenarios, start=1)
+        ]
