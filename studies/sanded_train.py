@@ -130,7 +130,7 @@ def _add_sand(
     """Add under each axle what is left there of what one nozzle has laid; `laid` is that of each step."""
     steps_ago = np.round((behind[first:] - behind[first]) / step).astype(int)
     reached = np.nonzero(steps_ago < len(laid))[0]
-    then = np.array(laid)[len(laid) - 1 - steps_ago[reached]]
+    then = np.array([laid[-1 - ago] for ago in steps_ago[reached].tolist()])
     density[first + reached] += kept**reached * then
 
 

@@ -30,32 +30,17 @@ def pairs(call, *arguments):
     return document["pairs"]
 
 
-def test_a_number_that_turns_which_is_better_is_named_where_both_are_alike(call, scenario):
-    """Two brakes that differ in their pads alone stop alike with equal pads: at 0.36."""
-    [pair] = pairs(call, scenario("pads", VARIANTS), "--over", PAD)
-    [distance] = [each for each in pair["quantities"] if each["criterion"] == "braking distance"]
-    assert (distance["nominal"], distance["status"]) == ("fail", "turns")
-    [turn] = distance["turned_by"]
-    assert (turn["key"], turn["side"], turn["to"]) == (PAD, "below", "pass")
-    assert float(turn["value"]) == pytest.approx(0.36, abs=1.5e-3)
-    assert distance["margin"] == pytest.approx(0.36 / 0.38 - 1.0, abs=0.02)
-
-
 def test_what_nothing_turns_is_not_said_to_be_firm_in_few_draws(call, scenario):
+    """On a dry rail no wheelset slides: there is no contact energy to compare."""
     path = scenario("stop", "rail: {condition: dry}\n")
-    [pair] = pairs(call, path, "--over", "brake.command", "--set", "brake.command=90 %,100 %")
+    variants = ("--over", "brake.command", "--set", "brake.command=90 %,100 %")
+    [pair] = pairs(call, path, *variants)
     [distance] = [each for each in pair["quantities"] if each["criterion"] == "braking distance"]
     assert (distance["nominal"], distance["status"], distance["turned"]) == ("fail", "not_shown", 0)
     assert (pair["draws"], pair["infeasible"], pair["on_four_calipers"]) == (8, 0, True)
     assert {each["key"] for each in pair["numbers"]} > {"vehicle.body.mass"}
-
-
-def test_what_neither_comes_to_less_of_is_named(call, scenario):
-    """On a dry rail no wheelset slides: there is no contact energy to compare."""
-    path, variants = scenario("stop", "rail: {condition: dry}\n"), "brake.command=90 %,100 %"
-    [pair] = pairs(call, path, "--over", "brake.command", "--set", variants)
     assert pair["undecided"] == ["contact energy of the worst wheelset"]
-    text = call("compare", path, "--over", "brake.command", "--set", variants, "--firm").out
+    text = call("compare", path, *variants, "--firm").out
     assert "contact energy of the worst wheelset: neither comes to less" in text
 
 
@@ -66,10 +51,21 @@ def test_the_text_names_both_sides_and_the_value(call, scenario):
     assert "not firm" in line
 
 
+def assert_the_pads_turn_the_distance(pair):
+    """Two brakes that differ in their pads alone stop alike with equal pads: at 0.36."""
+    [distance] = [each for each in pair["quantities"] if each["criterion"] == "braking distance"]
+    assert (distance["nominal"], distance["status"]) == ("fail", "turns")
+    [turn] = distance["turned_by"]
+    assert (turn["key"], turn["side"], turn["to"]) == (PAD, "below", "pass")
+    assert float(turn["value"]) == pytest.approx(0.36, abs=1.5e-3)
+    assert distance["margin"] == pytest.approx(0.36 / 0.38 - 1.0, abs=0.02)
+
+
 def test_the_page_says_of_each_quantity_how_firm_it_is_and_draws_the_numbers(call, scenario):
-    """Every share on the page is that of the JSON; text of the user is escaped."""
+    """Every share on the page is that of the JSON, which names what turns where both are alike."""
     page, document = Path("pair.html"), call("compare", scenario("pads", VARIANTS), *FIRM, "--format", "json")
     [pair] = json.loads(document.out)["pairs"]
+    assert_the_pads_turn_the_distance(pair)
     assert call("compare", scenario("pads", VARIANTS), *FIRM, "--html", str(page)).code == 0
     html = page.read_text("utf-8")
     rows = dict(re.findall(r"<tr[^>]*><th[^>]*>(.*?)</th>(.*?)</tr>", html))
