@@ -13,7 +13,7 @@ import uictest
 from tests.service_log import logs
 from uictest.analysis.logged_stops import LogSurvey
 from uictest.cli.entry import execute
-from uictest.core.recording import Recording
+from uictest.core.recording import Recording, read_parquet
 from uictest.recorded.field_data import judge_recording, load_map, stop_in
 from uictest.recorded.service_log import find_stops, write_stops
 
@@ -102,6 +102,13 @@ def test_the_friction_of_every_slippery_stop_is_that_of_its_rail(tmp_path):
         assert float(row["friction"]) == pytest.approx(truth, rel=0.02)
 
 
+def test_a_rail_that_is_as_good_has_a_k_wet_of_one_from_whatever_speed(tmp_path):
+    stops = [logs.simulated(logs.DRY, speed, k) for k, speed in enumerate((78.0, 78.1, 82.0, 82.1))]
+    run = judged(tmp_path, stops, "--dry", "stop-0001 or stop-0002")
+    (row,) = [each for each in rows(run, "wet_series") if each["measure"] == "stopping_distance_extension"]
+    assert float(row["value"]) == pytest.approx(0.0, abs=2.0), "%; 10 % by the squares of the speeds"
+
+
 def test_adhesion_is_not_seen_where_the_brake_never_reached_the_limit(tmp_path):
     run = judged(tmp_path, [logs.simulated(logs.DRY, 80.0, k) for k in (1, 2)])
     seen = rows(run, "adhesion_by_speed")
@@ -163,7 +170,12 @@ def test_k_wet_is_that_of_the_stops(sound):
         case["id"]: case["measures"]
         for case in json.loads((sound / "results.json").read_text("utf-8"))["cases"]
     }
-    lengths = [measures[f"stop-{k:04d}"]["deceleration_distance_m"] for k in range(1, 15)]
+    names = [f"stop-{k:04d}" for k in range(1, 15)]
+    speeds = [3.6 * read_parquet(sound / "recordings" / f"{name}.parquet")["speed"][0] for name in names]
+    lengths = [
+        measures[name]["deceleration_distance_m"] * (80.0 / speed) ** 2
+        for name, speed in zip(names, speeds, strict=True)
+    ]
     increase = 100.0 * (np.mean(lengths[3:]) / np.mean(lengths[:3]) - 1.0)
     (row,) = [each for each in rows(sound, "wet_series") if each["measure"] == "k_wet"]
     assert float(row["value"]) == pytest.approx(100.0 / (100.0 + increase), rel=1e-9)

@@ -1,6 +1,7 @@
 """Sensors that contradict each other, clocks that cannot be right, files with the same rows."""
 
 import os
+from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
@@ -75,7 +76,7 @@ def test_a_speed_recorded_in_every_tenth_row_is_known(tmp_path):
 def test_a_clock_too_coarse_for_its_rows_is_refused(tmp_path, digits):
     columns = braking(30.0)
     columns["time"] = np.floor(0.01 * np.arange(600) * 10**digits) / 10**digits
-    with pytest.raises(UnreadableError, match=r"repeats its time in 9[09] % of the rows"):
+    with pytest.raises(UnreadableError, match=r"repeats its time, or shows none, in 9[09] % of"):
         found(columns, tmp_path / "log.parquet")
 
 
@@ -245,3 +246,37 @@ def test_a_log_in_the_folder_of_the_stops_is_left_there(tmp_path, monkeypatch, c
     assert execute(["log", str(path), *STATED]) == 4
     assert "lies in stops, which the stops replace" in capsys.readouterr().err
     assert path.is_file()
+
+
+def test_a_pulse_before_the_brake_begins_no_stop(tmp_path):
+    columns = {name: np.repeat(samples, 10) for name, samples in braking(30.0).items()}
+    columns["time"] = 0.1 * STEP * np.arange(6000)
+    pulsed = columns | {"brake_command": columns["brake_command"].copy()}
+    pulsed["brake_command"][750] = 1.0
+    (quiet,), (noisy,) = (found(each, tmp_path / "log.parquet")[0].stops for each in (columns, pulsed))
+    assert noisy == quiet
+
+
+def test_a_clock_that_shows_no_time_is_refused(tmp_path):
+    columns = braking(30.0)
+    columns["time"][:] = np.nan
+    with pytest.raises(UnreadableError, match="shows none, in 100 %"):
+        found(columns, tmp_path / "log.parquet")
+
+
+def test_a_recorder_that_begins_with_a_default_date_overlaps_nothing(tmp_path):
+    first, second = braking(30.0), braking(20.0)
+    first["time"] += BEGIN
+    second["time"] += BEGIN + 100.0
+    second["time"][:5] = 9.8e8 + STEP * np.arange(5)
+    files = [written(each, tmp_path / f"{n}.parquet") for n, each in enumerate((first, second))]
+    assert [event.file for event in find_stops(files, MAP).stops] == files
+
+
+def test_scenarios_do_not_replace_the_stops(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    written(braking(30.0), tmp_path / "log.parquet")
+    scenario = str(Path(__file__).parents[2] / "scenarios" / "slide-80.yaml")
+    options = ["--scenario", scenario, "--recordings", "same", "--scenarios", "same"]
+    assert execute(["log", "log.parquet", *options]) == 4
+    assert "the same folder as --recordings" in capsys.readouterr().err

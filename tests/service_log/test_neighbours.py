@@ -44,6 +44,16 @@ def test_a_weak_brake_is_told_of_its_wheelset_alone(wheelset):
     assert told(stops("brake_force", forces, spread=0.01)) == [(wheelset, "brakes weakly")]
 
 
+def test_of_two_wheelsets_against_two_neither_pair_is_told_to_be_wrong():
+    findings = told(stops("brake_force", (12.0, 12.0, 14.0, 14.0)))
+    assert findings == [
+        (n, f"{finding}, or the other two do the contrary")
+        for n, finding in zip(
+            (1, 2, 3, 4), ["brakes weakly"] * 2 + ["brakes with more force"] * 2, strict=True
+        )
+    ]
+
+
 def test_too_few_stops_tell_nothing():
     numbers = (14.0, 12.0, 14.0, 14.0)
     assert told(stops("brake_force", numbers, count=FEWEST)) == [(2, "brakes weakly")]

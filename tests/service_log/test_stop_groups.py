@@ -1,5 +1,7 @@
 """Groups of stops with known truth: means, outliers, drift."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
@@ -85,8 +87,27 @@ def test_a_brake_that_gets_worse_from_day_to_day_is_told():
     found = drift_of(500.0 * (1.0 + 0.01 * days) + noise, days)
     assert found.told
     assert found.over == "day"
-    # The others' mean moves against each stop: n / (n - 1) of a slope that begins at 500 of 527.5 m.
-    assert found.low < 100.0 * 5.0 / 527.5 * 12.0 / 11.0 < found.high
+    assert found.low < 100.0 * 5.0 / 527.5 < found.high, "5 m a day, of 527.5 m in the middle"
+
+
+def test_a_slope_is_no_steeper_for_small_groups():
+    """Five speeds, two stops each ten days apart, the second 10 % longer: 10 of 105 % of their mean."""
+    stops = [
+        stop(k, speed, speed**2 / 20.0 * factor, time=1.7e9 + 86_400.0 * day)
+        for k, (speed, (factor, day)) in enumerate(product(range(60, 160, 20), [(1.0, 0.0), (1.1, 10.0)]))
+    ]
+    (found,) = drifts(stops, {})
+    assert found.change == pytest.approx(100.0 * 0.1 / 1.05)
+
+
+def test_wet_stops_from_other_speeds_are_no_drift():
+    """Nothing changes with time but from where the train braked."""
+    draw = np.random.default_rng(5)
+    stops = [
+        stop(k, speed, distance * draw.normal(1.0, 0.01), dry=False, time=1.7e9 + 86_400.0 * k)
+        for k, (speed, distance) in enumerate([(80.0, 275.0)] * 6 + [(140.0, 960.0)] * 6)
+    ]
+    assert not any(found.told for found in drifts(stops, {}))
 
 
 def test_without_dates_the_order_counts_and_few_stops_say_nothing():

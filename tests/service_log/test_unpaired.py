@@ -3,6 +3,7 @@
 import json
 import math
 import random
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,8 +11,10 @@ from hypothesis import given, strategies as st
 from scipy import stats
 
 from tests.service_log import logs
+from uictest.analysis.logged_stops import compare_logs
 from uictest.cli.entry import execute
 from uictest.core.statistics import difference_interval, share_difference_interval
+from uictest.report import read_run
 
 samples = st.lists(st.floats(-100.0, 100.0), min_size=2, max_size=9)
 
@@ -108,3 +111,11 @@ def test_logs_have_no_tolerance(nights, capsys):
     place = str(nights / "a" / "latest")
     assert execute(["compare", place, place, "--tolerance", "braking_distance_m=1 m"]) == 4
     assert "no pairs" in capsys.readouterr().err
+
+
+def test_stops_that_could_not_be_judged_do_not_count_as_failed(nights):
+    one = read_run((nights / "a" / "latest").resolve())
+    other = replace(one, results=[replace(each, outcome="inconclusive") for each in one.results])
+    names = {row["quantity"]: row["finding"] for row in compare_logs(one, other).data.rows}
+    assert "judged stops that pass" not in names
+    assert set(names.values()) == {"not told apart"}

@@ -83,9 +83,9 @@ def assumptions(own: scenario.Scenario, fit: fitting.Fit, course: service_log.Co
         yield "rail: not seen in every stretch; there the friction of the nearest one"
     if not course.known_by:
         yield f"brake command: not recorded; {own.brake.command_text} as stated"
-    stated = "as stated" if "controller" in own.model_fields_set else "not stated, the default"
-    yield f"controller: a record does not hold it; {own.controller.name}, {stated}"
-    yield f"load and gradient: as stated, {own.vehicle.total_mass / 1e3:.1f} t and {own.rail.gradient.text}"
+    yield f"controller: a record does not hold it; {own.controller.name}, as the scenario has it"
+    load = f"{own.vehicle.total_mass / 1e3:.1f} t and {own.rail.gradient.text}"
+    yield f"load and gradient: as the scenario has them, {load}"
 
 
 def heading(made: MadeScenario) -> Iterator[str]:

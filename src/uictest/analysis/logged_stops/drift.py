@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from statistics import fmean
 from typing import Final, NamedTuple
 
 import numpy as np
 
 from uictest import report
-from uictest.analysis.logged_stops.stop_groups import LoggedStop, deviations, dry_groups, extensions
+from uictest.analysis.logged_stops.stop_groups import LoggedStop, speed_groups
 from uictest.core.document import Cell
 from uictest.recorded.service_log import EARLIEST_DATE
 
@@ -27,29 +28,25 @@ class Drift(NamedTuple):
     """The slope of one quantity.
 
     Args:
-        quantity: what changes, in its unit.
-        unit: of the quantity.
+        quantity: what changes.
         over: `day` or `stop`.
-        slope, low, high: per day or stop, with its interval; NaN where there are too few stops.
-        change: from the first stop to the last, by the slope.
+        slope, low, high: % per day or stop, with its interval; NaN where there are too few stops.
+        change: from the first stop to the last, by the slope, %.
         stops: how many there are.
-        limit: least size of a change that is told.
     """
 
     quantity: str
-    unit: str
     over: str
     slope: float
     low: float
     high: float
     change: float
     stops: int
-    limit: float
 
     @property
     def told(self) -> bool:
         """Whether the interval leaves out zero and the change is large enough."""
-        return (self.low > 0.0 or self.high < 0.0) and abs(self.change) > self.limit
+        return (self.low > 0.0 or self.high < 0.0) and abs(self.change) > _LEAST_CHANGE
 
 
 def drifts(stops: Sequence[LoggedStop], friction: Mapping[str, float]) -> list[Drift]:
@@ -59,42 +56,44 @@ def drifts(stops: Sequence[LoggedStop], friction: Mapping[str, float]) -> list[D
     if all(stop.time >= EARLIEST_DATE for stop in stops) and stops:
         first = min(stop.time for stop in stops)
         places, over = {stop.result.id: (stop.time - first) / _DAY for stop in stops}, "day"
-    series = [each for each in _quantities(stops, friction) if each[2]]
+    series = [each for each in _quantities(stops, friction) if any(each[1])]
     confidence = 1.0 - 0.05 / max(len(series), 1)
-    return [_drift(name, unit, over, places, values, confidence) for name, unit, values in series]
+    return [_drift(name, over, places, groups, confidence) for name, groups in series]
 
 
 def _quantities(
     stops: Sequence[LoggedStop], friction: Mapping[str, float]
-) -> Iterator[tuple[str, str, dict[str, float]]]:
-    dry: dict[str, float] = {}
-    for group in dry_groups(stops).values():
-        dry |= deviations(group)
-    yield "distance of dry stops beside others from the same speed", "%", dry
-    yield "extension of wet stops", "%", extensions(stops)
-    middle = float(np.median(list(friction.values()))) if friction else 1.0
-    relative = {name: 100.0 * (value / middle - 1.0) for name, value in friction.items()}
-    yield "friction of the rail, beside its median", "%", relative
+) -> Iterator[tuple[str, list[Mapping[str, float]]]]:
+    """Yield what may change, and its values by the name of the stop in groups that have one mean each."""
+    for rail, dry in (("dry", True), ("wet", False)):
+        groups = speed_groups([stop for stop in stops if stop.dry is dry]).values()
+        distances = [{stop.result.id: stop.distance for stop in group} for group in groups]
+        yield f"distance of {rail} stops beside others from the same speed", [*distances]
+    yield "friction of the rail, beside its mean", [friction] if friction else []
 
 
 def _drift(
     name: str,
-    unit: str,
     over: str,
     places: Mapping[str, float],
-    values: Mapping[str, float],
+    groups: Sequence[Mapping[str, float]],
     confidence: float,
 ) -> Drift:
-    nan = math.nan
-    x, y = (np.array(side) for side in zip(*((places[key], values[key]) for key in values), strict=True))
-    if len(x) < _FEWEST or not np.ptp(x) > 0.0:
-        return Drift(name, unit, over, nan, nan, nan, nan, len(x), _LEAST_CHANGE)
+    """Return the slope within groups: each has a mean of its own, which is subtracted and no longer free."""
+    pairs = [
+        np.array([(places[key], 100.0 * v / fmean(own.values())) for key, v in own.items()]) for own in groups
+    ]
+    x, y = np.concatenate([own - own.mean(axis=0) for own in pairs]).T
+    count, free = len(x), len(x) - len(pairs) - 1
+    if count < _FEWEST or free < 1 or not np.ptp(x) > 0.0:
+        return Drift(name, over, math.nan, math.nan, math.nan, math.nan, count)
     from scipy import stats  # here, since few logs are so long
 
     line = stats.linregress(x, y)
-    slope, half = float(line.slope), float(stats.t.ppf(0.5 + confidence / 2.0, len(x) - 2) * line.stderr)
-    change = slope * float(np.ptp(x))
-    return Drift(name, unit, over, slope, slope - half, slope + half, change, len(x), _LEAST_CHANGE)
+    error = float(line.stderr) * math.sqrt((count - 2) / free)
+    slope, half = float(line.slope), float(stats.t.ppf(0.5 + confidence / 2.0, free)) * error
+    change = slope * float(np.ptp(np.concatenate(pairs)[:, 0]))
+    return Drift(name, over, slope, slope - half, slope + half, change, count)
 
 
 _COLUMNS: Final = (
@@ -115,13 +114,14 @@ def drift_table(found: Sequence[Drift]) -> report.CampaignTable:
     def row(each: Drift) -> tuple[Cell, ...]:
         few = f"too few stops: {_FEWEST} are needed"
         finding = few if math.isnan(each.slope) else "drifts" if each.told else "no drift told"
-        unit = f"{each.unit} per {each.over}"
-        return each.quantity, each.slope, each.low, each.high, unit, each.change, each.stops, finding
+        numbers = each.slope, each.low, each.high, f"% per {each.over}", each.change, each.stops
+        return each.quantity, *numbers, finding
 
     return report.CampaignTable(
         "drift",
         "Drift",
-        "Least squares over the dates of the stops, or over their order where the log has none; intervals by"
+        "Least squares within groups of one speed over the dates of the stops, or over their order where the"
+        " log has none; intervals by"
         f" Student's t, 95 % for all rows together. Told from {_LEAST_CHANGE:g} % on (chosen).",
         "detail",
         _COLUMNS,

@@ -155,6 +155,9 @@ def findings_table(signs: Signs, differences: Sequence[NeighbourDifference]) -> 
 def _from_differences(differences: Sequence[NeighbourDifference]) -> Iterator[tuple[Cell, ...]]:
     for each in differences:
         if each.finding:
+            alike = [other for other in differences if other.sign == each.sign and other.finding]
+            of_pair = sum(other.finding == each.finding for other in alike) == len(alike) / 2 == 2
+            unsure = ", or the other two do the contrary" if of_pair else ""
             kind, digits = each.kind, each.kind.digits
             unit = "" if kind.unit == "1" else f" {kind.unit}"
             shown = each.difference
@@ -162,7 +165,7 @@ def _from_differences(differences: Sequence[NeighbourDifference]) -> Iterator[tu
             interval = f"{shown.low:+.{places}f} to {shown.high:+.{places}f}"
             yield (
                 each.wheelset,
-                each.finding,
+                each.finding + unsure,
                 kind.meaning,
                 f"{each.own:.{digits}f}{unit}",
                 f"{each.others:.{digits}f}{unit}",

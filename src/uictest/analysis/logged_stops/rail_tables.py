@@ -134,7 +134,7 @@ def _spread(parts: Sequence[Array]) -> tuple[Cell, ...]:
 def _wheelsets(uses: Uses) -> list[int]:
     """Return the numbers of the wheelsets whose adhesion is known; 0 stands for all together."""
     known = sorted({int(n) for use in uses for n in use.windows.wheelset})
-    return known if known == [0] else [1, 2, 3, 4]
+    return known if known == [0] else [*(n for n in known if n == 0), 1, 2, 3, 4]
 
 
 def _heading(wheelset: int) -> str:

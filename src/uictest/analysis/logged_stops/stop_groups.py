@@ -25,6 +25,7 @@ _ACCEPTED: Final = 15.0
 """% about the mean of a group of dry stops: usual in slide tests, second-hand."""
 _CONFIDENCE: Final = 0.95
 _NO_MEASURES: Final = ("error", "skipped")
+_DISTANCES: Final = ("braking_distance_m", "deceleration_distance_m")
 _SHOWN: Final = (
     "k_wet",
     "deceleration_distance_extension",
@@ -73,10 +74,15 @@ class LoggedStop:
 
 
 def dry_groups(stops: Sequence[LoggedStop]) -> dict[float, list[LoggedStop]]:
-    """Return the dry stops with a distance by their nominal speed, km/h."""
+    """Return the groups of the dry stops."""
+    return speed_groups([stop for stop in stops if stop.dry])
+
+
+def speed_groups(stops: Sequence[LoggedStop]) -> dict[float, list[LoggedStop]]:
+    """Return the stops with a distance by their nominal speed, km/h."""
     groups: dict[float, list[LoggedStop]] = {}
     for stop in stops:
-        if stop.dry and stop.nominal is not None and math.isfinite(stop.distance):
+        if stop.nominal is not None and math.isfinite(stop.distance):
             groups.setdefault(stop.nominal, []).append(stop)
     return dict(sorted(groups.items()))
 
@@ -169,7 +175,15 @@ def wet_series(stops: Sequence[LoggedStop]) -> judged_series.SeriesResult | None
         return None
     ordered = sorted(of_groups, key=lambda stop: not stop.dry)
     planned = series_plans.series_of("log", [_planned(stop) for stop in ordered])
-    return judged_series.judge_results(planned, [stop.result for stop in ordered])
+    return judged_series.judge_results(planned, [_from_nominal_speed(stop) for stop in ordered])
+
+
+def _from_nominal_speed(stop: LoggedStop) -> CaseResult:
+    """Return a result with distances from the nominal speed, which no driver keeps as testers do."""
+    measures = dict(stop.result.measures or {})
+    share = ((stop.nominal or stop.speed) / stop.speed) ** 2
+    measures |= {name: share * measures[name] for name in _DISTANCES if name in measures}
+    return replace(stop.result, measures=measures)
 
 
 def _planned(stop: LoggedStop) -> series_plans.PlannedStop:
@@ -208,7 +222,7 @@ def series_table(result: judged_series.SeriesResult) -> report.CampaignTable:
         "wet_series",
         "Wet stops as a series",
         "As `uictest evaluate` judges a series; a stop that is no valid test, or was not judged, does not"
-        " count. Distances are not corrected for the initial speed.",
+        " count. Distances are brought to the nominal speed; intervals take the dry stops as known.",
         "detail",
         _SERIES,
         tuple(rows),

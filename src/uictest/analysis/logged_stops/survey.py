@@ -94,7 +94,12 @@ class LogSurvey:
         if findings.rows:
             yield f"{report.counted(len(findings.rows), 'finding')} on wheelsets"
         elif compared >= FEWEST:
-            yield "no wheelset stands out from its neighbours"
+            told = {each.sign for each in differences if each.difference.stops >= FEWEST}
+            missing = len(service_log.SIGNS) - len(told)
+            rest = (
+                f"; {missing} of {len(service_log.SIGNS)} numbers have fewer than {FEWEST} stops to compare"
+            )
+            yield f"no wheelset stands out from its neighbours{rest if missing else ''}"
         if compared < FEWEST:
             counted = report.counted(compared, "stop")
             yield f"wheelsets are not told apart: {counted} to compare them in, {FEWEST} are needed"
@@ -120,7 +125,11 @@ class LogSurvey:
             value = speed.measures["k_wet"].estimate
             if value is not None:
                 known = math.isfinite(value.low)
-                interval = f" ({value.low:.3f} to {value.high:.3f})" if known else ", no interval"
+                interval = (
+                    f" ({value.low:.3f} to {value.high:.3f}, dry stops taken as known)"
+                    if known
+                    else ", no interval"
+                )
                 wet = report.counted(speed.wet.counted, "wet stop")
                 yield f"K_wet from {speed.speed_kmh:g} km/h: {value.value:.3f}{interval}, {wet}"
 

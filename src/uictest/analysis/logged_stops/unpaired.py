@@ -7,7 +7,7 @@ the difference of the stops, and of the software alone only where nothing else d
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from statistics import fmean
 from typing import Any, Final
 
@@ -24,6 +24,8 @@ _LEFT_OUT: Final = ("error", "skipped", "invalid")
 """Outcomes of stops that say nothing of the WSP."""
 _FEWEST: Final = 3
 """Stops of each side below which no mean is compared; chosen."""
+_JUDGED: Final = "judged"
+"""1 of a stop that passes or fails: one that is inconclusive does neither."""
 _DISTANCE: Final = "braking_distance_m"
 _FIGURES: Final[Mapping[str, Figure]] = {
     _DISTANCE: of_stop(_DISTANCE),
@@ -51,7 +53,7 @@ def compare_logs(first: report.RunContent, second: report.RunContent) -> report.
     confidence = 1.0 - 0.05 / max(len(known) + len(common), 1)
     rows: list[tuple[Cell, ...]] = []
     for group in common:
-        rows.append(_shares(group, one[group], other[group], confidence))
+        rows += _shares(group, one[group], other[group], confidence)
         names = [name for of, name in known if of == group]
         rows += [_means(group, name, one[group], other[group], confidence) for name in names]
     alone = ", ".join(_group_text(each) for each in (*one, *other) if each not in common)
@@ -96,6 +98,7 @@ def _groups(content: report.RunContent) -> dict[Group, list[CountedStop]]:
         stop = LoggedStop(result, in_unit(math.sqrt(squared), "km/h"), rail == "dry")
         if stop.nominal is not None:
             own = measures | {_DISTANCE: stop.distance, "friction": frictions.get(result.id, math.nan)}
+            own[_JUDGED] = float(result.outcome in ("pass", "fail"))
             counted = CountedStop(own, result.wheelsets, result.outcome == "pass")
             groups.setdefault((rail, stop.nominal), []).append(counted)
     return dict(sorted(groups.items()))
@@ -122,11 +125,13 @@ def _means(group: Group, name: str, first: Stops, second: Stops, confidence: flo
     return _row(group, name, (len(one), len(other)), (fmean(one), fmean(other)), interval, unit)
 
 
-def _shares(group: Group, first: Stops, second: Stops, confidence: float) -> tuple[Cell, ...]:
-    one, other = ((sum(stop.passed for stop in side), len(side)) for side in (first, second))
-    low, high = (100.0 * end for end in share_difference_interval(one, other, confidence))
-    shares = 100.0 * one[0] / one[1], 100.0 * other[0] / other[1]
-    return _row(group, "stops that pass", (one[1], other[1]), shares, (low, high), "%")
+def _shares(group: Group, first: Stops, second: Stops, confidence: float) -> Iterator[tuple[Cell, ...]]:
+    judged = [[stop.passed for stop in side if stop.measures[_JUDGED]] for side in (first, second)]
+    if all(judged):
+        one, other = ((sum(side), len(side)) for side in judged)
+        low, high = (100.0 * end for end in share_difference_interval(one, other, confidence))
+        shares = 100.0 * one[0] / one[1], 100.0 * other[0] / other[1]
+        yield _row(group, "judged stops that pass", (one[1], other[1]), shares, (low, high), "%")
 
 
 def _row(

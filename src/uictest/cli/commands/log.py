@@ -78,6 +78,10 @@ def log(
         raise typer.BadParameter(
             "needs vehicle, brake and controller: state them with --scenario", param_hint="--scenarios"
         )
+    if made_in is not None and made_in.resolve() == folder.resolve():
+        raise typer.BadParameter(
+            "the same folder as --recordings, whose stops it would replace: name another"
+        )
     settings = _settings(from_speed, to_speed, float(mapped.preparation.standstill_speed))
     stated = _case_of(scenario, expression, overrides or (), trusted)
     found, written = _stops(files, mapped, settings, folder)

@@ -57,10 +57,12 @@ class FileClock:
 
     def add(self, rows: Rows) -> None:
         """Note the next rows."""
-        dated = rows.time[rows.time > EARLIEST_DATE]
+        # A recorder may begin with a default date, until its clock is put right.
+        right = rows.time if self._rows else rows.time[int(steps_of_clock(rows.time)[-1:].sum()) :]
+        dated = right[right > EARLIEST_DATE]
         self.dates = np.concatenate((self.dates, dated))[[0, -1]] if len(dated) else self.dates
         self._rows += len(rows.time)
-        self._repeated += int(np.count_nonzero(np.diff(rows.time) == 0.0))
+        self._repeated += int(np.count_nonzero(~(np.abs(np.diff(rows.time)) > 0.0)))
         self.checksum = zlib.crc32(rows.train.tobytes(), zlib.crc32(rows.time.tobytes(), self.checksum))
 
     def require_fine(self) -> None:
@@ -68,8 +70,8 @@ class FileClock:
         share = self._repeated / max(self._rows, 1)
         if share > _MOST_REPEATED:
             raise UnreadableError(
-                f"the clock repeats its time in {100.0 * share:.0f} % of the rows, so no stop has a duration:"
-                " write times with more decimals"
+                f"the clock repeats its time, or shows none, in {100.0 * share:.0f} % of the rows, so no stop"
+                " has a duration: write times with more decimals"
             )
 
 

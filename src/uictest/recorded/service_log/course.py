@@ -128,15 +128,18 @@ class Course:
 
     def applications(self) -> Iterator[tuple[int, int]]:
         """Yield first row and the row after the last of every application; an interruption ends one."""
-        pieces = list(_pieces(self.braked, self.interruptions))
+        pieces = [each for each in _pieces(self.braked, self.interruptions) if self._lasts(*each)]
         pieces.reverse()
         while pieces:
             first, end = pieces.pop()
             while pieces and self._goes_on(end, pieces[-1][0]):
                 _, end = pieces.pop()
-            last = min(end, len(self.clock) - 1)
-            if self.clock[last] - self.clock[first] >= _SHORTEST_APPLICATION - _TIE:
-                yield first, end
+            yield first, end
+
+    def _lasts(self, first: int, end: int) -> bool:
+        """Return whether rows with the brake applied are no noise."""
+        seconds = self.clock[min(end, len(self.clock) - 1)] - self.clock[first]
+        return bool(seconds >= _SHORTEST_APPLICATION - _TIE)
 
     def is_whole(self, end: int) -> bool:
         """Return whether the record shows what follows an application that ends before row `end`."""
