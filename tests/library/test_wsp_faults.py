@@ -20,6 +20,7 @@ VALUES = {
     ("pressure-sensor", "offset"): "2 bar",
     ("pressure-sensor", "factor"): "50 %",
     ("controller", "silent"): "2 s",
+    ("train-speed", "offset"): "30 km/h",
 }
 LOCKED = {"locked-wheels", "total-locked-time"}
 """The faulty wheelset itself is locked for longer than a second."""
