@@ -45,8 +45,7 @@ def run_sweep(request: SweepRequest, observer: Observer) -> FinishedSweep | None
     if request.firm and (train := request.selection.plan.base.train) is not None:
         raise InvalidInputError(
             f"{train.train} is a train: a sweep says of cars alone how firm the nominal case is; leave out"
-            " --firm, or run the scenario with it",
-            arguments=("firm",),
+            " --firm, or run the scenario with it"
         )
     with (
         _locked(request.folder, shared=request.shard.count > 1 and not request.restart),

@@ -10,6 +10,7 @@ from uictest.plans import scenario
 from uictest.plans.scenario import ScenarioErrors
 from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
 from uictest.running.chunked import CaseSelection, chunk_runner, select_cases
+from uictest.runs import InvalidInputError, Observer, SweepRequest, run_sweep
 
 from ..conftest import rows
 
@@ -106,6 +107,12 @@ def test_a_train_that_cannot_run_is_an_error_of_its_cars_alone(loaded):
 def test_what_a_sweep_of_trains_cannot_is_refused_at_its_key(loaded, text, message):
     with pytest.raises(ScenarioErrors, match=message):
         loaded(text)
+
+
+def test_a_sweep_of_trains_is_not_asked_how_firm_it_is(loaded, tmp_path):
+    request = SweepRequest(CaseSelection(loaded()), {}, tmp_path / "study", jobs=1, firm=True)
+    with pytest.raises(InvalidInputError, match=r"study is a train: .* leave out --firm"):
+        run_sweep(request, Observer())
 
 
 def test_a_key_that_every_car_has_of_its_own_reaches_none(load):
