@@ -34,6 +34,12 @@ def test_two_wheel_sensors_that_show_one_number_hide_no_stop(tmp_path, number):
     assert found(columns, tmp_path / "log.parquet")[1] == PLACES
 
 
+def test_two_wheel_sensors_that_pick_up_noise_hide_no_stop(tmp_path):
+    columns, draw = table(KINDS), np.random.default_rng(3)
+    columns |= {f"wheel_speed_{n}": 11.0 + draw.normal(0.0, 0.3, len(columns["time"])) for n in (3, 4)}
+    assert found(columns, tmp_path / "log.parquet")[1] == PLACES
+
+
 def test_wheels_that_spin_make_no_stop_of_a_slow_train(tmp_path):
     columns = braking(14.0 / 3.6)
     columns |= {f"wheel_speed_{n}": np.where(columns["speed"] > 3.0, 12.5, 0.0) for n in (1, 2, 3, 4)}
@@ -280,3 +286,14 @@ def test_scenarios_do_not_replace_the_stops(tmp_path, monkeypatch, capsys):
     options = ["--scenario", scenario, "--recordings", "same", "--scenarios", "same"]
     assert execute(["log", "log.parquet", *options]) == 4
     assert "the same folder as --recordings" in capsys.readouterr().err
+
+
+def test_a_case_of_a_sweep_of_the_rail_can_be_selected(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    written(braking(30.0), tmp_path / "log.parquet")
+    (tmp_path / "sweep.yaml").write_text(
+        "schema: uictest/scenario/1\nname: sweep\ntitle: Sweep\ninitial_speed: 108 km/h\n"
+        "brake: {command: 100 %, position: R}\nrail: {condition: wet, friction: 0.1}\n"
+        "criteria: [uictest-stop]\nmatrix: {rail.friction: [0.08, 0.1]}\n"
+    )
+    assert execute(["log", "log.parquet", "--scenario", "sweep.yaml", "-k", "friction=0.08"]) in (0, 1)

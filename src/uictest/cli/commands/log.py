@@ -93,7 +93,9 @@ def log(
         return ExitCode.NOTHING_SELECTED
     named = {f"stop-{number:04d}": event for number, event in enumerate(found.stops, start=1)}
     on_dry_rail = _dry_stops(dry, named)
-    of_dry = _case_of(scenario, expression, (*(overrides or ()), *_ON_DRY_RAIL), trusted)
+    of_dry = stated
+    if on_dry_rail:
+        of_dry = _case_of(scenario, expression, (*(overrides or ()), *_ON_DRY_RAIL), trusted)
 
     def case_of(name: str, speed: float) -> scenarios.Case:
         return of_dry(name, speed) if name in on_dry_rail else stated(name, speed)

@@ -50,7 +50,7 @@ class Rows(NamedTuple):
     Args:
         time: as recorded, s.
         train: speed of the train by its own sensor with its sign, m/s.
-        wheels: speed that at least two wheelsets reach, with its sign, m/s.
+        wheels: speed that at least two wheelsets reach, three where the train stands, with its sign, m/s.
         braked: 1 where the brake is applied, 0 where it is not, NaN where nothing shows it.
 
     """
@@ -87,10 +87,10 @@ def rows_of(path: Path, channel_map: ChannelMap) -> Iterator[Rows]:
         shown = [piece.channels[name].samples for name in shown_by if name in piece.channels]
         speed = piece.channels["speed"]
         wheels = [piece.channels[name].samples for name in WHEELS if name in piece.channels]
-        second = _second_largest(wheels) if len(wheels) > 1 else np.full(len(piece), np.nan)
+        rolling = _rolling(wheels, speed.samples) if len(wheels) > 1 else np.full(len(piece), np.nan)
         pressed = np.fmax.reduce(shown)
         braked = np.where(np.isfinite(pressed), pressed > threshold, np.nan)
-        yield Rows(speed.time, speed.samples, second, braked)
+        yield Rows(speed.time, speed.samples, rolling, braked)
     if threshold is None:
         raise UnreadableError("no samples")
 
@@ -129,12 +129,18 @@ def _quantile(counts: NDArray[np.int64], share: float) -> int:
     return int(np.searchsorted(np.cumsum(counts), share * counts.sum()))
 
 
-def _second_largest(wheels: Sequence[Array]) -> Array:
-    """Return the speed that at least two wheelsets reach, with its sign: no single sensor makes it."""
+def _rolling(wheels: Sequence[Array], train: Array) -> Array:
+    """Return the speed that at least two wheelsets reach, with its sign: no single sensor makes it.
+
+    Beside a train sensor that shows standstill a third one must reach it, if there is one: else two dead ones
+    would overrule three.
+    """
     stacked = np.stack(wheels)
     sign = np.where(np.nansum(np.nan_to_num(stacked), axis=0) < 0.0, -1.0, 1.0)
     ordered = np.sort(np.where(np.isfinite(stacked), np.abs(stacked), -1.0), axis=0)
-    return np.where(ordered[-2] >= 0.0, sign * ordered[-2], np.nan)
+    third = ordered[-min(3, len(wheels))]
+    reached = np.where((np.abs(train) < _CREEPS) & (third >= 0.0), third, ordered[-2])
+    return np.where(reached >= 0.0, sign * reached, np.nan)
 
 
 class Constant(NamedTuple):
