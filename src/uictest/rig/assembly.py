@@ -35,7 +35,7 @@ def assemble(case: Case) -> StopInputs:
     """
     if case.train is not None:
         raise ValueError(
-            f"{case.id} is {case.train.label}: here a car runs alone, only `uictest run` runs trains"
+            f"{case.id} is {case.train.label}: here a car runs alone; `uictest run` and `sweep` take trains"
         )
     rig = case.scenario.rig
     if rig.compensation_model.to_identify and rig.topology == "one-caliper":
