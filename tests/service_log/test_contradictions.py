@@ -297,3 +297,12 @@ def test_a_case_of_a_sweep_of_the_rail_can_be_selected(tmp_path, monkeypatch):
         "criteria: [uictest-stop]\nmatrix: {rail.friction: [0.08, 0.1]}\n"
     )
     assert execute(["log", "log.parquet", "--scenario", "sweep.yaml", "-k", "friction=0.08"]) in (0, 1)
+
+
+def test_a_log_that_grows_meanwhile_is_told(tmp_path):
+    first, second = braking(30.0), braking(20.0)
+    files = [written(each, tmp_path / f"{n}.parquet") for n, each in enumerate((first, second))]
+    log = find_stops(files, MAP)
+    written({name: np.tile(samples, 2) for name, samples in first.items()}, files[0])
+    with pytest.raises(UnreadableError, match=r"0\.parquet: has changed"):
+        write_stops(log, MAP, tmp_path / "stops")

@@ -54,6 +54,10 @@ def test_of_two_wheelsets_against_two_neither_pair_is_told_to_be_wrong():
     ]
 
 
+def test_of_three_wheelsets_only_the_odd_one_is_told():
+    assert told(stops("brake_force", (12.0, 14.0, 14.0, math.nan))) == [(1, "brakes weakly")]
+
+
 def test_too_few_stops_tell_nothing():
     numbers = (14.0, 12.0, 14.0, 14.0)
     assert told(stops("brake_force", numbers, count=FEWEST)) == [(2, "brakes weakly")]

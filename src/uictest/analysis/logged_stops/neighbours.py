@@ -108,13 +108,17 @@ def neighbour_differences(signs: Signs) -> list[NeighbourDifference]:
 
 
 def _differences(signs: Signs, sign: str, wheelset: int) -> Iterator[NeighbourDifference]:
-    relative = service_log.SIGNS[sign].relative
+    relative, limit = service_log.SIGNS[sign].relative, service_log.SIGNS[sign].limit
     known: dict[str, tuple[float, float]] = {}
     for stop in signs:
         numbers = stop.numbers[sign]
         others = [numbers[n - 1] for n in _WHEELSETS if n != wheelset and math.isfinite(numbers[n - 1])]
-        if len(others) >= _FEWEST_OTHERS and math.isfinite(numbers[wheelset - 1]):
-            known[stop.stop] = numbers[wheelset - 1], median(others)
+        if len(others) < _FEWEST_OTHERS or not math.isfinite(numbers[wheelset - 1]):
+            continue
+        middle = median(others)
+        # Two that lie apart do not say which of them is sound.
+        if len(others) > 2 or max(others) - min(others) <= limit * (abs(middle) if relative else 1.0):
+            known[stop.stop] = numbers[wheelset - 1], middle
     known = {name: pair for name, pair in known.items() if pair[1] or not relative}
     if known:
         values = {

@@ -12,6 +12,7 @@ import numpy as np
 
 from uictest.core import files, recording
 from uictest.core.recording import BRAKE_COMMAND_TIME, SAMPLE_INTERVALS
+from uictest.core.recording.formats import UnreadableError
 from uictest.recorded.field_data import CHANNEL_UNITS, ChannelMap
 from uictest.recorded.service_log.channels import Piece, pieces_of
 from uictest.recorded.service_log.finder import Log, LoggedEvent
@@ -67,10 +68,14 @@ def _part(piece: Piece, rows: slice) -> _Part:
 
 def _pieces(log: Log, channel_map: ChannelMap) -> Iterator[tuple[int, Piece]]:
     row = 0
-    for path in log.files:
+    for path, end in zip(log.files, log.first_rows[1:], strict=True):
         for piece in pieces_of(path, channel_map):
-            yield row, piece
             row += len(piece)
+            if row > end:
+                break
+            yield row - len(piece), piece
+        if row != end:
+            raise UnreadableError(f"{path}: has changed since its stops were found")
 
 
 def _joined(parts: list[dict[str, Array]]) -> dict[str, Array]:
