@@ -113,9 +113,16 @@ def test_logs_have_no_tolerance(nights, capsys):
     assert "no pairs" in capsys.readouterr().err
 
 
-def test_stops_that_could_not_be_judged_do_not_count_as_failed(nights):
+@pytest.mark.parametrize("inconclusive", [7, 1])
+def test_no_share_is_told_where_stops_could_not_be_judged(nights, inconclusive):
+    """A stop that lacks a channel can still fail: those that are left are no sample."""
     one = read_run((nights / "a" / "latest").resolve())
-    other = replace(one, results=[replace(each, outcome="inconclusive") for each in one.results])
-    names = {row["quantity"]: row["finding"] for row in compare_logs(one, other).data.rows}
-    assert "judged stops that pass" not in names
+    results = [
+        replace(each, outcome="inconclusive" if k < inconclusive else each.outcome)
+        for k, each in enumerate(one.results)
+    ]
+    names = {
+        row["quantity"]: row["finding"] for row in compare_logs(one, replace(one, results=results)).data.rows
+    }
+    assert "stops that pass" not in names
     assert set(names.values()) == {"not told apart"}

@@ -126,12 +126,12 @@ def _means(group: Group, name: str, first: Stops, second: Stops, confidence: flo
 
 
 def _shares(group: Group, first: Stops, second: Stops, confidence: float) -> Iterator[tuple[Cell, ...]]:
-    judged = [[stop.passed for stop in side if stop.measures[_JUDGED]] for side in (first, second)]
-    if all(judged):
-        one, other = ((sum(side), len(side)) for side in judged)
+    """Yield the shares that pass where every stop was judged: what lacks a channel can fail, but not pass."""
+    if all(stop.measures[_JUDGED] for stop in (*first, *second)):
+        one, other = ((sum(stop.passed for stop in side), len(side)) for side in (first, second))
         low, high = (100.0 * end for end in share_difference_interval(one, other, confidence))
         shares = 100.0 * one[0] / one[1], 100.0 * other[0] / other[1]
-        yield _row(group, "judged stops that pass", (one[1], other[1]), shares, (low, high), "%")
+        yield _row(group, "stops that pass", (one[1], other[1]), shares, (low, high), "%")
 
 
 def _row(
