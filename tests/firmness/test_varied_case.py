@@ -7,12 +7,14 @@ import numpy as np
 import pytest
 
 from uictest.analysis.firmness import Effort
+from uictest.judging.evaluation import may_be_biased
 from uictest.plans.scenario import load
 from uictest.plans.scenario.yaml import parse_quantity
 from uictest.plans.sweeps import ParameterValue, listed_column, numbers_without_range, ranged_numbers
 from uictest.report.firmness_sentences import firmness_sentences
 from uictest.running.campaign import run_cases
 from uictest.running.chunked import VariedCase
+from uictest.running.chunked.table import biases_by_measure
 from uictest.runs import firmness
 from uictest.runs.errors import InvalidInputError
 from uictest.runs.firmness import FirmnessRun
@@ -52,6 +54,33 @@ def test_nominal_values_give_the_stop_itself_under_each_seed(numbers):
     cases = [short_stop(f"seed={seed}") for seed in range(3)]
     stated = [run_cases([case]).results[0] for case in cases]
     assert measures(varied.results(columns(numbers, 3))) == measures(stated)
+
+
+def test_a_survey_gives_stops_of_1_ms_and_those_of_half_of_it_where_its_bias_may_decide(numbers):
+    settings = columns(numbers, 12, **{VENT: 0.9})
+    short, long = (
+        VariedCase(short_stop(*step), list(numbers)).results(settings)
+        for step in ((), ("simulation.time_step=1 ms",))
+    )
+    surveyed = VariedCase(short_stop(), list(numbers), survey=True).results(settings)
+    biases = biases_by_measure()
+    expected = [half if may_be_biased(one, biases) else one for half, one in zip(short, long, strict=True)]
+    assert measures(surveyed) == measures(expected)
+    assert measures(surveyed) != measures(short)
+
+
+def test_only_stops_of_the_regular_step_are_surveyed_and_the_report_says_so():
+    regular = FirmnessRun(1, effort=SMALL).of_case(short_stop())
+    other = FirmnessRun(1, effort=SMALL).of_case(short_stop("simulation.time_step=0.25 ms"))
+    assert (regular.in_survey_steps, other.in_survey_steps) == (True, False)
+    told = [
+        any(
+            "steps of 1 ms" in each
+            for each in firmness_sentences(SimpleNamespace(firmness=firm, outcome=firm.nominal))
+        )
+        for firm in (regular, other)
+    ]
+    assert told == [True, False]
 
 
 @pytest.mark.parametrize("place", [0.0, 0.37, 1.0])

@@ -172,6 +172,8 @@ def _remarks(firmness: Firmness) -> Iterator[str]:
             "run with a caliper in every module: a compensation stands in only for the rig that it was"
             " identified for"
         )
+    if firmness.in_survey_steps:
+        yield "simulated in steps of 1 ms; in 0.5 ms where the bias of the longer step may decide a verdict"
 
 
 class _Row(NamedTuple):

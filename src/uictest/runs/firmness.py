@@ -52,7 +52,7 @@ class FirmnessRun:
 
     def of_case(self, case: scenario.Case) -> Firmness:
         """Return how firm the verdicts of a case are; of a repeated one, those of its stops one by one."""
-        stops = _VariedStops.of(campaign.Stop(case).alone, self)
+        stops = _VariedStops.of(campaign.Stop(case).alone, self, survey=True)
 
         def judge(columns: Sequence[Column], seeds: Sequence[int]) -> list[Drawn]:
             results = stops.results(dict(zip(stops.numbers, columns, strict=True)), seeds)
@@ -113,6 +113,7 @@ class FirmnessRun:
         )
         return study.run(
             on_four_calipers=any(each.on_four_calipers for each in cases),
+            in_survey_steps=any(each.varied.survey for each in cases),
             calibrated_by=[each.id for each in self.calibration],
             without_range=[key for each in cases for key in sweeps.numbers_without_range(each.case.scenario)],
         )
@@ -164,11 +165,14 @@ class _VariedStops:
     on_four_calipers: bool
 
     @classmethod
-    def of(cls, case: scenario.Case, run: FirmnessRun) -> _VariedStops:
+    def of(cls, case: scenario.Case, run: FirmnessRun, *, survey: bool = False) -> _VariedStops:
+        """Take a case; with `survey` its stops are of survey steps where these are known to do for it."""
         of_cars = [_numbers_of(car) for car in case.cars]
         numbers = {identity: number for own in of_cars for identity, number in own.items()}
         moved = any(car.scenario.rig.topology != "four-caliper" for car in case.cars)
-        varied = _varied_train(case, run) if case.train is not None else _varied_car(case, numbers, run)
+        varied = (
+            _varied_train(case, run) if case.train is not None else _varied_car(case, numbers, run, survey)
+        )
         return cls(varied, case, of_cars, numbers, run, moved)
 
     def results(self, columns: _Columns, seeds: Sequence[int]) -> list[list[CaseResult]]:
@@ -208,10 +212,12 @@ def _numbers_of(case: scenario.Case) -> dict[_Identity, RangedNumber]:
 
 
 def _varied_car(
-    case: scenario.Case, numbers: Mapping[_Identity, RangedNumber], run: FirmnessRun
+    case: scenario.Case, numbers: Mapping[_Identity, RangedNumber], run: FirmnessRun, survey: bool
 ) -> chunked.VariedCase:
     changed = replace(case, scenario=_on_four_calipers(case.scenario))
-    return chunked.VariedCase(changed, [each.key for each in numbers.values()], run.jobs, run.run_block)
+    keys = [each.key for each in numbers.values()]
+    in_survey = survey and case.scenario.simulation.time_step == sweeps.REGULAR_STEP
+    return chunked.VariedCase(changed, keys, run.jobs, run.run_block, in_survey)
 
 
 def _varied_train(case: scenario.Case, run: FirmnessRun) -> chunked.VariedTrain:

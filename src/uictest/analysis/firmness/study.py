@@ -92,6 +92,7 @@ class FirmnessStudy:
         self,
         *,
         on_four_calipers: bool = False,
+        in_survey_steps: bool = False,
         calibrated_by: Sequence[str] = (),
         without_range: Iterable[str] = (),
     ) -> Firmness:
@@ -132,6 +133,7 @@ class FirmnessStudy:
             not_run=tuple(dict.fromkeys(self.numbers[number].key for number, _ in stops.not_run)),
             seeds=effort.seeds,
             on_four_calipers=on_four_calipers,
+            in_survey_steps=in_survey_steps,
             calibrated_by=tuple(calibrated_by),
             without_range=tuple(dict.fromkeys(without_range)),
         )

@@ -145,6 +145,8 @@ class Firmness(VerdictFirmness):
         seeds: under which the nominal stop was run.
         on_four_calipers: whether all of these stops were run on the rig with four calipers: numbers of the
             caliper, its tank or the valves vary, for which the compensation was not identified.
+        in_survey_steps: whether they were simulated in survey steps, except where the known bias of these may
+            have decided a verdict.
         calibrated_by: ids of the stops by which the numbers are known.
         without_range: keys of numbers of further brakes, sanders and couplers that state no range.
 
@@ -158,6 +160,7 @@ class Firmness(VerdictFirmness):
     outcomes: Mapping[str, int]
     seeds: int
     on_four_calipers: bool
+    in_survey_steps: bool = False
     calibrated_by: tuple[str, ...] = ()
     without_range: tuple[str, ...] = ()
 

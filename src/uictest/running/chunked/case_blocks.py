@@ -87,10 +87,13 @@ class CaseBlock(CaseValues):
 class BlockAssembler:
     """Converts cases of a plan to records, with the same bits as :func:`uictest.rig.assemble`."""
 
-    def __init__(self, plan: Plan, *, noise_of_base: bool = False) -> None:
-        """Take a plan, and whether all of its cases meet the noise that the base case meets."""
+    def __init__(self, plan: Plan, *, as_base: bool = False) -> None:
+        """Take a plan, and whether its cases all meet the noise of the base case and are judged as it is.
+
+        Numbers of parts are read for the words of a reason alone.
+        """
         self._plan = plan
-        self._noise_of_base = noise_of_base
+        self._noise_of_base = as_base
         base = bench.identified(plan.base)
         self._identifies = bool(related_keys(plan.keys, bench.IDENTIFIED_KEYS)) and (
             base is not plan.base or "rig.compensation_model" in plan.keys
@@ -102,7 +105,7 @@ class BlockAssembler:
         self._wheelset_parameters = [_setters(plan.keys, each) for each in WHEELSET_ASSIGNMENTS]
         self._programs = ScenarioFunction(_program_of, _program_keys(plan), by_numbers=True)
         self._rail = ScenarioFunction(friction_laws, related_keys(plan.keys, FRICTION_KEYS))
-        self._judged_keys = related_keys(plan.keys, JUDGED_KEYS)
+        self._judged_keys = () if as_base else related_keys(plan.keys, JUDGED_KEYS)
         self._rejection = ScenarioFunction(_rejection_of(plan.keys), plan.keys)
 
     def block(self, indices: NDArray[np.int64]) -> CaseBlock:

@@ -203,11 +203,19 @@ def chunk_runner(plan: Plan, run_block: RunBlock) -> ChunkRunner:
     """Return a runner for a plan; `run_block` is asked only where a controller comes from outside."""
     if plan.own_keys:
         return TrainRunner(plan, run_block)
-    regular = BlockRunner(BlockAssembler(plan), rig.run_in_lanes, plan, run_block)
+    return block_runner(plan, run_block)
+
+
+def block_runner(
+    plan: Plan, run_block: RunBlock, *, as_base: bool = False, detail: Detail = "status"
+) -> BlockRunner:
+    """Return a runner of cars alone; further arguments as those of its assembler, and its own."""
+    assembler = BlockAssembler(plan, as_base=as_base)
+    regular = BlockRunner(assembler, rig.run_in_lanes, plan, run_block, detail=detail)
     if not plan.survey:
         return regular
-    assembler = BlockAssembler(in_survey_steps(plan))
-    return replace(regular, assembler=assembler, biases=biases_by_measure(), regular=regular)
+    survey = BlockAssembler(in_survey_steps(plan), as_base=as_base)
+    return replace(regular, assembler=survey, biases=biases_by_measure(), regular=regular)
 
 
 def run_on_threads(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Final
+from typing import ClassVar, Final
 
 import numpy as np
 
@@ -22,9 +22,7 @@ from uictest.plans.sweeps import (
     with_values,
 )
 from uictest.running.campaign import ThreadedMap
-from uictest.running.chunked.case_blocks import BlockAssembler
-from uictest.running.chunked.chunk import BlockRunner, RunBlock
-from uictest.running.chunked.scenario_function import ScenarioVariants
+from uictest.running.chunked.chunk import BlockRunner, RunBlock, block_runner
 
 _TOGETHER: Final = 128
 """Stops that a thread simulates in one queue, where they are many; chosen."""
@@ -39,6 +37,7 @@ class VariedCase:
         keys: dotted, of the numbers that vary; the seed always may.
         jobs: number of threads.
         run_block: simulates blocks with controllers from outside.
+        survey: whether stops are simulated in survey steps, except where a verdict might hang on it.
 
     """
 
@@ -46,6 +45,7 @@ class VariedCase:
     keys: Sequence[str]
     jobs: int = 1
     run_block: RunBlock = rig.run_block
+    survey: bool = False
 
     def results(
         self, settings: Mapping[str, Column], advance: Callable[[int], None] = lambda count: None
@@ -64,8 +64,6 @@ class VariedCase:
         def run(places: np.ndarray[tuple[int], np.dtype[np.int64]]) -> list[CaseResult]:
             values = {key: column.take(places) for key, column in settings.items()}
             block = runner.assembler.of_settings(places, [str(place) for place in places.tolist()], values)
-            # Judged as the case itself: numbers of its parts are read for the words of a reason alone.
-            block = replace(block, judged_as=ScenarioVariants(self.case.scenario, {}, places.size))
             return runner.results(block)[0]
 
         # As many for each thread: at the end of the longest all others wait.
@@ -82,14 +80,10 @@ class VariedCase:
     def _runner(self) -> BlockRunner:
         keys = (*self.keys, "seed")
         nominal = tuple(ParameterValue("", value_at(self.case.scenario, key)) for key in keys)
-        plan = Plan(self.case.id, "", "", self.case, (ListedGroup(keys, (nominal,)),), {})
-        return BlockRunner(
-            BlockAssembler(plan, noise_of_base=True),
-            rig.run_in_lanes,
-            plan,
-            self.run_block,
-            detail="readings",
+        plan = Plan(
+            *(self.case.id, "", "", self.case, (ListedGroup(keys, (nominal,)),), {}), survey=self.survey
         )
+        return block_runner(plan, self.run_block, as_base=True, detail="readings")
 
 
 @dataclass(frozen=True)
@@ -104,6 +98,7 @@ class VariedTrain:
 
     """
 
+    survey: ClassVar = False
     case: Case
     jobs: int = 1
     _known: dict[tuple[str, ...], list[CaseResult]] = field(default_factory=dict)
@@ -141,7 +136,7 @@ class VariedTrain:
                 return [each for place in places for each in self._run(settings, [place])]
             problems = [f"{type(error).__name__}: {error}"]
         assert self.case.train is not None
-        # Judged as the train itself, see above.
+        # Judged as the train itself: numbers of parts are read for the words of a reason alone.
         cars = self._cars(self.case.train.scenarios)
         return [
             [error_result(car, problem) for car in cars]
