@@ -54,22 +54,12 @@ def test_it_is_a_valid_fmu(fmu):
     assert validate_fmu(str(fmu)) == []
 
 
-@pytest.mark.parametrize("share", [0, pytest.param(1, marks=pytest.mark.slow)])
-def test_every_shipped_stop_has_the_bits_of_the_built_in_controller(
-    request, shipped, built_in, fmu, with_controller, share
-):
-    """Every other stop with each version, the others among the slow tests; the last, with motors, always.
-
-    What the same C code answers in all of them is compared without an FMU: a version is another way there.
-    """
-    first = (int(request.node.callspec.params["fmu"]) + share) % 2
-    own = {*range(first, len(shipped), 2), len(shipped) - 1}
+def test_every_shipped_stop_has_the_bits_of_the_built_in_controller(shipped, built_in, fmu, with_controller):
     different = [
-        shipped[place].id
-        for place in sorted(own)
-        if bits(rig.simulate(with_controller(shipped[place], fmu), run=run_in_process)) != built_in[place]
+        case.id
+        for case, expected in zip(shipped, built_in, strict=True)
+        if bits(rig.simulate(with_controller(case, fmu), run=run_in_process)) != expected
     ]
-    assert len(own) > 10
     assert different == []
 
 
