@@ -1,5 +1,6 @@
 """Groups of stops with known truth: means, outliers, drift."""
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -63,6 +64,32 @@ def test_of_two_stops_apart_neither_is_accepted():
 def test_an_outlier_is_no_reference_of_wet_stops():
     dry = [stop(k, 100.0, length) for k, length in enumerate((400.0, 396.0, 404.0, 667.0))]
     assert extensions([*dry, stop(9, 100.0, 500.0, dry=False)]) == pytest.approx({"stop-0009": 25.0})
+
+
+@pytest.mark.parametrize("halves", [(400.0, 667.0), (667.0, 400.0)])
+def test_of_dry_stops_that_fall_into_halves_none_is_a_reference(halves):
+    lengths = [length * share for length in halves for share in (0.99, 1.0, 1.01)]
+    group = [stop(k, 100.0, length) for k, length in enumerate(lengths)]
+    assert set(outliers_of(group)) == {each.result.id for each in group}
+    assert references(group) == {}
+
+
+def test_mean_and_interval_of_dry_stops_are_those_of_the_reference():
+    dry = [stop(k, 100.0, length) for k, length in enumerate((400.0, 396.0, 404.0, 667.0))]
+    (row,) = dry_table(dry).data.rows
+    assert row["mean_m"] == pytest.approx(400.0)
+    assert row["high_m"] < 420.0
+    assert (row["accepted"], row["stops"]) == ("3 of 4", "stop-0003")
+
+
+@pytest.mark.parametrize("sign", ["valve_actuations", "locked_time_s"])
+def test_a_dry_stop_with_a_wheelset_vented_or_locked_is_no_reference(sign):
+    sliding = stop(1, 100.0, 400.0)
+    sliding = replace(sliding, result=replace(sliding.result, wheelsets=({sign: 0.0}, {sign: 2.0})))
+    rolling = stop(2, 100.0, 300.0)
+    wet = stop(9, 100.0, 360.0, dry=False)
+    assert extensions([sliding, rolling, wet]) == pytest.approx({"stop-0009": 20.0})
+    assert extensions([sliding, wet]) == {}
 
 
 def test_stops_within_15_percent_are_all_accepted():

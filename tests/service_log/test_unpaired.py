@@ -113,6 +113,33 @@ def test_logs_have_no_tolerance(nights, capsys):
     assert "no pairs" in capsys.readouterr().err
 
 
+def test_no_share_is_told_where_both_sides_were_judged_by_different_criteria(nights):
+    one = read_run((nights / "a" / "latest").resolve())
+    fewer = [replace(each, criteria=each.criteria[1:]) for each in one.results]
+    table = compare_logs(one, replace(one, results=fewer))
+    assert "stops that pass" not in {row["quantity"] for row in table.data.rows}
+    assert "different criteria" in table.basis
+    assert "stops that pass" in {row["quantity"] for row in compare_logs(one, one).data.rows}
+
+
+def test_another_speed_within_the_group_is_no_difference_of_distances(nights):
+    """Two per cent less speed at the same deceleration, and all that goes with its square."""
+    one = read_run((nights / "a" / "latest").resolve())
+    share = 0.98**2
+
+    def slower(result):
+        measures = {**result.measures, "braking_distance_m": share * result.measures["braking_distance_m"]}
+        wheelsets = [
+            {**each, "slid_distance_m": share * each["slid_distance_m"]} for each in result.wheelsets
+        ]
+        return replace(result, measures=measures, wheelsets=tuple(wheelsets))
+
+    table = compare_logs(one, replace(one, results=[slower(each) for each in one.results]))
+    rows = {row["quantity"]: row for row in table.data.rows}
+    for name in ("braking_distance_m", "largest_slid_distance_m"):
+        assert rows[name]["difference"] == pytest.approx(0.0, abs=1e-9 * float(rows[name]["first"]))
+
+
 @pytest.mark.parametrize("inconclusive", [7, 1])
 def test_no_share_is_told_where_stops_could_not_be_judged(nights, inconclusive):
     """A stop that lacks a channel can still fail: those that are left are no sample."""

@@ -203,6 +203,6 @@ def _sum_up(batch: runs.Batch, published: runs.Published, seconds: float) -> Non
     ended = "interrupted, " if published.interrupted else ""
     remaining = len(batch.all_cases) - len(content.all_results)
     not_run = f", {remaining} not run" if remaining else ""
-    for notice in report.domain_notices(content.all_results):
+    for notice in report.notices(content.all_results):
         message(f"uictest: {notice}")
     message(f"uictest: {ended}{content.tally}{not_run} in {seconds:.1f} s; reports in {published.place}")

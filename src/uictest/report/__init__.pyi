@@ -66,8 +66,8 @@ from .page.links import may_replace as may_replace
 from .part_wording import (
     deviation_text as deviation_text,
     domain_lines as domain_lines,
-    domain_notices as domain_notices,
     interval_text as interval_text,
+    notices as notices,
 )
 from .repeat_wording import repeat_sentences as repeat_sentences, rule_text as rule_text
 from .requirements import requirements_of as requirements_of

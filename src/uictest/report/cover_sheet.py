@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 from uictest.core.document import Cell
 from uictest.report.content import RunContent
 from uictest.report.escaping import printable
-from uictest.report.part_wording import domain_notices
+from uictest.report.part_wording import notices
 from uictest.report.series.series_sentences import series_word
 from uictest.report.sheet import Row, Styles, heading_rows, print_on_a4, write_cell
 from uictest.report.verdict_sentences import CASE_WORDS, counted, tone
@@ -212,7 +212,7 @@ _CHARTS: Final[tuple[tuple[str, str, dict[str, Any]], ...]] = (
 
 def _blocks(content: RunContent, sheets: Sequence[str]) -> dict[str, list[Line]]:
     return {
-        "Outcome": [(line,) for line in (content.tally, *domain_notices(content.all_results))],
+        "Outcome": [(line,) for line in (content.tally, *notices(content.all_results))],
         "Cases": list(_counts(content)),
         "Not as expected": list(_missed(content)),
         "Sheets": [(name, CONTENTS.get(name, "")) for name in sheets],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cache, partial
 from itertools import groupby
@@ -236,14 +237,17 @@ def domain_lines(result: evaluation.CaseResult) -> Iterator[str]:
         yield f"outside {printable(result.id)} {sentence.removeprefix('outside ')}"
 
 
-def domain_notices(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
-    """Yield how many of some cases lie outside of what was validated, for each validation."""
+def notices(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
+    """Yield how many cases lie outside of what each validation saw, and which requirements records lack."""
     asked = [each.domain_of_validity for each in results if each.domain_of_validity is not None]
     for name in dict.fromkeys(each.validation for each in asked):
         of_validation = [each for each in asked if each.validation == name]
         outside = sum(bool(each.outside) for each in of_validation)
         among = counted(len(of_validation), "case")
         yield printable(f"{outside} of {among} outside of what {name} validated")
+    lacking = Counter((each.id, each.reason) for of in results for each in of.criteria if each.lacks_channel)
+    for (criterion, reason), count in lacking.items():
+        yield printable(f"{counted(count, 'stop')} judged without {criterion}, {reason}")
 
 
 def deviation_text(deviation: evaluation.Deviation) -> str:

@@ -25,6 +25,9 @@ _ACCEPTED: Final = 15.0
 """% about the mean of a group of dry stops: usual in slide tests, second-hand."""
 _CONFIDENCE: Final = 0.95
 _NO_MEASURES: Final = ("error", "skipped")
+_OF_SLIDING: Final = ("valve_actuations", "locked_time_s")
+_LARGEST_MINORITY: Final = 1 / 3
+"""Share of outliers in a group beyond which nothing says which stops are off; chosen."""
 _DISTANCES: Final = ("braking_distance_m", "deceleration_distance_m")
 _SHOWN: Final = (
     "k_wet",
@@ -65,6 +68,12 @@ class LoggedStop:
         return nearest if abs(self.speed - nearest) <= SPEED_TOLERANCE else None
 
     @property
+    def slid(self) -> bool:
+        """Whether a wheelset was vented or locked, as far as that is known."""
+        wheelsets = self.result.wheelsets or ()
+        return any((each.get(name) or 0.0) > 0.0 for each in wheelsets for name in _OF_SLIDING)
+
+    @property
     def distance(self) -> float:
         """The braking distance from the nominal speed at the same mean deceleration, m; NaN without one."""
         measures = self.result.measures or {}
@@ -74,8 +83,8 @@ class LoggedStop:
 
 
 def dry_groups(stops: Sequence[LoggedStop]) -> dict[float, list[LoggedStop]]:
-    """Return the groups of the dry stops."""
-    return speed_groups([stop for stop in stops if stop.dry])
+    """Return the groups of the dry stops that may be a reference: no wheelset is vented or locks in them."""
+    return speed_groups([stop for stop in stops if stop.dry and not stop.slid])
 
 
 def speed_groups(stops: Sequence[LoggedStop]) -> dict[float, list[LoggedStop]]:
@@ -129,7 +138,8 @@ def dry_table(stops: Sequence[LoggedStop]) -> report.CampaignTable:
         "Dry stops by speed",
         "Braking distances, each brought to the nominal speed by the square of the speeds (at most"
         f" {SPEED_TOLERANCE:g} km/h apart). Accepted: within {_ACCEPTED:g} % of the mean of the others. The"
-        " width is usual in slide tests (second-hand, no standard at hand); to leave the stop out is ours.",
+        " width is usual in slide tests (second-hand, no standard at hand); to leave the stop out, of the"
+        " mean too, is ours.",
         "first",
         _DRY,
         tuple(_dry_row(speed, group) for speed, group in dry_groups(stops).items()),
@@ -137,20 +147,21 @@ def dry_table(stops: Sequence[LoggedStop]) -> report.CampaignTable:
 
 
 def _dry_row(speed: float, group: Sequence[LoggedStop]) -> tuple[Cell, ...]:
-    distances = [stop.distance for stop in group]
-    mean, outliers = mean_of(distances, _CONFIDENCE), outliers_of(group)
-    percent, kept = math.nan, "one stop alone"
-    if len(group) > 1:
-        percent = 100.0 * stdev(distances) / mean.value
-        kept = f"{len(group) - len(outliers)} of {len(group)}"
+    outliers = outliers_of(group)
+    # Of those that make the reference; where none does, of all.
+    accepted = [stop.distance for stop in group if stop.result.id not in outliers]
+    distances = accepted or [stop.distance for stop in group]
+    mean = mean_of(distances, _CONFIDENCE)
+    percent = 100.0 * stdev(distances) / mean.value if len(distances) > 1 else math.nan
+    kept = f"{len(accepted)} of {len(group)}" if len(group) > 1 else "one stop alone"
     return speed, len(group), mean.value, mean.low, mean.high, percent, kept, ", ".join(outliers)
 
 
 def outliers_of(group: Sequence[LoggedStop]) -> list[str]:
     """Return the stops that lie beyond the accepted width, the farthest first.
 
-    One after the other: an outlier moves the mean of the others, which is made without it then. Of two alone
-    nothing says which one is off: both are.
+    One after the other: an outlier moves the mean of the others, which is made without it then. Of two alone,
+    and of a group that falls into several, nothing says which are off: all are.
     """
     remaining, outliers = list(group), list[str]()
     while len(remaining) > 1:
@@ -162,6 +173,8 @@ def outliers_of(group: Sequence[LoggedStop]) -> list[str]:
             return [*outliers, *apart]
         outliers.append(farthest)
         remaining = [stop for stop in remaining if stop.result.id != farthest]
+    if len(outliers) > _LARGEST_MINORITY * len(group):
+        outliers += [stop.result.id for stop in remaining]
     return outliers
 
 

@@ -116,10 +116,14 @@ class LogSurvey:
         outliers = [name for group in groups.values() for name in outliers_of(group)]
         if outliers:
             yield f"dry stops beyond 15 % of the others' mean, left out as reference: {', '.join(outliers)}"
+        if slid := [stop.result.id for stop in self._stops if stop.dry and stop.slid]:
+            yield f"dry stops with a wheelset vented or locked, left out as reference: {', '.join(slid)}"
         if series is None:
             return
-        if not references(self._stops):
-            yield "no dry stop to compare wet stops with: say which are dry with --dry"
+        speeds = ", ".join(f"{speed.speed_kmh:g}" for speed in series.speeds)
+        if not references(self._stops).keys() & {speed.speed_kmh for speed in series.speeds}:
+            dry = report.counted(sum(stop.dry for stop in self._stops), "stop")
+            yield f"no dry stop from {speeds} km/h to compare with: {dry} dry, by conditions or --dry"
             return
         for speed in series.speeds:
             value = speed.measures["k_wet"].estimate

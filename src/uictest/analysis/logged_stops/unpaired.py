@@ -27,6 +27,8 @@ _FEWEST: Final = 3
 _JUDGED: Final = "judged"
 """1 of a stop that passes or fails: one that is inconclusive does neither."""
 _DISTANCE: Final = "braking_distance_m"
+_BY_SQUARE: Final = ("slid_distance_m", "contact_energy_kj")
+"""Of wheelsets, as the distance: what grows with the square of the speed."""
 _FIGURES: Final[Mapping[str, Figure]] = {
     _DISTANCE: of_stop(_DISTANCE),
     "initial_adhesion_g": of_stop("initial_adhesion_g"),
@@ -46,6 +48,7 @@ Pair = tuple[float, float]
 def compare_logs(first: report.RunContent, second: report.RunContent) -> report.CampaignTable:
     """Return by how much the stops of the second log differ from those of the first, group by group."""
     one, other = _groups(first), _groups(second)
+    alike = _criteria(first) == _criteria(second)
     common = [group for group in one if group in other]
     known = [
         (group, name) for group in common for name in _FIGURES if _enough(one[group], other[group], name)
@@ -53,7 +56,7 @@ def compare_logs(first: report.RunContent, second: report.RunContent) -> report.
     confidence = 1.0 - 0.05 / max(len(known) + len(common), 1)
     rows: list[tuple[Cell, ...]] = []
     for group in common:
-        rows += _shares(group, one[group], other[group], confidence)
+        rows += _shares(group, one[group], other[group], confidence) if alike else ()
         names = [name for of, name in known if of == group]
         rows += [_means(group, name, one[group], other[group], confidence) for name in names]
     alone = ", ".join(_group_text(each) for each in (*one, *other) if each not in common)
@@ -61,7 +64,9 @@ def compare_logs(first: report.RunContent, second: report.RunContent) -> report.
         "unpaired",
         "Stops of two logs, unpaired",
         "B - A: means with Welch's interval, shares by Clopper and Pearson's limits of both (Zou and Donner"
-        " 2008); 95 % for all rows together. Rails differ: look at the friction."
+        " 2008); 95 % for all rows together. Distances and energies are brought to the nominal speed, times"
+        " and actuations are not. Rails differ: look at the friction."
+        + ("" if alike else " Judged by different criteria: shares that pass are not compared.")
         + (f" On one side only: {alone}." if alone else ""),
         "first",
         _COLUMNS,
@@ -99,9 +104,19 @@ def _groups(content: report.RunContent) -> dict[Group, list[CountedStop]]:
         if stop.nominal is not None:
             own = measures | {_DISTANCE: stop.distance, "friction": frictions.get(result.id, math.nan)}
             own[_JUDGED] = float(result.outcome in ("pass", "fail"))
-            counted = CountedStop(own, result.wheelsets, result.outcome == "pass")
+            share = (stop.nominal / stop.speed) ** 2
+            wheelsets = tuple(
+                {**each, **{name: share * each[name] for name in _BY_SQUARE if each.get(name) is not None}}
+                for each in result.wheelsets
+            )
+            counted = CountedStop(own, wheelsets, result.outcome == "pass")
             groups.setdefault((rail, stop.nominal), []).append(counted)
     return dict(sorted(groups.items()))
+
+
+def _criteria(content: report.RunContent) -> set[tuple[Any, ...]]:
+    verdicts = (verdict for result in content.results for verdict in result.criteria)
+    return {(each.id, each.lower, each.upper, *sorted(each.definition.items())) for each in verdicts}
 
 
 def _frictions(content: report.RunContent) -> dict[str, float]:

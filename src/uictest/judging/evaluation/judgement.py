@@ -19,6 +19,7 @@ from uictest.judging.evaluation.bounds import (
 from uictest.judging.evaluation.decision import Decision, decide, sensitivity
 from uictest.judging.evaluation.rig_reasons import why_rig_fails
 from uictest.judging.evaluation.verdict import (
+    NOT_RECORDED,
     READINGS,
     ReadVerdict,
     Sensitivity,
@@ -210,7 +211,7 @@ def _not_applicable(
     if criterion.of_simulation and stop.coverage is not None:
         return Decision("not_applicable", None, "a balance of the simulation: a recorded stop has none")
     if stop.coverage is not None and (absent := stop.coverage.not_computed.get(criterion.measure)):
-        return Decision("not_applicable", None, f"not recorded: {absent}")
+        return Decision("not_applicable", None, NOT_RECORDED + absent)
     if unknown and criterion.applies.initial_speed is not None:
         return Decision("inconclusive", None, unknown)
     if criterion.of_faults and conditions.has_faults and math.isnan(stop.measures.fault_time):

@@ -14,6 +14,7 @@ from uictest.judging.evaluation.json_values import Number, OptionalNumber, absen
 from uictest.plans import scenario
 from uictest.plans.scenario import yaml
 
+NOT_RECORDED: Final = "not recorded: "  # how a reason begins
 Status = Literal["pass", "fail", "not_applicable", "inconclusive"]
 """What a criterion says of a stop.
 
@@ -191,6 +192,12 @@ class Verdict:
     over_stops: OverStops | None = None
     readings: tuple[ReadVerdict, ...] = ()
     missed_by: tuple[int, ...] = ()
+
+    @property
+    def lacks_channel(self) -> bool:
+        """Whether a requirement was left out, as the record has no channel of a kind that is computed."""
+        left_out = self.layer == "requirement" and self.status == "not_applicable"
+        return left_out and self.reason.startswith(NOT_RECORDED)
 
     @property
     def turns(self) -> bool:

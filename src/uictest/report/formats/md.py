@@ -21,7 +21,7 @@ from uictest.report.difference import (
 from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.formats import ReportFormat
 from uictest.report.github import LIMIT, append_to_step_summary
-from uictest.report.part_wording import domain_notices
+from uictest.report.part_wording import notices
 from uictest.report.requirements import REQUIREMENT_TONES, VerifiedRequirement, verified_requirements
 from uictest.report.text_tables import document_markdown
 from uictest.report.verdict_sentences import listed, reading_sentences
@@ -65,7 +65,7 @@ def _about(content: RunContent) -> Iterator[str]:
         yield "Incomplete: not all that was selected was run."
     if content.controllers:
         yield f"WSP controller: {content.controllers}."
-    yield from (f"{line}." for line in domain_notices(content.all_results))
+    yield from (f"{line}." for line in notices(content.all_results))
 
 
 def _baseline(content: RunContent) -> list[Table | Lines]:

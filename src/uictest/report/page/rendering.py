@@ -23,8 +23,8 @@ from uictest.report.firmness_sentences import firmness_sentences, firmness_table
 from uictest.report.part_wording import (
     base_word,
     changed_parameters,
-    domain_notices,
     domain_sentences,
+    notices,
     part_sentences,
     slide_speed,
 )
@@ -124,7 +124,7 @@ _WORDS: Final[tuple[Callable[..., Any], ...]] = (
         badge_tone,
         base_word,
         changed_parameters,
-        domain_notices,
+        notices,
         domain_sentences,
         part_sentences,
         slide_speed,
