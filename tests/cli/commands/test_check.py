@@ -1,11 +1,11 @@
 import json
 import tracemalloc
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 from uictest.plans import series
-from uictest.plans.scenario import resolved_cars
 
 
 def test_valid_files_exit_0_and_say_how_many(call, scenario):
@@ -61,14 +61,15 @@ def test_sensitivities_around_other_values_than_the_scenarios_are_warned_of(call
 
 def _broken_in(monkeypatch, name):
     """Let the program fail with what one scenario says, whichever way it is read."""
-    resolve = resolved_cars.resolve
+    module = import_module("uictest.plans.scenario.resolved_cars")
+    resolve = module.resolve
 
     def resolved(tree, parts):
         if tree.get("name").value == name:
             raise ZeroDivisionError("no wheel load")
         return resolve(tree, parts)
 
-    monkeypatch.setattr(resolved_cars, "resolve", resolved)
+    monkeypatch.setattr(module, "resolve", resolved)
 
 
 @pytest.mark.parametrize(

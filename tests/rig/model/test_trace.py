@@ -10,7 +10,7 @@ SLIDING = ("rail.condition=wet", "rail.friction=0.08", "initial_speed=60 km/h")
 
 def test_a_row_holds_every_channel(rig):
     columns = rig.columns(*SLIDING, every=20)
-    assert len(columns) == 37
+    assert len(columns) == 40
     assert all(np.isfinite(column).all() for column in columns.values())
 
 
