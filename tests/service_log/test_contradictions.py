@@ -306,3 +306,33 @@ def test_a_log_that_grows_meanwhile_is_told(tmp_path):
     written({name: np.tile(samples, 2) for name, samples in first.items()}, files[0])
     with pytest.raises(UnreadableError, match=r"0\.parquet: has changed"):
         write_stops(log, MAP, tmp_path / "stops")
+
+
+def test_wrong_statements_are_told_before_the_log_is_read(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    written(braking(30.0), tmp_path / "log.parquet")
+    assert execute(["log", "log.parquet", *STATED, "--set", "criteria=none-such"]) == 4
+    assert "none-such" in capsys.readouterr().err
+    assert not (tmp_path / "stops").exists()
+
+
+@pytest.mark.parametrize("locked", [(1, 2, 3, 4), (2, 3, 4)])
+def test_a_train_speed_in_whole_kmh_is_not_stuck_while_wheelsets_lock(tmp_path, locked):
+    """On ice a whole km/h lasts for 2.3 s at 0.12 m/s2, and in drag braking for any time."""
+    kept = 0 if len(locked) == 4 else 300
+    speed = np.concatenate((np.full(100 + kept, 8.0), np.linspace(8.0, 0.0, 667), np.zeros(200)))
+    rows = np.arange(len(speed))
+    columns = {
+        "time": STEP * rows,
+        "speed": np.round(3.6 * speed) / 3.6,
+        "brake_command": 1.0 * (rows >= 100),
+    }
+    slid = slice(150, 350) if kept else slice(442, 482)
+    for n in (1, 2, 3, 4):
+        columns[f"wheel_speed_{n}"] = speed.copy()
+        if n in locked:
+            share = 1.3 * np.abs(np.linspace(-1.0, 1.0, slid.stop - slid.start)) - 0.3
+            columns[f"wheel_speed_{n}"][slid] *= np.clip(share, 0.0, 1.0)
+    log, places, _ = found(columns, tmp_path / "log.parquet")
+    assert places == [100]
+    assert log.stops[0].rows[1] > 100 + kept + 640

@@ -58,6 +58,11 @@ def test_of_three_wheelsets_only_the_odd_one_is_told():
     assert told(stops("brake_force", (12.0, 14.0, 14.0, math.nan))) == [(1, "brakes weakly")]
 
 
+def test_a_slow_brake_may_build_up_by_a_share_of_its_time_later():
+    assert told(stops("build_up", (11.9, 11.4, 11.4, 11.4))) == []
+    assert told(stops("build_up", (1.3, 1.1, 1.1, 1.1))) == [(1, "brakes late")]
+
+
 def test_too_few_stops_tell_nothing():
     numbers = (14.0, 12.0, 14.0, 14.0)
     assert told(stops("brake_force", numbers, count=FEWEST)) == [(2, "brakes weakly")]

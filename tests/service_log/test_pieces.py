@@ -81,6 +81,18 @@ def test_a_brake_signal_that_is_stuck_is_said_and_does_not_fill_the_memory():
     assert held < 3700.0 / STEP
 
 
+def test_a_stuck_signal_is_not_gone_through_again_with_every_piece(monkeypatch):
+    seen = []
+    course = finder.Course
+    monkeypatch.setattr(
+        finder, "Course", lambda rows, *others: seen.append(len(rows.time)) or course(rows, *others)
+    )
+    rows = 30_000
+    running = np.full(rows, 30.0)
+    found(Rows(STEP * np.arange(rows), running, running, np.ones(rows)), range(100, rows, 100))
+    assert sum(seen) < 6 * rows
+
+
 def test_short_applications_one_after_the_other_do_not_fill_the_memory():
     rows = 50_000
     speed, braked = np.full(rows, 30.0), 1.0 * (np.arange(rows) % 50 < 20)

@@ -60,7 +60,9 @@ class NeighbourDifference(NamedTuple):
     @property
     def limit(self) -> float:
         """The limit of the difference, in its unit."""
-        return 100.0 * self.kind.limit if self.kind.relative else self.kind.limit
+        if self.kind.relative:
+            return 100.0 * self.kind.limit
+        return max(self.kind.limit, self.kind.share * abs(self.others))
 
     @property
     def unit(self) -> str:

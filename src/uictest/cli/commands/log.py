@@ -84,6 +84,7 @@ def log(
         )
     settings = _settings(from_speed, to_speed, float(mapped.preparation.standstill_speed))
     stated = _case_of(scenario, expression, overrides or (), trusted)
+    stated("log", settings.from_speed)  # What is stated wrongly is told before the log is read.
     found, written = _stops(files, mapped, settings, folder)
     if not quiet:
         _write_events(found)

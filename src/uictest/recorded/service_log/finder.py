@@ -28,6 +28,8 @@ _CALM = 2.0 * SHORTEST_RELEASE
 """s after which it is known whether an application begins in a row; chosen."""
 _LONGEST = 3600.0
 """s: an application without standstill that lasts longer is no braking, its signal is stuck; chosen."""
+_GROWTH = 0.25
+"""Share by which the rows that are held grow before they are gone through again; chosen."""
 _NO_SIGNAL = "the brake signal is missing"
 
 
@@ -137,7 +139,7 @@ class _Finder:
         self._settings, self._lowest = settings, max(settings.to_speed, standstill)
         self.begun: list[_Begin] = []
         self.rows = 0
-        self._held = Rows(*np.zeros((4, 0)))
+        self._held, self._pending = Rows(*np.zeros((4, 0))), Rows(*np.zeros((4, 0)))
         self._before = Before()
         self._looked_at, self._released, self._stood = 0, 0, -1
 
@@ -147,11 +149,11 @@ class _Finder:
 
     def add(self, rows: Rows) -> list[LoggedEvent]:
         """Return the events that are known once these rows are."""
-        self._held = self._held.followed_by(rows)
+        self._pending = self._pending.followed_by(rows)
         self.rows += len(rows.time)
-        if not self.rows:
+        if not self.rows or len(self._pending.time) < _GROWTH * len(self._held.time):
             return []
-        course = Course(self._held, self._before)
+        course = self._course()
         events = list(self._events(course, all_of_them=False))
         row = self._looked_at - self._before.row
         kept = max(min(course.row_before(row, _LEAD), row - ROWS_OF_SPEED), 0)
@@ -160,7 +162,12 @@ class _Finder:
 
     def rest(self) -> list[LoggedEvent]:
         """Return the events at the end of the log."""
-        return list(self._events(Course(self._held, self._before), all_of_them=True)) if self.rows else []
+        return list(self._events(self._course(), all_of_them=True)) if self.rows else []
+
+    def _course(self) -> Course:
+        self._held = self._held.followed_by(self._pending)
+        self._pending = self._pending.from_row(len(self._pending.time))
+        return Course(self._held, self._before)
 
     def _events(self, course: Course, *, all_of_them: bool) -> Iterator[LoggedEvent]:
         """Yield the events that are known, and note up to which row all have been reported."""

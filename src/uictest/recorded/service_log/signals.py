@@ -33,7 +33,7 @@ _LARGEST_OFFSET = 0.5e5
 _CLASS, _HIGHEST = 50.0, 20e5
 """Pa: width of the classes in which pressures are counted, and the last of them; chosen."""
 _LEAST_STUCK = 2.0
-"""s for which a speed may show one number to the last digit while the wheels change theirs; chosen."""
+"""s for which a speed may show zero while the wheels roll; chosen."""
 _TELLING_CHANGE = 0.5
 """m/s by which the wheels must change meanwhile; chosen."""
 _ROLLS = 2.0
@@ -41,7 +41,8 @@ _ROLLS = 2.0
 _CREEPS = 1.0
 """m/s below which a train speed may be that of a dead sensor if wheels roll; chosen."""
 STUCK_BEFORE = 5.0
-"""s before a speed is known to be stuck from which it counts as stuck; chosen."""
+"""s before a speed is known to be stuck from which it counts as stuck, and for which it may show one number
+while the wheels change theirs: one in whole km/h does where a train loses 0.06 m/s2; chosen."""
 
 
 class Rows(NamedTuple):
@@ -133,13 +134,16 @@ def _rolling(wheels: Sequence[Array], train: Array) -> Array:
     """Return the speed that at least two wheelsets reach, with its sign: no single sensor makes it.
 
     Beside a train sensor that shows standstill a third one must reach it, if there is one: else two dead ones
-    would overrule three.
+    would overrule three. It is that of the train where one wheelset turns with it, whatever the others do.
     """
     stacked = np.stack(wheels)
     sign = np.where(np.nansum(np.nan_to_num(stacked), axis=0) < 0.0, -1.0, 1.0)
     ordered = np.sort(np.where(np.isfinite(stacked), np.abs(stacked), -1.0), axis=0)
     third = ordered[-min(3, len(wheels))]
-    reached = np.where((np.abs(train) < _CREEPS) & (third >= 0.0), third, ordered[-2])
+    creeps = np.abs(train) < _CREEPS
+    reached = np.where(creeps & (third >= 0.0), third, ordered[-2])
+    with_train = (np.abs(ordered - np.abs(train)) < _TELLING_CHANGE).any(axis=0) & ~creeps
+    reached = np.where(with_train, np.abs(train), reached)
     return np.where(reached >= 0.0, sign * reached, np.nan)
 
 
@@ -191,14 +195,15 @@ def _stuck(clock: Array, speed: Array, other: Array, begun: Constant) -> NDArray
     """
     stuck = np.zeros(len(clock), dtype=np.bool_)
     for first, end, since, least, largest in _constants(clock, speed, other, begun):
-        if clock[end - 1] - since <= _LEAST_STUCK:
+        least_stuck = _LEAST_STUCK if speed[first] == 0.0 else STUCK_BEFORE
+        if clock[end - 1] - since <= least_stuck:
             continue
         lowest = np.fmin.accumulate(np.append(least, other[first:end]))[1:]
         highest = np.fmax.accumulate(np.append(largest, other[first:end]))[1:]
         telling = highest - lowest > _TELLING_CHANGE
         if speed[first] == 0.0:
             telling = np.fmax(np.abs(lowest), np.abs(highest)) > _ROLLS
-        known = telling & (clock[first:end] - since > _LEAST_STUCK)
+        known = telling & (clock[first:end] - since > least_stuck)
         if known.any():
             before = np.searchsorted(clock, clock[first + int(np.argmax(known))] - STUCK_BEFORE)
             stuck[max(first, int(before)) : end] = True

@@ -53,6 +53,7 @@ class SignKind(NamedTuple):
         relative: whether the limit is a share of theirs.
         more, less: what a wheelset does whose number lies above, or below; empty where that is no defect.
         digits: behind the point.
+        share: of theirs that the limit is where that is more; chosen.
     """
 
     meaning: str
@@ -62,6 +63,7 @@ class SignKind(NamedTuple):
     more: str
     less: str
     digits: int = 3
+    share: float = 0.0
 
 
 SIGNS: Final = MappingProxyType(
@@ -80,7 +82,7 @@ SIGNS: Final = MappingProxyType(
         ),
         "build_up": SignKind(
             "time from the brake command to half of the highest pressure, before any valve acts",
-            "s", 0.15, False, "brakes late", "", 2,
+            "s", 0.15, False, "brakes late", "", 2, 0.1,
         ),
         "pressure": SignKind(
             "cylinder pressure with all valves filling",
