@@ -142,6 +142,28 @@ def test_a_stuck_speed(channels, prepared, name):
     assert ("stuck", name) in _kinds(prepared(channels))
 
 
+@pytest.mark.parametrize("step_kmh", [0.2, 0.5, 1.0])
+def test_a_coarse_sensor_of_a_wheel_that_turns_from_slide_to_recovery_is_not_stuck(
+    channels, prepared, step_kmh
+):
+    """It stays within a step for longer than a fine one would show one number; to the end is too long."""
+    channel = channels["wheel_speed_1"]
+    step = step_kmh / 3.6
+    middle = channel.time[150]
+    turning = np.where(
+        np.abs(channel.time - middle) < 1.0,
+        channel.samples[150] + 0.8 * (channel.time - middle) ** 2,
+        channel.samples,
+    )
+    _change(channels, "wheel_speed_1", step * np.round(turning / step))
+    kinds = _kinds(prepared(channels))
+    assert ("stuck", "wheel_speed_1") not in kinds
+    stuck = step * np.round(turning / step)
+    stuck[100:] = stuck[100]
+    _change(channels, "wheel_speed_1", stuck)
+    assert ("stuck", "wheel_speed_1") in _kinds(prepared(channels))
+
+
 def test_a_stuck_loadcell_is_no_clamping_force(case, channels, prepared):
     _change(channels, "clamping_force_1", np.zeros_like(channels["speed"].samples))
     result = judge_stop(case, prepared(channels))

@@ -19,6 +19,8 @@ _LEAST_JUMP = 2.0
 """m/s: a smaller jump may be noise or the least speed that a sensor reads; chosen."""
 _LONGEST_STUCK = 0.5
 """s for which a running wheel may show the same number to the last digit; chosen."""
+_SLOWEST_TURN = 0.25
+"""m/s2: a wheel that turns from slide to recovery stays that long within a step of a coarse sensor; chosen."""
 _TELLING_CHANGE = 0.5
 """m/s by which another speed must change meanwhile; chosen."""
 _LARGEST_SPEED_OFFSET = 0.02
@@ -87,8 +89,11 @@ def _stuck_speeds(
 ) -> Iterator[Defect]:
     """The same number for long while another speed changes. A wheelset at zero is locked, not stuck."""
     time, speed = _part(channel, begin, end)
+    steps = np.abs(np.diff(speed))
+    step = float(np.min(steps, where=steps > 0.0, initial=_TELLING_CHANGE))
+    longest = _LONGEST_STUCK + step / _SLOWEST_TURN
     for first, last in _same(speed):
-        long = time[last] - time[first] > _LONGEST_STUCK and abs(speed[first]) > 0.0
+        long = time[last] - time[first] > longest and abs(speed[first]) > 0.0
         if long and _others_change(channel, channels, float(time[first]), float(time[last])):
             text = f"stays at {speed[first]:.6g} m/s from {time[first]:.6g} to {time[last]:.6g} s"
             yield Defect("stuck", channel.name, text, spoils=True)
