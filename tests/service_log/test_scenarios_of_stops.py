@@ -2,13 +2,19 @@
 
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 import yaml
 from pyarrow import parquet
 
 from tests.service_log import logs
 from uictest.cli.entry import execute
+from uictest.core.recording import Recording
+from uictest.plans.scenario import load
+from uictest.recorded.service_log import command_course
+from uictest.runs.made_scenario import assumptions
 
 SHIPPED = Path(__file__).parents[2] / "scenarios"
 COURSE = [
@@ -134,3 +140,19 @@ def test_scenarios_need_a_vehicle(tmp_path, monkeypatch, capsys):
     logs.write_log([logs.simulated(logs.DRY, 40.0, 1)], tmp_path / "night.parquet")
     assert execute(["log", "night.parquet", "--scenarios", "suite"]) == 4
     assert "state them with --scenario" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("factor", "told"), [(1.0, False), (1.9, True)])
+def test_more_pressure_than_the_stated_brake_gives_is_said(factor, told):
+    [case] = load([SHIPPED / "slip-120.yaml"], [])
+    system = case.scenario.brake.system
+    most = max(float(each.maximum_pressure) for each in system.positions.values())
+    time = np.arange(0.0, 20.0, 0.01)
+    pressure = factor * most * np.minimum(time / 2.0, 1.0)
+    recording = Recording(
+        {"time": time, "brake_line_pressure": pressure}, {"time": "s", "brake_line_pressure": "Pa"}
+    )
+    course = command_course(recording, case.scenario, 0.0)
+    assert course.beyond == pytest.approx(factor, rel=1e-3)
+    said = list(assumptions(case.scenario, SimpleNamespace(friction=()), course))
+    assert any(f"{factor:.2f} times" in each for each in said) is told

@@ -37,6 +37,10 @@ class Source:
     statements: Mapping[str, str]
 
 
+_BEYOND: Final = 1.05
+"""Share of the highest pressure of a brake above which a record is of another brake; chosen."""
+
+
 @dataclass(frozen=True, slots=True)
 class MadeScenario:
     """What became of a stop; `problem` says why there is no scenario.
@@ -83,6 +87,8 @@ def assumptions(own: scenario.Scenario, fit: fitting.Fit, course: service_log.Co
         yield "rail: not seen in every stretch; there the friction of the nearest one"
     if not course.known_by:
         yield f"brake command: not recorded; {own.brake.command_text} as stated"
+    elif course.beyond > _BEYOND:
+        yield f"brake command: full, the record has {course.beyond:.2f} times the most that this brake gives"
     yield f"controller: a record does not hold it; {own.controller.name}, as the scenario has it"
     load = f"{own.vehicle.total_mass / 1e3:.1f} t and {own.rail.gradient.text}"
     yield f"load and gradient: as the scenario has them, {load}"

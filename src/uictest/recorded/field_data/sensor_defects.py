@@ -20,7 +20,7 @@ _LEAST_JUMP = 2.0
 _LONGEST_STUCK = 0.5
 """s for which a running wheel may show the same number to the last digit; chosen."""
 _SLOWEST_TURN = 0.25
-"""m/s2: a wheel that turns from slide to recovery stays that long within a step of a coarse sensor; chosen."""
+"""m/s2: so slowly a wheel may turn from slide to recovery within a step of a coarse sensor; chosen."""
 _TELLING_CHANGE = 0.5
 """m/s by which another speed must change meanwhile; chosen."""
 _LARGEST_SPEED_OFFSET = 0.02

@@ -32,11 +32,13 @@ _RELEASED: Final = 0.04
 class CommandCourse(NamedTuple):
     """Commands over time (s since the first, share of full service, position), by a channel.
 
-    `known_by` is empty where no channel does: the command is then the one that was stated.
+    `known_by` is empty where no channel does: the command is then the one that was stated. `beyond` is the
+    highest level kept, as a share of what the position with the most pressure gives.
     """
 
     steps: tuple[tuple[float, float, str], ...]
     known_by: str
+    beyond: float = 0.0
 
     def as_written(self) -> Any:
         """Return the value of `brake.command`."""
@@ -86,23 +88,29 @@ def command_course(recording: Recording, scenario: Scenario, late: float) -> Com
             left = recording[TIME][end - 1]
         else:
             left = recording[TIME][begin]
-    return CommandCourse(tuple(steps), known_by) if steps else CommandCourse(brake.commands, "")
+    if not steps:
+        return CommandCourse(brake.commands, "")
+    most = max(_shares_of_positions(scenario).values())
+    return CommandCourse(tuple(steps), known_by, max(level for _, _, level in kept) / most)
 
 
 def _raster(recording: Recording) -> float:
     return float(recording[TIME][1] - recording[TIME][0])
 
 
+def _shares_of_positions(scenario: Scenario) -> dict[str, float]:
+    """Return the pressure of each position as a share of the stated one's."""
+    positions = scenario.brake.system.positions
+    stated = float(positions[scenario.brake.position].maximum_pressure)
+    return {name: float(each.maximum_pressure) / stated for name, each in positions.items()}
+
+
 def _command_of(level: float, scenario: Scenario) -> tuple[float, str]:
     """Return share of full service and position that give a pressure, as a share of the stated position's."""
-    brake = scenario.brake
-    stated = float(brake.system.positions[brake.position].maximum_pressure)
-    position = brake.position
+    position = scenario.brake.position
     if level > 1.0 + _LEAST_CHANGE:
-        higher = {
-            name: float(each.maximum_pressure) / stated for name, each in brake.system.positions.items()
-        }
-        reaching = {name: share for name, share in higher.items() if level <= share * (1.0 + _LEAST_CHANGE)}
+        shares = _shares_of_positions(scenario)
+        reaching = {name: share for name, share in shares.items() if level <= share * (1.0 + _LEAST_CHANGE)}
         if reaching:
             position = min(reaching, key=lambda name: reaching[name])
             level /= reaching[position]
