@@ -336,3 +336,19 @@ def test_a_train_speed_in_whole_kmh_is_not_stuck_while_wheelsets_lock(tmp_path, 
     log, places, _ = found(columns, tmp_path / "log.parquet")
     assert places == [100]
     assert log.stops[0].rows[1] > 100 + kept + 640
+
+
+def test_a_folder_that_is_not_replaced_names_the_file_that_is_in_the_way(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    written(braking(30.0), tmp_path / "log.parquet")
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "own.txt").write_text("mine")
+    assert execute(["log", "log.parquet", *STATED, "--recordings", "full"]) == 4
+    assert "full: own.txt: uictest did not write it" in capsys.readouterr().err
+
+
+def test_a_name_of_a_file_that_is_not_utf8_is_told_as_that(tmp_path):
+    name = tmp_path / os.fsdecode(b"b\xff.csv")
+    name.write_text("time [s],speed [m/s],brake_command\n0,1,0\n1,1,0\n")
+    with pytest.raises(UnreadableError, match="the name of the file is not UTF-8"):
+        find_stops([name], MAP)

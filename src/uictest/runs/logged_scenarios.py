@@ -262,7 +262,8 @@ def _bounds(made: MadeScenario) -> dict[str, Any]:
         "criteria": [
             {
                 "id": f"recorded-{name}",
-                "title": f"At most {100.0 * AGREES:g} % above the recorded {value + late:.1f} {unit}",
+                "title": f"At most {100.0 * AGREES:g} % above the recorded {value:.1f} {unit},"
+                f" and {late:.1f} {unit} from the command to its mark",
                 "clause": "none",
                 "layer": "requirement",
                 "measure": f"braking_{name}",

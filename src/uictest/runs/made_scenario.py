@@ -134,6 +134,7 @@ def readme(made: Sequence[MadeScenario]) -> Iterator[str]:
     yield "# Stops of a log as scenarios"
     yield ""
     yield "Made by `uictest log --scenarios`, the worst stop first; `uictest run` with this folder runs them."
+    yield "Add `--trust DIR` where what they extend lies outside of the working folder."
     yield "`expect` is what the simulation gave when it was made."
     yield ""
     written = [each for each in made if not each.problem]

@@ -91,7 +91,7 @@ def _no_speed(contents: Contents, sources: Mapping[str, ChannelSource]) -> str:
     hint = suggestion(looked_for[0], names) if len(names) <= 40 else ""
     return (
         f"no channel for 'speed' (train speed): looked for {', '.join(map(quoted, looked_for))}"
-        f"{'; ' + hint if hint else ''}; --list shows the channels of the file"
+        f"{'; ' + hint if hint else ''}; 'uictest evaluate FILE --list' shows its channels"
     )
 
 
@@ -205,7 +205,7 @@ def _remedy(text: str) -> str:
             f"for thousands separators, write csv: {{thousands: {json.dumps(separator)}}} in the channel map"
         )
     if _DECIMAL_COMMA.fullmatch(text.strip()):
-        return 'for decimal commas, write csv: {decimal: ","} in the channel map'
+        return 'for decimal commas, write csv: {decimal: ","} in the channel map, and numbers without quotes'
     if _DATE.match(text.strip()):
         return "write dates as 2026-05-31T12:00:00.000"
     return "name them in `states` of the channel map"

@@ -65,6 +65,8 @@ def _tables(
         for batch in batches:
             columns = {name: _samples(name, batch.column(k), dated) for k, name in enumerate(names)}
             yield Contents((Group("", columns, {**units, **dict.fromkeys(dated, "s")}),))
+    except UnicodeEncodeError as error:
+        raise UnreadableError("the name of the file is not UTF-8, which Arrow needs: rename it") from error
     except UnicodeError as error:
         advice = f"{encoding_advice(dialect.encoding)} in a channel map (--map)"
         raise UnreadableError(f"is not {dialect.encoding} throughout; {advice}") from error
