@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+import math
 import tempfile
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
+from operator import itemgetter
 from pathlib import Path
 from typing import Any, Final
 
@@ -141,7 +143,8 @@ def _is_wanted(channel: str, group: str, wanted: Collection[str] | None) -> bool
 def in_step(streams: Sequence[Blocks], leading: Collection[str]) -> Iterator[Contents]:
     """Yield the blocks of the group with a channel of `leading`, and what the other groups have meanwhile.
 
-    The others begin and end some samples before and after the block where they have them.
+    The others begin and end some samples before and after the block where they have them. A block that lasts
+    longer than one of theirs is divided: beside a slow group a fast one would be held for hours.
 
     Raises UnreadableError where several groups have no times, or times that go back.
     """
@@ -151,23 +154,37 @@ def in_step(streams: Sequence[Blocks], leading: Collection[str]) -> Iterator[Con
         return
     (first, stream), *others = begun
     beside = [_Follower(*other) for other in others]
+    span = min((each.lasts for each in beside), default=math.inf)
     for block in itertools.chain((first,), stream):
-        if beside:
-            times = _rising(block)
-            yield Contents((block, *(each.between(times[0], times[-1]) for each in beside)))
-        else:
-            yield Contents((block,))
+        for part in _parts(block, span):
+            yield Contents((part, *(each.beside(part) for each in beside)))
+
+
+def _parts(block: Group, span: float) -> Iterator[Group]:
+    """Yield the rows of a block that lie within `span` (s) of each other."""
+    if math.isinf(span):
+        yield block
+        return
+    times = _rising(block)
+    begins = np.flatnonzero(np.diff((times - times[0]) // span)) + 1
+    for rows in itertools.pairwise((0, *begins.tolist(), len(times))):
+        yield _changed(block, itemgetter(slice(*rows)))
 
 
 class _Follower:
     """A group of which the part beside each block of the leading group is taken, one after the other."""
 
     def __init__(self, first: Group, following: Blocks) -> None:
-        self._held, self._following = first, following
-        _rising(first)
+        second = next(following, None)
+        self._held, self._following = first, itertools.chain(() if second is None else (second,), following)
+        times = _rising(first)
+        duration = float(times[-1] - times[0])
+        self.lasts = math.inf if second is None or not duration > 0.0 else duration
+        """How long a block is, s; infinite where there is only one."""
 
-    def between(self, begin: float, end: float) -> Group:
-        """Return the samples from `begin` to `end` (s, both rising from call to call), and a few around."""
+    def beside(self, part: Group) -> Group:
+        """Return the samples beside a part of the leading group, and a few around; parts come in order."""
+        begin, end = _rising(part)[[0, -1]]
         while _rising(self._held)[-1] <= end and (block := next(self._following, None)) is not None:
             self._held = _joined(self._held, block)
         times = _rising(self._held)
