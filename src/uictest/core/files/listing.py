@@ -177,13 +177,13 @@ def foreign_paths(place: int, *ours: str) -> Iterator[str]:
     belong to uictest. Raises OSError.
     """
     entries = _entries(place)
+    if entries is None:
+        yield LIST
     own = {*ours, *_folders_of(entries or {}), *([] if entries is None else [LIST])}
     for path, inner, name in _contents(place):
         known = path in own or is_partial(inner, name)
         if not known and not _is_as_written(inner, name, (entries or {}).get(path, "")):
             yield path
-    if entries is None:
-        yield LIST
 
 
 def remove_contents(place: int, *ours: str) -> list[str]:

@@ -17,6 +17,7 @@ from types import TracebackType
 from typing import Final, Self
 
 from uictest.core.files.listing import (
+    LIST,
     begin_list,
     exists,
     foreign_paths,
@@ -152,8 +153,9 @@ def replaced_folder(folder: Path) -> Iterator[Path]:
     """
     folder = folder.resolve()
     with suppress(FileNotFoundError, NotADirectoryError), opened(folder) as place:
-        if names_in(place) and (foreign := next(foreign_paths(place, LOCK), "")):
-            raise ForeignFileError(foreign)
+        foreign = [*foreign_paths(place, LOCK)] if names_in(place) else []
+        if foreign:  # what lies there says more than a missing list
+            raise ForeignFileError(next((each for each in foreign if each != LIST), LIST))
     with RunFolder(folder.parent, folder.name) as new:
         yield new.path
         with suppress(OSError):  # it is missing, or holds something

@@ -28,8 +28,10 @@ _CALM = 2.0 * SHORTEST_RELEASE
 """s after which it is known whether an application begins in a row; chosen."""
 _LONGEST = 3600.0
 """s: an application without standstill that lasts longer is no braking, its signal is stuck; chosen."""
-_GROWTH = 0.25
+_GROWTH = 0.3
 """Share by which the rows that are held grow before they are gone through again; chosen."""
+_FEW = 1000
+"""Rows that are gone through with every piece; chosen."""
 _NO_SIGNAL = "the brake signal is missing"
 
 
@@ -151,7 +153,7 @@ class _Finder:
         """Return the events that are known once these rows are."""
         self._pending = self._pending.followed_by(rows)
         self.rows += len(rows.time)
-        if not self.rows or len(self._pending.time) < _GROWTH * len(self._held.time):
+        if not self.rows or len(self._pending.time) < _GROWTH * (len(self._held.time) - _FEW):
             return []
         course = self._course()
         events = list(self._events(course, all_of_them=False))
