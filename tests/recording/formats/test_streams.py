@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.core.recording import Group
+from uictest.core.recording.formats.file_formats import UnreadableError
 from uictest.core.recording.formats.streams import in_step
 
 FAST = 0.001
@@ -52,5 +53,5 @@ def test_groups_without_times_go_alone_only(count):
     if count == 1:
         assert len(list(in_step(groups, ["speed0"]))) == 1
     else:
-        with pytest.raises(Exception, match="no times of its own"):
+        with pytest.raises(UnreadableError, match="no times of its own"):
             list(in_step(groups, ["speed0"]))
