@@ -102,6 +102,16 @@ def test_the_friction_of_every_slippery_stop_is_that_of_its_rail(tmp_path):
         assert float(row["friction"]) == pytest.approx(truth, rel=0.02)
 
 
+def test_no_friction_is_found_of_a_rail_that_sliding_cleans(sound):
+    """Every second slippery stop of the night: one coefficient says twice the friction of its rail."""
+    slippery = rows(sound, "friction")[3:]
+    assert [row["standing"] for row in slippery] == ["found", "not one"] * 5 + ["found"]
+    for row in slippery[1::2]:
+        assert row["friction"] == ""
+        assert "sliding cleans the rail" in row["remark"]
+    assert all(0.06 < float(row["friction"]) < 0.09 for row in slippery[::2])
+
+
 def test_a_rail_that_is_as_good_has_a_k_wet_of_one_from_whatever_speed(tmp_path):
     stops = [logs.simulated(logs.DRY, speed, k) for k, speed in enumerate((78.0, 78.1, 82.0, 82.1))]
     run = judged(tmp_path, stops, "--dry", "stop-0001 or stop-0002")

@@ -166,7 +166,7 @@ def _outcome_map(uses: Uses, results: Sequence[CaseResult], speeds: dict[str, fl
         "outcomes_over_speed_and_friction",
         "Stops by speed and friction",
         "Friction as fitted to each stop (initial coefficient of the creep law); not seen: no wheelset slid"
-        " long enough.",
+        " long enough, or no single coefficient describes the stop.",
         "map",
         tuple(columns),
         tuple(rows),
@@ -198,7 +198,8 @@ def _friction_table(uses: Uses, speeds: dict[str, float]) -> report.CampaignTabl
     return report.CampaignTable(
         "friction",
         "Friction of the rail, stop by stop",
-        "As `uictest fit` finds it, one coefficient for the whole stop; 95 % confidence for the noise alone.",
+        "As `uictest fit` finds it, one coefficient for the whole stop; 95 % confidence for the noise alone."
+        " Not one: no single coefficient describes the stop.",
         "detail",
         columns,
         tuple(rows),

@@ -142,6 +142,8 @@ class LogSurvey:
             return "the rail is not examined: state vehicle and brake with --scenario"
         found = [use.friction for use in self._uses if use.standing == "found"]
         seen = f"friction found in {len(found)} of {report.counted(len(self._uses), 'stop')}"
+        if several := sum(use.standing == "not one" for use in self._uses):
+            seen += f", no single one in {several}"
         if found:
             return f"{seen}: {min(found):.3f} to {max(found):.3f}"
         return f"{seen}: {'; '.join(dict.fromkeys(use.remark for use in self._uses))}"
