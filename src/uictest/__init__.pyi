@@ -2,6 +2,7 @@ from .api import (
     Results as Results,
     Rig as Rig,
     SweepResults as SweepResults,
+    TrainRig as TrainRig,
     Validation as Validation,
     evaluate as evaluate,
     load as load,

@@ -30,7 +30,7 @@ class Rig:
             noise_key="00c0ffee",
         )
 
-    def evaluate(self, case, measures, wheelsets, duration, detail, response_times):
+    def evaluate(self, case, measures, wheelsets, duration, *, detail, response_times, couplers):
         return CaseResult(case.id, "a.yaml", {}, case.scenario.expect, self.outcome, duration=duration)
 
 

@@ -9,3 +9,4 @@ from .results import Results as Results
 from .running import run as run
 from .stepping import Rig as Rig, RigState as RigState
 from .sweeping import SweepResults as SweepResults, sweep as sweep
+from .train_stepping import TrainRig as TrainRig

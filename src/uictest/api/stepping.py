@@ -1,4 +1,4 @@
-"""The rig as a Python object: reset it, step it, look at its true state."""
+"""The rig of a car alone as a Python object: reset it, step it, look at its true state."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, Generic, TypeVar
 
 from uictest.controllers import (
     CONTRACTS,
@@ -20,7 +20,7 @@ from uictest.controllers import (
 from uictest.core.recording import Recording
 from uictest.judging import evaluation
 from uictest.plans import library, scenario
-from uictest.rig import SteppedStop, assemble, bench, noise_key_text, recording_of_stop
+from uictest.rig import SteppedStop, SteppedTrain, assemble, bench, noise_key_text, recording_of_stop
 
 FourValues = tuple[float, float, float, float]
 
@@ -54,9 +54,9 @@ class RigState:
     reservoir_pressure: float
 
 
-def state_of(memory: Any) -> RigState:
-    """Return the present state from a record of :data:`uictest.rig.STOP_MEMORY`."""
-    train, modules = memory["train"][0], memory["modules"][0]
+def state_of(memory: Any, car: int = 0) -> RigState:
+    """Return the present state of a car from the memory of a stop, or of that of a train."""
+    train, modules = memory["train"][car], memory["modules"][car]
     return RigState(
         time=float(train["time"]),
         distance=float(train["distance"]),
@@ -81,7 +81,70 @@ _NOT_ENERGISED: Final = (0, 0, 0, 0)
 _LARGEST_SEED: Final = 2**32 - 1
 
 
-class Rig:
+_Stop = TypeVar("_Stop", SteppedStop, SteppedTrain)
+
+
+class SteppedRig(Generic[_Stop]):
+    """What the rig of a car and that of a train have in common."""
+
+    def __init__(self, record: float | None, contract: int) -> None:
+        """Check the arguments of a rig; :class:`Rig` explains them. Raises ValueError."""
+        if contract not in CONTRACTS:
+            raise ValueError(f"contract is {contract!r}, expected {' or '.join(map(str, CONTRACTS))}")
+        if record is not None and not 0.0 < record < math.inf:
+            raise ValueError(f"record is {record!r}, expected samples per second or None")
+        self._record = record
+        self._contract = contract
+        self._stop: _Stop | None = None
+
+    @property
+    def stopped(self) -> bool:
+        """Whether the stop has ended: the train stands, or the scenario's longest duration has passed."""
+        return self._begun().has_ended
+
+    @property
+    def stands(self) -> bool:
+        """Whether the train stands."""
+        return self._begun().stands
+
+    def _begin(self, parameters: Any, seed: int | None) -> int:
+        """Set what holds for a stop in the parameters of a car or more; return its steps per sample."""
+        parameters["controller_contract"] = self._contract
+        if seed is not None:
+            parameters["seed"] = _checked_seed(seed)
+        step = float(parameters["step"].flat[0])
+        return 0 if self._record is None else max(round(1.0 / (self._record * step)), 1)
+
+    def _begun(self) -> _Stop:
+        if self._stop is None:
+            raise RuntimeError("no stop has begun: call reset() first")
+        return self._stop
+
+    def _running(self) -> _Stop:
+        stop = self._begun()
+        if stop.has_ended:
+            raise RuntimeError(f"the stop has ended after {stop.time:g} s: call reset()")
+        return stop
+
+    def _ended(self) -> _Stop:
+        stop = self._begun()
+        if not stop.has_ended:
+            raise RuntimeError(f"the stop has not ended after {stop.time:g} s: call step()")
+        return stop
+
+    def _recorded(self) -> _Stop:
+        if self._record is None:
+            raise RuntimeError("nothing was recorded: create the rig with record=100 (samples per second)")
+        return self._ended()
+
+
+def loaded(path: str | Path, trust: Iterable[str | Path]) -> list[scenario.Case]:
+    """Return the cases of a scenario file, or of one that ships."""
+    place = library.named_scenario(Path(path))
+    return scenario.load([place], trusted=[Path(folder) for folder in trust])
+
+
+class Rig(SteppedRig[SteppedStop]):
     """The rig of one case, stepped from outside, one controller cycle at a time.
 
         rig = uictest.Rig("slip.yaml")
@@ -118,18 +181,10 @@ class Rig:
             ValueError: no such case, several and none is named, or one that is a car of a train; `record` is
                 not positive, or there is no such contract.
         """
-        if contract not in CONTRACTS:
-            raise ValueError(f"contract is {contract!r}, expected {' or '.join(map(str, CONTRACTS))}")
-        if record is not None and not 0.0 < record < math.inf:
-            raise ValueError(f"record is {record!r}, expected samples per second or None")
-        place = library.named_scenario(Path(path))
-        cases = scenario.load([place], trusted=[Path(folder) for folder in trust])
-        self.case = bench.identified(scenario.chosen_case(cases, case))
+        super().__init__(record, contract)
+        self.case = bench.identified(scenario.chosen_case(loaded(path, trust), case))
         if (train := self.case.train) is not None:
-            raise ValueError(f"{self.case.id} is {train.label}: a rig that is stepped is a car alone")
-        self._record = record
-        self._contract = contract
-        self._stop: SteppedStop | None = None
+            raise ValueError(f"{self.case.id} is {train.label}: step its train with uictest.TrainRig")
         self._noise_key = ""
 
     @property
@@ -148,12 +203,7 @@ class Rig:
         """
         inputs = assemble(self.case)
         self._noise_key = noise_key_text(inputs.parameters)
-        inputs.parameters["controller_contract"] = self._contract
-        if seed is not None:
-            inputs.parameters["seed"] = _checked_seed(seed)
-        step = float(inputs.parameters["step"])
-        steps_per_sample = 0 if self._record is None else max(round(1.0 / (self._record * step)), 1)
-        self._stop = SteppedStop(inputs, steps_per_sample)
+        self._stop = SteppedStop(inputs, self._begin(inputs.parameters, seed))
         return read_inputs(self._stop.inputs)
 
     def step(
@@ -187,20 +237,11 @@ class Rig:
         """
         stop = self._running()
         requested = dynamic_reduction, sand_request, track_brake_request
-        _write(stop, outputs or Outputs(hold, vent, reference_speed, diagnosis, *requested), self._contract)
+        outputs = outputs or Outputs(hold, vent, reference_speed, diagnosis, *requested)
+        write_commands(stop.outputs, outputs, self._contract)
         stop.step()
-        _reject_failure(stop)
+        reject_failure(stop.exchange)
         return read_inputs(stop.inputs)
-
-    @property
-    def stopped(self) -> bool:
-        """Whether the stop has ended: the train stands, or the scenario's longest duration has passed."""
-        return self._begun().has_ended
-
-    @property
-    def stands(self) -> bool:
-        """Whether the train stands."""
-        return self._begun().stands
 
     @property
     def state(self) -> RigState:
@@ -215,27 +256,8 @@ class Rig:
 
     def recording(self) -> Recording:
         """Return the recording of the stop; RuntimeError before its end or without `record`."""
-        if self._record is None:
-            raise RuntimeError("nothing was recorded: create the rig with record=100 (samples per second)")
-        finished = replace(self._ended().finished(), contract=self._contract)
+        finished = replace(self._recorded().finished(), contract=self._contract)
         return recording_of_stop(self.case, finished, from_outside=True)
-
-    def _begun(self) -> SteppedStop:
-        if self._stop is None:
-            raise RuntimeError("no stop has begun: call reset() first")
-        return self._stop
-
-    def _running(self) -> SteppedStop:
-        stop = self._begun()
-        if stop.has_ended:
-            raise RuntimeError(f"the stop has ended after {stop.inputs['time']:g} s: call reset()")
-        return stop
-
-    def _ended(self) -> SteppedStop:
-        stop = self._begun()
-        if not stop.has_ended:
-            raise RuntimeError(f"the stop has not ended after {stop.inputs['time']:g} s: call step()")
-        return stop
 
 
 def _checked_seed(seed: int) -> int:
@@ -244,19 +266,20 @@ def _checked_seed(seed: int) -> int:
     return int(seed)
 
 
-def _write(stop: SteppedStop, outputs: Outputs, contract: int) -> None:
+def write_commands(record: Any, outputs: Outputs, contract: int) -> None:
+    """Write commands into the exchange; ValueError where they are none."""
     try:
-        write_outputs(stop.outputs, outputs, contract)
+        write_outputs(record, outputs, contract)
     except ControllerError as error:
         raise ValueError(str(error)) from None
 
 
-def _reject_failure(stop: SteppedStop) -> None:
-    """Raise ValueError where machine code has refused the commands: what `_write` lets pass."""
-    if failure := stop.exchange["failure"]:
-        place = int(stop.exchange["failed_wheelset"])
+def reject_failure(exchange: Any) -> None:
+    """Raise ValueError where machine code has refused commands: what :func:`write_commands` lets pass."""
+    if failure := exchange["failure"]:
+        place = int(exchange["failed_wheelset"])
         if failure == NO_REDUCTION:
-            found = stop.exchange["dynamic_reduction"][place]
+            found = exchange["dynamic_reduction"][place]
             raise ValueError(f"dynamic_reduction[{place}] is {found}, expected 0 to 1")
         raise ValueError(
             f"vent[{place}] is 1 and hold[{place}] is 0, which is forbidden: both are 1 in order to vent"

@@ -24,6 +24,7 @@ from .backends.stepped import (
     SteppedStop as SteppedStop,
     stepping_code as stepping_code,
 )
+from .backends.stepped_train import SteppedTrain as SteppedTrain
 from .backends.train_lanes import (
     TrainMeasures as TrainMeasures,
     load_train_lanes as load_train_lanes,
@@ -34,6 +35,7 @@ from .backends.trains import compiled_train as compiled_train
 from .coupled_cars import (
     CouplerPeaks as CouplerPeaks,
     TrainStop as TrainStop,
+    peaks_beside as peaks_beside,
     run_coupled as run_coupled,
 )
 from .derived_parameters import Assignment as Assignment

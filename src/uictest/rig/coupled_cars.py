@@ -1,6 +1,7 @@
 """A stop of several coupled cars: each car a case of its own, all on one rail."""
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +15,7 @@ from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.single_stop import FinishedStop, rows_of_trace
 from uictest.rig.train_inputs import Coupling, assemble_train
-from uictest.rig.train_measures import note_track_brakes_beside
+from uictest.rig.train_measures import finished_cars
 
 
 class CouplerPeaks(NamedTuple):
@@ -24,9 +25,14 @@ class CouplerPeaks(NamedTuple):
     push: float
 
 
-def coupler_peaks(coupler: np.void) -> CouplerPeaks:
-    """Return those of a record of :data:`~uictest.rig.model.couplers.COUPLER`."""
-    return CouplerPeaks(float(coupler["largest_pull"]), float(coupler["largest_push"]))
+def peaks_beside(couplers: NDArray[Any]) -> list[tuple[CouplerPeaks | None, CouplerPeaks | None]]:
+    """Return those of the couplers ahead of and behind each car, None where there is none.
+
+    Args:
+        couplers: records of :data:`~uictest.rig.model.couplers.COUPLER`, from the leading one.
+    """
+    peaks = [CouplerPeaks(float(each["largest_pull"]), float(each["largest_push"])) for each in couplers]
+    return list(pairwise([None, *peaks, None]))
 
 
 class TrainStop(NamedTuple):
@@ -70,15 +76,6 @@ def run_coupled(
         *(*records, parameters, of_wheelsets.reshape(-1), distances, couplers, rail),
         *(np.zeros(n, RAIL_MEMORY), measures, of_each, samples, wheelset_samples, steps_per_sample),
     )
-    note_track_brakes_beside(measures)
-    finished = tuple(
-        FinishedStop(
-            measures[j],
-            of_each[4 * j : 4 * j + 4].view(np.recarray),
-            records[0][j],
-            records[2][4 * j : 4 * j + 4].view(np.recarray),
-            Trace(samples[j, :rows], wheelset_samples[j, :rows]),
-        )
-        for j in range(n)
-    )
+    trace = Trace(samples[:, :rows], wheelset_samples[:, :rows])
+    finished = finished_cars(measures, of_each, records[0], records[2], trace)
     return TrainStop(finished, couplers, parameters)

@@ -14,7 +14,7 @@ from uictest.plans.scenario import Case
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.backends.trains import compiled_train
-from uictest.rig.coupled_cars import CouplerPeaks, coupler_peaks, run_coupled
+from uictest.rig.coupled_cars import CouplerPeaks, peaks_beside, run_coupled
 from uictest.rig.external.workers import RunInputs, Workers
 from uictest.rig.model.trace import (
     ACCELERATION_CHANNELS,
@@ -171,14 +171,14 @@ def _stops_of_train(
     recording: Callable[[Case, int], Recording | None] = lambda case, place: None,
 ) -> list[SimulatedStop]:
     """Return the stops of some cars: of all there are measures, of couplers and cars the records."""
-    peaks = [None, *map(coupler_peaks, couplers), None]
+    peaks = peaks_beside(couplers)
     return [
         SimulatedStop(
             *measures[place],
             recording(case, place),
             noise_key=noise_key_text(parameters[place]),
-            coupler_ahead=peaks[place],
-            coupler_behind=peaks[place + 1],
+            coupler_ahead=peaks[place][0],
+            coupler_behind=peaks[place][1],
         )
         for case, place in ((case, _place(case)) for case in cases)
     ]

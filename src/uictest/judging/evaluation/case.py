@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Iterator, Mapping
+from dataclasses import replace
 from typing import Final
 
 from uictest.controllers import ResponseTimes
@@ -17,7 +18,7 @@ from uictest.core.measures import (
     wheelset_column_values,
 )
 from uictest.judging.evaluation.bounds import Coverage
-from uictest.judging.evaluation.car_in_train import place_in_train
+from uictest.judging.evaluation.car_in_train import CouplerForces, place_in_train
 from uictest.judging.evaluation.judgement import Detail, judge
 from uictest.judging.evaluation.result import CaseResult, outcome_of
 from uictest.judging.evaluation.rig_reasons import missed_deadlines
@@ -126,15 +127,25 @@ def evaluate_simulated(
     *,
     detail: Detail = "full",
     response_times: ResponseTimes | None = None,
+    couplers: tuple[tuple[float, float] | None, tuple[float, float] | None] = (None, None),
 ) -> CaseResult:
     """Return the judged result of a simulated case, outcome `error` where a measure is not finite.
 
-    Arguments as for :func:`evaluate`.
+    Arguments as for :func:`evaluate`, and
+
+    Args:
+        couplers: largest pull and push of the coupler ahead of a car in a train, and of that behind it, N.
     """
-    not_finite = list(_not_finite(measures, wheelset_measures))
-    if not_finite:
-        return error_result(case, _why_not_finite(measures, not_finite), duration)
-    return evaluate(case, measures, wheelset_measures, duration, detail=detail, response_times=response_times)
+    if not_finite := list(_not_finite(measures, wheelset_measures)):
+        result = error_result(case, _why_not_finite(measures, not_finite), duration)
+    else:
+        result = evaluate(
+            case, measures, wheelset_measures, duration, detail=detail, response_times=response_times
+        )
+    if result.train is None:
+        return result
+    ahead, behind = (None if each is None else CouplerForces(*each) for each in couplers)
+    return replace(result, train=replace(result.train, ahead=ahead, behind=behind))
 
 
 def error_result(case: scenario.Case, reason: str, duration: float = 0.0) -> CaseResult:

@@ -4,7 +4,12 @@ from .applicability import (
     test_conditions_of as test_conditions_of,
     unmet_conditions as unmet_conditions,
 )
-from .case import Case as Case, TrainPlace as TrainPlace
+from .case import (
+    Case as Case,
+    TrainPlace as TrainPlace,
+    chosen_case as chosen_case,
+    chosen_train as chosen_train,
+)
 from .compensation_fit import (
     FIT_KEYS as FIT_KEYS,
     RIG_SOURCE as RIG_SOURCE,
@@ -46,7 +51,6 @@ from .json_schema import (
 )
 from .loading import (
     LoadedCase as LoadedCase,
-    chosen_case as chosen_case,
     load as load,
     load_file as load_file,
     load_with_trees as load_with_trees,

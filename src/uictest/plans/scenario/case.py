@@ -1,10 +1,14 @@
 """The case: one stop of a car on the rig, alone or coupled to others."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from uictest.plans.scenario.model import Scenario
+from uictest.plans.scenario.yaml import suggestion
+
+_Named = TypeVar("_Named")
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,3 +63,26 @@ class Case:
         scenarios = list(self.train.scenarios)
         scenarios[self.train.number - 1] = self.scenario
         return tuple(replace(self, scenario=each, train=None) for each in scenarios)
+
+
+def chosen_case(cases: Sequence[Case], case_id: str | None) -> Case:
+    """Return the case of an id, or the only one. Raises ValueError."""
+    return _chosen({case.id: case for case in cases}, case_id, "case")
+
+
+def chosen_train(cases: Sequence[Case], train_id: str | None) -> tuple[Case, ...]:
+    """Return the cars of the train of an id, or of the only one; a car alone is one. Raises ValueError."""
+    trains: dict[str, list[Case]] = {}
+    for case in cases:
+        trains.setdefault(case.id if case.train is None else case.train.train, []).append(case)
+    return tuple(_chosen(trains, train_id, "train"))
+
+
+def _chosen(named: Mapping[str, _Named], name: str | None, kind: str) -> _Named:
+    if name is None:
+        if len(named) != 1:
+            raise ValueError(f"the scenario has {len(named)} {kind}s: pass case= one of {', '.join(named)}")
+        return next(iter(named.values()))
+    if name not in named:
+        raise ValueError(f"no {kind} {name!r}; {suggestion(name, named)}")
+    return named[name]

@@ -44,7 +44,6 @@ from uictest.plans.scenario.yaml import (
     quoted,
     require_schema,
     single_error,
-    suggestion,
     whole_file,
 )
 
@@ -277,15 +276,3 @@ def _duplicate_id(identifier: str, variant: Variant, first: Variant) -> Scenario
     if key == CONTROLLER:
         hint += "; or give each a `name` or a `version` of its own"
     return single_error(setting.value.node.place, message, key, hint)
-
-
-def chosen_case(cases: Sequence[Case], case_id: str | None) -> Case:
-    """Return the case of an id, or the only one. Raises ValueError."""
-    ids = [case.id for case in cases]
-    if case_id is None:
-        if len(cases) != 1:
-            raise ValueError(f"the scenario has {len(cases)} cases: pass case= one of {', '.join(ids)}")
-        return cases[0]
-    if case_id not in ids:
-        raise ValueError(f"no case {case_id!r}; {suggestion(case_id, ids)}")
-    return cases[ids.index(case_id)]

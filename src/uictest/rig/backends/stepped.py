@@ -7,6 +7,7 @@ from functools import cache
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from uictest.controllers import EXCHANGE, INPUTS, OUTPUTS, OUTPUTS_AT
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
@@ -67,19 +68,22 @@ class SteppedStop:
         memory["parameters"] = inputs.parameters
         self.memory: Any = memory[0]
         self.exchange: Any = self.memory["exchange"]
-        place = STOP_MEMORY.fields["exchange"][1]
-        self.inputs: Any = np.frombuffer(memory, INPUTS, 1, place)[0]
-        self.outputs: Any = np.frombuffer(memory, OUTPUTS, 1, place + OUTPUTS_AT)[0]
+        (self.inputs,), (self.outputs,) = within_exchanges(memory, 1)
         self._trace = empty_trace(rows_of_trace(inputs.parameters, steps_per_sample))
         self._arguments = (
-            *_addresses_within(self.memory),
-            *(address(inputs.wheelset_parameters, WHEELSET_PARAMETERS, (4,)), *_rail(inputs.rail)),
+            *addresses_within(self.memory),
+            *(address(inputs.wheelset_parameters, WHEELSET_PARAMETERS, (4,)), *of_rail(inputs.rail)),
             *(*_of_trace(self._trace), steps_per_sample),
         )
         self._kept = inputs  # the machine code reads them by their addresses
         self._step = _native_step()
         self._rows = 0
         self.step()
+
+    @property
+    def time(self) -> float:
+        """Of the coming cycle, s."""
+        return float(self.inputs["time"])
 
     @property
     def stands(self) -> bool:
@@ -116,12 +120,24 @@ def _native_step() -> Any:
     return native_function(SCALAR, STEP, len(STEP_ARGUMENTS))
 
 
-def _addresses_within(memory: Any) -> tuple[int, ...]:
+def within_exchanges(memory: NDArray[Any], cars: int) -> tuple[list[Any], list[Any]]:
+    """Return the records of inputs, and those of outputs, within the part `exchange` of a record."""
+    first = memory.dtype.fields["exchange"][1]  # type: ignore[index]
+    places = [first + EXCHANGE.itemsize * car for car in range(cars)]
+    return (
+        [np.frombuffer(memory, INPUTS, 1, place)[0] for place in places],
+        [np.frombuffer(memory, OUTPUTS, 1, place + OUTPUTS_AT)[0] for place in places],
+    )
+
+
+def addresses_within(memory: Any) -> tuple[int, ...]:
+    """Return the addresses of the parts of a record, in their order."""
     start = int(memory.__array_interface__["data"][0])
-    return tuple(start + STOP_MEMORY.fields[name][1] for name in STOP_MEMORY.names)
+    return tuple(start + memory.dtype.fields[name][1] for name in memory.dtype.names)
 
 
-def _rail(rail: Any) -> tuple[int, int]:
+def of_rail(rail: NDArray[np.float64]) -> tuple[int, int]:
+    """Return the address of a rail and its number of points."""
     return address(rail, np.dtype("f8"), (ROWS, rail.shape[1])), rail.shape[1]
 
 

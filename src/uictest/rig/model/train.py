@@ -7,8 +7,9 @@ are the couplers and the rail, which keeps what the wheelsets of all cars before
 from collections.abc import Sequence
 from typing import Any
 
+from uictest.controllers import NO_FAILURE
 from uictest.core.measures import StopMeasures, WheelsetMeasures
-from uictest.rig.model.controller import decide
+from uictest.rig.model.controller import FROM_OUTSIDE, decide, read_outputs, write_inputs
 from uictest.rig.model.couplers import Coupler, account_for_coupler, pull_cars, release_couplers
 from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.parameters import Parameters
@@ -58,19 +59,10 @@ def run_train(
         wheelset_samples: likewise, shape (n, rows, 4).
         steps_per_sample: base steps from one sample to the next; 0: none.
     """
-    for j in range(len(cars)):
-        begin_stop(
-            cars[j],
-            bogies[2 * j : 2 * j + 2],
-            wheelsets[4 * j : 4 * j + 4],
-            parameters[j],
-            wheelset_parameters[4 * j : 4 * j + 4],
-            memories[j],
-            measures[j],
-            wheelset_measures[4 * j : 4 * j + 4],
-        )
-        for i in range(4):
-            wheelsets[4 * j + i].behind += distances[j]
+    begin_train(
+        *(cars, bogies, wheelsets, parameters, wheelset_parameters, distances),
+        *(memories, measures, wheelset_measures),
+    )
     rows = 0
     running = len(cars)
     while running > 0:
@@ -85,6 +77,95 @@ def run_train(
         )
         running = _observe(cars, bogies, wheelsets, parameters, measures, wheelset_measures)
     return rows
+
+
+def step_train(
+    cars: Sequence[Car],
+    bogies: Sequence[Bogie],
+    wheelsets: Sequence[Wheelset],
+    parameters: Sequence[Parameters],
+    wheelset_parameters: Sequence[WheelsetParameters],
+    distances: Sequence[float],
+    couplers: Sequence[Coupler],
+    rail: Any,
+    memories: Sequence[RailMemory],
+    measures: Sequence[StopMeasures],
+    wheelset_measures: Sequence[WheelsetMeasures],
+    exchanges: Any,
+    present: Trace,
+    train_samples: Any,
+    wheelset_samples: Any,
+    steps_per_sample: int,
+    rows: int,
+) -> int:
+    """Carry out the commands in the exchanges for one cycle; on zeroed records, begin the stop instead.
+
+    The arguments of :func:`run_train`, with an exchange for each car and, as traces of one row, the true
+    state. What :func:`uictest.rig.model.stop.step_stop` says holds for all cars: while a command of one is
+    refused, none moves. A car is asked for commands until all cars have ended.
+    """
+    if exchanges[0].cycles == 0:
+        for j in range(len(cars)):
+            parameters[j].controller = FROM_OUTSIDE
+        begin_train(
+            *(cars, bogies, wheelsets, parameters, wheelset_parameters, distances),
+            *(memories, measures, wheelset_measures),
+        )
+    else:
+        if not _read_commands(cars, wheelsets, parameters, exchanges):
+            return rows
+        for j in range(len(cars)):
+            act(cars[j], wheelsets[4 * j : 4 * j + 4], parameters[j], measures[j])
+        rows = _step_cycle(
+            *(cars, bogies, wheelsets, parameters, couplers),
+            *(train_samples, wheelset_samples, steps_per_sample, rows),
+        )
+        _observe(cars, bogies, wheelsets, parameters, measures, wheelset_measures)
+    for j in range(len(cars)):
+        _begin_cycle(j, cars, wheelsets, parameters, wheelset_parameters, rail, memories)
+        write_inputs(exchanges[j], cars[j], wheelsets[4 * j : 4 * j + 4], parameters[j])
+        exchanges[j].cycles += 1
+    _sample(cars, wheelsets, parameters, present.train, present.wheelsets, 0)
+    return rows
+
+
+def _read_commands(
+    cars: Sequence[Car], wheelsets: Sequence[Wheelset], parameters: Sequence[Parameters], exchanges: Any
+) -> bool:
+    """Set what is commanded of every car; return whether all of it can be carried out."""
+    sound = True
+    for j in range(len(cars)):
+        exchanges[j].failure = NO_FAILURE
+        read_outputs(exchanges[j], cars[j], wheelsets[4 * j : 4 * j + 4], parameters[j])
+        sound = sound and exchanges[j].failure == NO_FAILURE
+    return sound
+
+
+def begin_train(
+    cars: Sequence[Car],
+    bogies: Sequence[Bogie],
+    wheelsets: Sequence[Wheelset],
+    parameters: Sequence[Parameters],
+    wheelset_parameters: Sequence[WheelsetParameters],
+    distances: Sequence[float],
+    memories: Sequence[RailMemory],
+    measures: Sequence[StopMeasures],
+    wheelset_measures: Sequence[WheelsetMeasures],
+) -> None:
+    """Set zeroed records to the instant of the brake command."""
+    for j in range(len(cars)):
+        begin_stop(
+            cars[j],
+            bogies[2 * j : 2 * j + 2],
+            wheelsets[4 * j : 4 * j + 4],
+            parameters[j],
+            wheelset_parameters[4 * j : 4 * j + 4],
+            memories[j],
+            measures[j],
+            wheelset_measures[4 * j : 4 * j + 4],
+        )
+        for i in range(4):
+            wheelsets[4 * j + i].behind += distances[j]
 
 
 def _begin_cycle(

@@ -172,16 +172,14 @@ def _judged(
         *(case, simulated.measures, simulated.wheelset_measures, seconds),
         detail="status" if stop.is_repeated else "full",
         response_times=simulated.response_times,
+        couplers=(simulated.coupler_ahead, simulated.coupler_behind),
     )
-    peaks = simulated.coupler_ahead, simulated.coupler_behind
-    ahead, behind = (None if each is None else evaluation.CouplerForces(*each) for each in peaks)
     return replace(
         result,
         controller_version=simulated.controller_version,
         controller_contract=simulated.controller_contract,
         case_sha256=simulated.case_sha256,
         noise_key=simulated.noise_key,
-        train=None if result.train is None else replace(result.train, ahead=ahead, behind=behind),
     )
 
 
