@@ -61,17 +61,17 @@ def test_a_sweep_loads_no_pandas_and_arrow_still_takes_its_objects(scenario):
     program = """if True:
         import sys
         from uictest.cli.entry import execute
-        execute(["sweep", sys.argv[1], "-q"])
+        code = execute(["sweep", sys.argv[1], "-q"])
         loaded = "pandas" in sys.modules
         import pandas
         import pyarrow
         table = pyarrow.Table.from_pandas(pandas.DataFrame({"a": pandas.Series([1.0, float("nan")])}))
-        print(loaded, table.column("a").null_count, table.to_pandas()["a"].isna().sum())
+        print(code, loaded, table.column("a").null_count, table.to_pandas()["a"].isna().sum())
     """
     command = [sys.executable, "-c", program, str(path)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=HANGING)
     assert done.returncode == 0, done.stderr
-    assert done.stdout.splitlines()[-1] == "False 1 1"
+    assert done.stdout.splitlines()[-1] == "0 False 1 1"
 
 
 def test_the_child_of_a_controller_imports_nothing_of_scenarios():

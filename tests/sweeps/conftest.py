@@ -12,6 +12,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from uictest import rig
+from uictest.analysis.summaries import summarized
 from uictest.controllers import HEADER
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.plans.sweeps import load_sweep
@@ -67,6 +68,12 @@ def stored(selection, runner, folder):
     for number in range(selection.chunks):
         store.write(number, runner.run(selection.chunk(number)))
     return store
+
+
+def result_of(selection, store, pair=None):
+    """The result of a sweep all of whose chunks are in the store; its tables lie there, too."""
+    with summarized(selection, store, pair, ["braking_distance_m"]) as summary:
+        return summary.result().result
 
 
 def formula(parameters, wheelset_parameters, rail):

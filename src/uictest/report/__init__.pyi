@@ -106,6 +106,7 @@ from .sweep.folder import (
 )
 from .sweep.formats import (
     append_sweep_step_summary as append_sweep_step_summary,
+    load_sweep_formats as load_sweep_formats,
     sweep_format_names as sweep_format_names,
     write_sweep_formats as write_sweep_formats,
 )

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 from uictest import controllers, report, rig
 from uictest.analysis import summaries
@@ -56,8 +58,10 @@ def run_sweep(request: SweepRequest, observer: Observer) -> FinishedSweep | None
         prepared = request if request.in_process else replace(request, run_block=workers.run_block)
         try:
             store = ChunkStore(request.folder)
-            run_missing_chunks(prepared, store, observer)
-            return None if request.shard.count > 1 else publish(prepared, store, observer)
+            if request.shard.count > 1:
+                run_missing_chunks(prepared, store, observer)
+                return None
+            return publish(prepared, store, summarized_chunks(prepared, store, observer), observer)
         except KeyboardInterrupt:
             controllers.interrupt_turns()
             raise
@@ -80,39 +84,63 @@ def _locked(folder: Path, *, shared: bool) -> files.FolderLock:
         ) from error
 
 
-def publish(request: SweepRequest, store: ChunkStore, observer: Observer) -> FinishedSweep:
-    """Write the result of a finished sweep and its reports. Raises OSError, and MissingChunksError."""
-    files.begin_list(store.folder)
-    summary = summaries.summarize(
-        request.selection, store, request.pair, request.measures, request.reference, csv=request.writes_csv
-    )
+def summarized_chunks(request: SweepRequest, store: ChunkStore, observer: Observer) -> summaries.SweepSummary:
+    """Run the chunks that are not finished; return what all come to, summarised while others run.
+
+    Raises what :func:`run_missing_chunks` does.
+    """
+    options = request.pair, request.measures, request.reference
+    with summaries.summarized(request.selection, store, *options, csv=request.writes_csv) as summary:
+        run_missing_chunks(
+            *(request, store, observer),
+            summary.add_up_to,
+            partial(report.load_sweep_formats, request.reports),
+        )
+        files.begin_list(store.folder)
+        return summary.result()
+
+
+def publish(
+    request: SweepRequest, store: ChunkStore, summary: summaries.SweepSummary, observer: Observer
+) -> FinishedSweep:
+    """Write the result of a summarised sweep and its reports. Raises OSError."""
     frontier = None if request.search is None else _frontier(request, summary, request.search, observer)
-    worst, subjects = _run_worst(request, summary, store.folder)
-    result = replace(summary.result, frontier=frontier, worst=worst, subjects=subjects)
+    worst = _run_worst(request, summary, store.folder)
+    result = replace(summary.result, frontier=frontier, worst=worst.results, subjects=worst.subjects)
     result = with_nominal_stops(request, result)
     if request.firm:
         result = replace(result, nominal=_nominal_with_firmness(request, observer))
     document = report.write_sweep_result(store.folder, result, request.selection.plan.file)
     # Read back, so that what is shown now is what `uictest report` shows of the folder later.
-    content = report.read_sweep(store.folder, traces=report.draws_stops(request.reports))
+    content = replace(report.read_sweep(store.folder), traces=worst.traces)
     report.write_sweep_formats(store.folder, content, request.reports)
     store.remove_partial_files()
     return FinishedSweep(result, document, content)
 
 
-def _run_worst(
-    request: SweepRequest, summary: summaries.SweepSummary, folder: Path
-) -> tuple[tuple[evaluation.CaseResult, ...], Mapping[str, report.CaseDescription]]:
+class _WorstCases(NamedTuple):
+    """The worst cases of a sweep: their results; their descriptions, and what is drawn of them, by id."""
+
+    results: tuple[evaluation.CaseResult, ...]
+    subjects: Mapping[str, report.CaseDescription]
+    traces: Mapping[str, report.PlotTrace]
+
+
+def _run_worst(request: SweepRequest, summary: summaries.SweepSummary, folder: Path) -> _WorstCases:
     """Run the worst cases again as their rows were, with explanations, and write their recordings.
 
-    Return their results, and their descriptions by id. Raises OSError, and KeyboardInterrupt if interrupted.
+    What is drawn of them is taken while others run. Raises OSError, and KeyboardInterrupt if interrupted.
     """
     cases = summaries.full_cases(request.selection.plan, summary.worst_indices, summary.surveyed)
     files.remove_listed(folder, f"{report.RECORDINGS}/*")
+    traces: dict[str, report.PlotTrace] = {}
 
     def write_recording(case_run: campaign.CaseRun) -> None:
-        if case_run.recording is not None:
-            report.write_recording(folder, case_run.result.id, case_run.recording)
+        result, samples = case_run.result, case_run.recording
+        if samples is not None:
+            report.write_recording(folder, result.id, samples)
+            if report.draws_stops(request.reports):
+                traces[result.id] = report.trace_of_stop(samples, result)
 
     recording = campaign.RecordingRequest("all")
     recording = recording._replace(every=min(recording.every, campaign.shortest_cycle(cases)))
@@ -120,7 +148,7 @@ def _run_worst(
     if request.reference is not None:
         settings = replace(settings, domains=request.reference.domains_of(settings.parts))
     results = campaign.run_cases(cases, settings, on_case=write_recording).whole()
-    return tuple(results), campaign.descriptions_of(cases)
+    return _WorstCases(tuple(results), campaign.descriptions_of(cases), traces)
 
 
 def _frontier(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -64,8 +64,17 @@ class MaxfailReached(Exception):  # noqa: N818 - nothing went wrong with the pro
     """`maxfail` cases missed their expectation; the message gives their number and the first."""
 
 
-def run_missing_chunks(request: SweepRequest, store: ChunkStore, observer: Observer) -> None:
+def run_missing_chunks(
+    request: SweepRequest,
+    store: ChunkStore,
+    observer: Observer,
+    on_finished: Callable[[int], None] = lambda end: None,
+    meanwhile: Callable[[], None] = lambda: None,
+) -> None:
     """Run the chunks of the run's shard that are not finished, and write them to the store.
+
+    While others run, `on_finished` is told the number before which all chunks are finished, and `meanwhile`
+    is called once.
 
     Finished chunks are kept whatever is raised: InvalidInputError where the folder holds the chunks of other
     inputs, OSError where it cannot be written, KeyboardInterrupt, MaxfailReached.
@@ -79,15 +88,17 @@ def run_missing_chunks(request: SweepRequest, store: ChunkStore, observer: Obser
     cases, missing_cases = (_cases_in(request, numbers) for numbers in (own_chunks, missing_chunks))
     observer.found(cases, missing_cases)
     with observer.simulating(cases, cases - missing_cases) as advance:
-        failures = _Failures(request.maxfail)
+        failures, unfinished = _Failures(request.maxfail), dict.fromkeys(missing_chunks)
 
         def write_chunk(number: int, content: bytes) -> None:
             store.write(number, content)
+            del unfinished[number]
             advance(request.selection.chunk(number).size)
             failures.add(content)
+            on_finished(next(iter(unfinished), request.selection.chunks))
 
         if missing_chunks:
-            _run_chunks(request, missing_chunks, write_chunk, observer)
+            _run_chunks(request, missing_chunks, write_chunk, observer, meanwhile)
 
 
 def _cases_in(request: SweepRequest, numbers: Sequence[int]) -> int:
@@ -114,12 +125,16 @@ def _open_store(request: SweepRequest, store: ChunkStore, observer: Observer) ->
 
 
 def _run_chunks(
-    request: SweepRequest, numbers: Sequence[int], write_chunk: chunked.WriteChunk, observer: Observer
+    request: SweepRequest,
+    numbers: Sequence[int],
+    write_chunk: chunked.WriteChunk,
+    observer: Observer,
+    meanwhile: Callable[[], None],
 ) -> None:
     address = request.cluster
     if address is None:
         runner = prepared_runner(request, observer)
-        chunked.run_on_threads(runner, request.selection, numbers, request.jobs, write_chunk)
+        chunked.run_on_threads(runner, request.selection, numbers, request.jobs, write_chunk, meanwhile)
         return
     try:
         chunked.run_on_cluster(

@@ -189,7 +189,7 @@ def test_ctrl_c_while_the_findings_are_written_keeps_the_chunks(call, study, mon
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
-        patch.setattr(summaries, "summarize", interrupted)
+        patch.setattr(summaries.Summary, "result", interrupted)
         answer = call("sweep", study)
     assert answer.code == 2
     assert KEPT in answer.err

@@ -2,7 +2,7 @@ import sys
 from types import SimpleNamespace
 
 import pytest
-from jinja2 import DictLoader, Environment
+from jinja2 import DictLoader, Environment, meta
 from markupsafe import Markup
 
 from uictest.report.page import page_html, rendering
@@ -24,6 +24,17 @@ def _rendered(source):
         loader=DictLoader({"page": source}), bytecode_cache=TemplateCache(), autoescape=True
     )
     return environment.get_template("page").render(name="WSP")
+
+
+@pytest.mark.parametrize("name", sorted(rendering._templates()))
+def test_a_template_is_loaded_with_all_that_it_refers_to(name):
+    environment, names = rendering._environment(), [name]
+    for each in names:
+        named = meta.find_referenced_templates(environment.parse(rendering._templates()[each]))
+        names += set(named) - set(names)
+    environment.cache.clear()
+    rendering.load_template(name)
+    assert {loaded for _, loaded in environment.cache} == set(names)
 
 
 def test_a_template_is_compiled_once(cache, monkeypatch):

@@ -6,10 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from uictest.analysis.summaries import summarized
 from uictest.judging.evaluation import evaluate
-from uictest.running.chunked import CaseSelection, run_on_threads
+from uictest.running import chunked
+from uictest.running.chunked import CaseSelection, ChunkStore, run_on_threads
+from uictest.runs import Observer, SweepRequest
+from uictest.runs.sweep_chunks import run_missing_chunks
 
-from ..conftest import formula, rows
+from ..conftest import formula, result_of, rows
 from .test_case_blocks import written_out
 
 
@@ -63,6 +67,31 @@ def test_threads_take_queues_of_chunks_that_come_out_in_order(load, made_up, job
     )
     assert written == list(range(32))
     assert sorted(sizes) == sorted(31 * chunks for chunks in queues)
+
+
+def test_chunks_are_summarised_in_their_order_whatever_the_order_in_which_they_are_finished(
+    load, made_up, tmp_path, monkeypatch
+):
+    plan = load("sample: {size: 80, parameters: {brake.command: {uniform: [60 %, 100 %]}}}\n")
+    selection, runner = CaseSelection(plan), made_up(plan)
+    store, ends, calls = ChunkStore(tmp_path), [], []
+
+    def run_in_disorder(_, selection, numbers, jobs, write_chunk, meanwhile):
+        meanwhile()
+        for number in sorted(numbers, key=[4, 0, 1, 3].index):
+            write_chunk(number, runner.run(selection.chunk(number)))
+
+    store.open({"sweep": plan.name}, restart=False)
+    store.write(2, runner.run(selection.chunk(2)))
+    monkeypatch.setattr(chunked, "run_on_threads", run_in_disorder)
+    request = SweepRequest(selection, {"sweep": plan.name}, tmp_path, jobs=1)
+    run_missing_chunks(request, store, Observer(), ends.append, lambda: calls.append(len(ends)))
+    assert (ends, calls) == ([0, 1, 3, 5], [0])
+    whole = result_of(selection, store)
+    with summarized(selection, store, None, ["braking_distance_m"]) as summary:
+        for end in ends:
+            summary.add_up_to(end)
+        assert summary.result().result == whole
 
 
 def test_a_case_that_fails_is_a_row_with_its_reason(load, made_up):

@@ -10,13 +10,12 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-from uictest.analysis.summaries import summarize
 from uictest.analysis.summaries.trends import MOST_VALUES
 from uictest.report import map_lines, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document, sweep_document
 from uictest.running.chunked import CaseSelection
 
-from ..conftest import MATRIX, SCENARIO, formula, stored
+from ..conftest import MATRIX, SCENARIO, formula, result_of, stored
 
 
 @pytest.fixture
@@ -27,7 +26,7 @@ def finished(load, made_up, tmp_path):
         selection = CaseSelection(load(text, scenario=scenario))
         store = stored(selection, made_up(selection.plan), tmp_path / "out")
         keys = selection.plan.keys
-        result = summarize(selection, store, (keys[0], keys[1]), ["braking_distance_m"]).result
+        result = result_of(selection, store, (keys[0], keys[1]))
         write_sweep_result(store.folder, result, selection.plan.file)
         return result, store.folder
 
@@ -48,7 +47,7 @@ def test_stops_that_are_not_over_are_counted_as_inconclusive_and_never_as_met(lo
     selection = CaseSelection(load(MATRIX.replace("100 %]", "100 %]\n  simulation.maximum_duration: [60 s]")))
     runner = replace(made_up(selection.plan), simulate=unstopped)
     store = stored(selection, runner, tmp_path / "out")
-    result = summarize(selection, store, None, ["braking_distance_m"]).result
+    result = result_of(selection, store)
     write_sweep_result(store.folder, result, selection.plan.file)
     assert result.outcomes["inconclusive"] == 2
     assert result.met == 4

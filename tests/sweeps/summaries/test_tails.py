@@ -10,7 +10,6 @@ import pytest
 import yaml
 
 from uictest import rig
-from uictest.analysis.summaries import summarize
 from uictest.plans.sweeps.nominal import drawn_ranges, nominal_plan
 from uictest.report import titled_lines, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document
@@ -18,7 +17,7 @@ from uictest.report.sweep.tail_tables import tail_tables
 from uictest.running.chunked import BlockRunner, CaseSelection, select_cases
 from uictest.running.chunked.case_blocks import BlockAssembler
 
-from ..conftest import formula, stored
+from ..conftest import formula, result_of, stored
 
 DRY = (
     "schema: uictest/scenario/1\nname: stop\ninitial_speed: 30 km/h\nrail: {condition: dry, friction: 0.12}\n"
@@ -47,7 +46,7 @@ def finish(plan, simulate=formula, only=None):
     selection = select_cases(plan, only) if only else CaseSelection(plan)
     runner = BlockRunner(BlockAssembler(plan), simulate, plan, rig.run_block)
     store = stored(selection, runner, Path("out"))
-    result = summarize(selection, store, None, ["braking_distance_m"]).result
+    result = result_of(selection, store)
     write_sweep_result(store.folder, result, plan.file)
     return result, store.folder
 

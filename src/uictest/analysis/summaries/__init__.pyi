@@ -4,8 +4,9 @@ from .frontier import (
     verdicts_of as verdicts_of,
 )
 from .summary import (
+    Summary as Summary,
     SweepSummary as SweepSummary,
-    summarize as summarize,
+    summarized as summarized,
 )
 from .worst import (
     full_cases as full_cases,

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,7 +34,7 @@ from uictest.report import (
     domain_notes,
     survey_notes,
 )
-from uictest.running.chunked import CaseSelection, ChunkStore, repeated_cases, survey_step
+from uictest.running.chunked import CaseSelection, ChunkStore, repeated_cases, survey_step, text_column
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -57,7 +59,8 @@ class SweepSummary:
     """Those of the worst cases whose rows are of survey steps."""
 
 
-def summarize(
+@contextmanager
+def summarized(
     selection: CaseSelection,
     store: ChunkStore,
     pair: tuple[str, str] | None,
@@ -65,48 +68,81 @@ def summarize(
     reference: validation.ValidationReference | None = None,
     *,
     csv: bool = True,
-) -> SweepSummary:
-    """Read all chunks: write summary.parquet and, if it is wanted, summary.csv, and compute the result.
+) -> Iterator[Summary]:
+    """Lend the summary of a sweep; summary.parquet and summary.csv appear when the block ends.
 
     Args:
         selection: the cases of the sweep.
-        store: with every chunk finished.
+        store: of its chunks.
         pair: the two parameters of the maps, None for no map.
         measures: columns to map and to compute sensitivities of, besides the verdict.
         reference: validation that the cases are held against; they get a column of what lies outside.
         csv: whether to write summary.csv.
 
-    Raises:
-        OSError: a file cannot be written.
-        MissingChunksError: a chunk is missing.
+    Raises OSError where a file cannot be written.
     """
-    sums = _Sums(selection, pair, measures)
-    domain = None if reference is None else DomainTally(selection.plan, reference)
     with summary_files(store.folder, csv=csv) as write:
-        for table in store.tables(range(selection.chunks)):
-            write(table if domain is None else domain.with_column(table))
-            sums.add(table)
-    survey = survey_step(selection.plan, sums.repeated, measures)
-    of_validity = None if domain is None else domain.result()
-    sensitivities, notes = _sensitivities(selection.plan, sums.sampled_columns())
-    result = _result(
-        sums,
-        distributions=_histograms(sums, selection, store),
-        sensitivities=sensitivities,
-        domain=of_validity,
-        survey=survey,
-        notes=(
-            *survey_notes(survey, sums.tally.cases),
-            *domain_notes(of_validity, sums.tally.cases),
-            *_requirement_notes(selection.plan),
-            *_not_judged_notes(sums.tally.outcomes),
-            *map(str, drawn_ranges(selection.plan)),
-            *notes,
-            *_selection_notes(selection),
-            *(() if csv else (_WITHOUT_CSV,)),
-        ),
-    )
-    return SweepSummary(result, sums.verdicts, sums.worst.indices(), sums.worst.surveyed())
+        yield Summary(selection, store, pair, measures, reference, write, csv)
+
+
+@dataclass
+class Summary:
+    """Summarises the chunks of a sweep in their order, as they are finished; `write` takes the rows of each.
+
+    The other fields are the arguments of :func:`summarized`.
+    """
+
+    selection: CaseSelection
+    store: ChunkStore
+    pair: tuple[str, str] | None
+    measures: Sequence[str]
+    reference: validation.ValidationReference | None
+    write: Callable[[pa.Table], None]
+    csv: bool
+    _added: int = 0
+
+    @cached_property
+    def _sums(self) -> _Sums:
+        return _Sums(self.selection, self.pair, self.measures)
+
+    @cached_property
+    def _domain(self) -> DomainTally | None:
+        return None if self.reference is None else DomainTally(self.selection.plan, self.reference)
+
+    def add_up_to(self, end: int) -> None:
+        """Add the chunks before number `end` that were not added. Raises OSError and MissingChunksError."""
+        if end == self._added:
+            return
+        for table in self.store.tables(range(self._added, end)):
+            self.write(table if self._domain is None else self._domain.with_column(table))
+            self._sums.add(table)
+            self._added += 1
+
+    def result(self) -> SweepSummary:
+        """Add the chunks that are left, and return what all come to. Raises OSError, MissingChunksError."""
+        self.add_up_to(self.selection.chunks)
+        sums, plan = self._sums, self.selection.plan
+        survey = survey_step(plan, sums.repeated, self.measures)
+        of_validity = None if self._domain is None else self._domain.result()
+        sensitivities, notes = _sensitivities(plan, sums.sampled_columns())
+        result = _result(
+            sums,
+            distributions=_histograms(sums, self.selection, self.store),
+            sensitivities=sensitivities,
+            domain=of_validity,
+            survey=survey,
+            notes=(
+                *survey_notes(survey, sums.tally.cases),
+                *domain_notes(of_validity, sums.tally.cases),
+                *_requirement_notes(plan),
+                *_not_judged_notes(sums.tally.outcomes),
+                *map(str, drawn_ranges(plan)),
+                *notes,
+                *_selection_notes(self.selection),
+                *(() if self.csv else (_WITHOUT_CSV,)),
+            ),
+        )
+        return SweepSummary(result, sums.verdicts, sums.worst.indices(), sums.worst.surveyed())
 
 
 class _Sums:
@@ -149,6 +185,12 @@ class _Sums:
         self.verdicts[indices] = table.column(MET).to_numpy(zero_copy_only=False)
         for name, values in self._columns.items():
             values[indices] = table.column(name).to_numpy(zero_copy_only=False)
+
+    def columns_read_twice(self) -> list[str]:
+        """Return the columns that histograms and trends add up."""
+        measured = (column for histogram in self.histograms for column in histogram.measure.columns)
+        texts = (text_column(trend.bins.key) for trend in self.trends)
+        return list(dict.fromkeys(("index", "outcome", *texts, *measured)))
 
     def sampled_columns(self) -> Columns:
         """Return the columns that sensitivities are computed of; none without a whole Saltelli sample."""
@@ -206,7 +248,7 @@ def _histograms(sums: _Sums, selection: CaseSelection, store: ChunkStore) -> tup
     with_cases = [each for each in sums.histograms if each.cases]
     for histogram in with_cases:
         histogram.open_bins()
-    for table in store.tables(range(selection.chunks)):
+    for table in store.tables(range(selection.chunks), sums.columns_read_twice()):
         for histogram in with_cases:
             histogram.add(table)
         for trend in sums.trends:

@@ -45,9 +45,9 @@ def points(method: Method, size: int, dimensions: int, seed: int, numbers: NDArr
 def _random(dimensions: int, seed: int, numbers: NDArray[np.int64]) -> Points:
     blocks, within = numbers // _BLOCK, numbers % _BLOCK
     drawn = np.empty((numbers.size, dimensions))
-    for block in np.unique(blocks):
+    for block in sorted(set(blocks.tolist())):  # `np.unique` would load masked arrays
         rows = blocks == block
-        generator = np.random.Generator(np.random.Philox(np.random.SeedSequence([seed, int(block)])))
+        generator = np.random.Generator(np.random.Philox(np.random.SeedSequence([seed, block])))
         drawn[rows] = generator.random((_BLOCK, dimensions))[within[rows]]
     return drawn
 
@@ -252,7 +252,7 @@ def _texts(digits: NDArray[np.float64], places: NDArray[np.int64]) -> pa.Array:
     """Return the texts of `digits / 10**places`; zeros that call for an exponent are put in afterwards."""
     zeros = np.maximum(places - _PLACES_WITHOUT_EXPONENT, 0)
     texts = pa.array(digits / _POWERS[places - zeros]).cast(pa.string())
-    for count in np.unique(zeros[zeros > 0]).tolist():
+    for count in sorted({*zeros.tolist()} - {0}):
         smaller = pc.replace_substring(texts, ".", "." + count * "0", max_replacements=1)
         texts = pc.if_else(pa.array(zeros == count), smaller, texts)
     return texts

@@ -21,4 +21,4 @@ from .stop.overlay_view import (
     overlay_view as overlay_view,
     script_json as script_json,
 )
-from .sweep.sweep_page import sweep_page_html as sweep_page_html
+from .sweep.sweep_page import load_sweep_page as load_sweep_page, sweep_page_html as sweep_page_html

@@ -32,6 +32,14 @@ def write_sweep_formats(folder: Path, content: SweepContent, names: Iterable[str
     return paths
 
 
+def load_sweep_formats(names: Iterable[str]) -> None:
+    """Load what some formats are written with, which takes longer than to write a small sweep."""
+    if "html" in names:
+        from uictest.report import page
+
+        page.load_sweep_page()
+
+
 def _copied(table: Path, folder: Path) -> Path:
     """Return the table in a folder; where it is not yet, it is copied."""
     target = folder / table.name

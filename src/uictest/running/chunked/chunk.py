@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from collections import namedtuple
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, groupby
+from itertools import chain, groupby, pairwise
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -219,23 +219,39 @@ def block_runner(
 
 
 def run_on_threads(
-    runner: ChunkRunner, selection: CaseSelection, numbers: Sequence[int], jobs: int, write_chunk: WriteChunk
+    runner: ChunkRunner,
+    selection: CaseSelection,
+    numbers: Sequence[int],
+    jobs: int,
+    write_chunk: WriteChunk,
+    meanwhile: Callable[[], None] = lambda: None,
 ) -> None:
     """Run the chunks with the given numbers; `write_chunk` gets each in this thread, in this order.
 
-    After any exception, KeyboardInterrupt included, the chunks that `write_chunk` got are kept.
+    While the first run, `meanwhile` is called in this thread. After any exception, KeyboardInterrupt
+    included, the chunks that `write_chunk` got are kept.
     """
     jobs = min(jobs, len(numbers)) or 1
-    together = max(min(_QUEUED // selection.chunk_size, len(numbers) // (_TURNS * jobs)), 1)
-    queues = [numbers[first : first + together] for first in range(0, len(numbers), together)]
     with ThreadedMap(
         lambda queue: runner.run_together([selection.chunk(number) for number in queue]),
-        queues,
+        _queues(numbers, jobs, selection.chunk_size),
         jobs=jobs,
         pending=jobs + _QUEUES_AHEAD,
     ) as contents:
+        meanwhile()
         for number, content in zip(numbers, chain.from_iterable(contents), strict=True):
             write_chunk(number, content)
+
+
+def _queues(numbers: Sequence[int], jobs: int, chunk_size: int) -> list[Sequence[int]]:
+    """Return the chunks that are simulated in one queue each; queues differ by one chunk at most.
+
+    A thread that is left with a short queue at the end would let all others wait.
+    """
+    most = max(_QUEUED // chunk_size, 1)
+    count = max(-(-len(numbers) // most), min(_TURNS * jobs, len(numbers)))
+    ends = [len(numbers) * place // count for place in range(count + 1)]
+    return [numbers[begin:end] for begin, end in pairwise(ends)]
 
 
 def parquet_bytes(table: pa.Table) -> bytes:

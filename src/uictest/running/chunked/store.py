@@ -205,8 +205,11 @@ class ChunkStore:
         """Write a chunk. Raises OSError."""
         self._write(f"{number:06d}-{_digest(content)}.parquet", content)
 
-    def tables(self, numbers: Sequence[int]) -> Iterator[pa.Table]:
-        """Yield the rows of chunks, one chunk after the other. Raises MissingChunksError."""
+    def tables(self, numbers: Sequence[int], columns: Sequence[str] | None = None) -> Iterator[pa.Table]:
+        """Yield the rows of chunks, one chunk after the other, with some columns, None for all.
+
+        Raises MissingChunksError.
+        """
         import pyarrow.parquet as pq
 
         paths = dict(self._files())
@@ -216,7 +219,7 @@ class ChunkStore:
             raise MissingChunksError(f"{len(missing)} chunks are missing: {listed}")
         for number in numbers:
             with paths[number].open("rb") as file, pq.ParquetFile(file) as parquet:
-                yield parquet.read(use_threads=False)
+                yield parquet.read(columns, use_threads=False)
 
     def merge(self, other: ChunkStore) -> tuple[int, list[Path]]:
         """Copy the intact chunks of another store of this sweep; return their number and the damaged files.

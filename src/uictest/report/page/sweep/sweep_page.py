@@ -8,7 +8,7 @@ from typing import Final
 from uictest.report.page.case_view import case_view, plots_json
 from uictest.report.page.overview import shown_parts
 from uictest.report.page.plot import Plot
-from uictest.report.page.rendering import render
+from uictest.report.page.rendering import load_template, render
 from uictest.report.page.sweep.bar_plots import SOBOL_KEY, STACKED, histogram_plot, is_spread, sobol_plots
 from uictest.report.page.sweep.line_plots import cell_lines, frontier_plot, trend_plot
 from uictest.report.page.sweep.maps import maps_of_pair
@@ -32,6 +32,15 @@ from uictest.report.sweep.sweep_sentences import (
     swept_words,
 )
 from uictest.report.sweep.tail_tables import tables_left_out, tail_tables
+
+_TEMPLATE: Final = "sweep.html.j2"
+
+
+def load_sweep_page() -> None:
+    """Load what a page takes besides its content: templates, and Arrow's functions for points."""
+    import pyarrow.acero  # noqa: F401 - groups the points
+
+    load_template(_TEMPLATE)
 
 
 def sweep_page_html(content: SweepContent) -> str:
@@ -66,7 +75,7 @@ def sweep_page_html(content: SweepContent) -> str:
     ]
     frontier = result.frontier
     return render(
-        "sweep.html.j2",
+        _TEMPLATE,
         content=content,
         result=result,
         tally=sweep_tally(result),
