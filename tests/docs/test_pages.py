@@ -87,7 +87,7 @@ def test_every_measure_of_a_series_is_described():
     """A median or worst value has the row of its figure."""
     text = (REPOSITORY / "docs/series.md").read_text("utf-8")
     names = {
-        re.sub("^(median|worst)_", "", name) if measure.figure else name
+        re.sub("^(median|worst)_", "", name) if measure.has_dry_value else name
         for name, measure in SERIES_MEASURES.items()
     }
     assert {name for name in names if not re.search(rf"^[|].*`{name}`.*[|]", text, re.MULTILINE)} == set()

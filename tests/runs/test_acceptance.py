@@ -14,7 +14,7 @@ schema: uictest/series/1
 name: acceptance
 repeat: 3
 set: {{criteria: uictest-stop, rig.compensation: thermal}}
-dry: {{scenario: dry-120.yaml, repeat: 1}}
+dry: {{scenario: dry-120.yaml, repeat: 2}}
 wet:
 {wet}criteria: uictest-wsp
 """

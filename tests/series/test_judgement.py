@@ -44,11 +44,17 @@ def test_a_series_that_keeps_everything_passes_and_a_miss_says_how_much_is_missi
     # Deceleration distances 600, 640 and 680 m against 400 m.
     k_wet = verdicts(judge(planned, [460.0, 660.0, 700.0, 740.0]))["k-wet"].verdict
     assert (k_wet.status, k_wet.reason) == ("fail", "0.625 from 120 km/h misses >= 0.8 by 0.175")
-    certain = judge(planned, [460.0, 519.0, 520.0, 521.0])
-    uncertain = judge(planned, [460.0, 480.0, 520.0, 560.0])
+    certain = judge(planned, [[459.9, 460.1], 519.0, 520.0, 521.0])
+    uncertain = judge(planned, [[459.9, 460.1], 480.0, 520.0, 560.0])
     assert verdicts(certain)["k-wet"].confident is True
     assert verdicts(uncertain)["k-wet"].confident is False
     assert uncertain.outcome == "pass"
+    # The wet stops of the first, beside dry ones that scatter by 5 %.
+    assert verdicts(judge(planned, [[444.0, 476.0], 519.0, 520.0, 521.0]))["k-wet"].confident is False
+    # One dry stop shows no scatter: nobody knows.
+    alone = verdicts(judge(planned, [460.0, 519.0, 520.0, 521.0]))["k-wet"]
+    assert (alone.verdict.status, alone.confident) == ("pass", None)
+    assert "no 95 % interval: one dry stop shows no scatter" in report.series_verdict_sentence(alone, 0.95)
 
 
 def test_one_stop_from_each_speed_has_a_speed_that_decides(load, judge, write):
@@ -259,7 +265,7 @@ def two_speeds(load, write):
     )
     write("own.yaml", f"schema: uictest/criteria/1\nname: own\ncriteria:\n{criteria}")
     wet = TWO_SPEEDS.format(role="wet", more=", repeat: 7")
-    (one,) = load(TWO_SPEEDS.format(role="dry", more="") + wet + "criteria: own.yaml\n")
+    (one,) = load(TWO_SPEEDS.format(role="dry", more=", repeat: 2") + wet + "criteria: own.yaml\n")
     return one
 
 
@@ -273,13 +279,13 @@ def test_every_bound_is_judged_at_the_speed_nearest_to_missing_it(two_speeds, ju
 def test_a_verdict_is_as_certain_as_that_of_its_least_certain_speed(two_speeds, judge):
     # From 80 km/h the median is 115 % but may lie at 140 %; that from 120 km/h is 125 % for certain.
     scattered = [214.0, 216.0, 218.0, 230.0, 270.0, 275.0, 280.0]
-    long = verdicts(judge(two_speeds, [200.0, 400.0, scattered, [500.0] * 7]))["long"]
+    long = verdicts(judge(two_speeds, [[200.0] * 2, [400.0] * 2, scattered, [500.0] * 7]))["long"]
     assert (long.verdict.status, long.speed_kmh, long.confident) == ("pass", 120.0, False)
 
 
 def test_one_speed_that_misses_for_certain_makes_a_miss_certain(two_speeds, judge):
     scattered = [240.0, 242.0, 244.0, 280.0, 282.0, 284.0, 286.0]
-    long = verdicts(judge(two_speeds, [200.0, 400.0, scattered, [540.0] * 7]))["long"]
+    long = verdicts(judge(two_speeds, [[200.0] * 2, [400.0] * 2, scattered, [540.0] * 7]))["long"]
     assert (long.verdict.status, long.speed_kmh, long.confident) == ("fail", 80.0, True)
 
 
@@ -327,7 +333,7 @@ def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(write, load
     assert {stop.case.scenario.rig.wsp for stop in planned.stops[5:]} == {"bypassed"}
     # Wheels lock: that they miss the criteria is what is expected, and no reason to keep their recordings.
     assert {stop.case.scenario.expect for stop in planned.stops[5:]} == {"fail"}
-    distances = [460.0, 500.0, 510.0, 600.0, 610.0]
+    distances = [[460.0] * 2, 500.0, 510.0, 600.0, 610.0]
     better, without = judge(planned, distances, {480.0: "fail"}, 480.0), judge(planned, distances)
     assert better.bypassed_k_wet.estimate.value == pytest.approx(400.0 / 420.0)
     assert (better.criteria, better.speeds, better.outcome) == (

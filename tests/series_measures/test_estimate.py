@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies
 
-from uictest.core.series_measures.measure import largest_of, mean_of, median_of, share_of, smallest_of
+from uictest.core.series_measures.estimate import largest_of, mean_of, median_of, share_of, smallest_of
 
 
 def test_the_interval_of_the_median_has_known_ranks_and_holds_it_in_samples():

@@ -40,7 +40,7 @@ def test_the_factor_is_that_of_the_mean_increase_and_its_interval_goes_through_t
     for order in ((slow, fast), (fast, slow)):
         assert value(K_WET, *order) == pytest.approx(0.8)
         assert value(INCREASE, *order) == pytest.approx(25.0)
-    stops = speed([400.0], [440.0, 460.0, 480.0])
+    stops = speed([399.0, 401.0], [440.0, 460.0, 480.0])
     increase, factor = (each.of_series([stops], 0.95).estimate for each in (INCREASE, K_WET))
     assert (factor.low, factor.high) == pytest.approx(
         (100 / (100 + increase.high), 100 / (100 + increase.low))
@@ -56,7 +56,7 @@ def test_factor_and_increase_say_the_same(wet):
 def test_without_a_dry_stop_or_with_an_interval_below_zero_there_is_none():
     assert K_WET.of_series([speed([], [500.0])], 0.95).estimate is None
     # Increases of 60 and 140 %: 100 -+ 508 %, whose ends would be K_wet of -0.32 and 0.14 about 0.5.
-    factor = K_WET.of_series([speed([400.0], [640.0, 960.0])], 0.95).estimate
+    factor = K_WET.of_series([speed([399.0, 401.0], [640.0, 960.0])], 0.95).estimate
     assert factor.value == pytest.approx(0.5)
     assert math.isnan(factor.low)
     assert math.isnan(factor.high)

@@ -3,7 +3,7 @@
 import pytest
 
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
-from uictest.core.series_measures import SERIES_MEASURES, CountedStop, SpeedStops, dry_relation
+from uictest.core.series_measures import SERIES_MEASURES, CountedStop, SpeedStops
 from uictest.core.units import KINDS
 
 
@@ -63,7 +63,7 @@ def test_a_stop_or_a_speed_without_the_number_leaves_the_measure_open(make_stop,
 def test_a_relation_to_the_dry_stop_is_made_speed_by_speed_of_figures_of_single_stops(make_speed):
     # 240 m from the lower speed is 120 % of its dry stop, though far below the dry stop from the higher one.
     speeds = [make_speed([198.0, 202.0], [240.0]), make_speed([460.0], [506.0])]
-    relation = dry_relation(SERIES_MEASURES["worst_braking_distance"], speeds, 0.95).estimate
+    relation = SERIES_MEASURES["worst_braking_distance"].percent_of_dry(speeds, 0.95).estimate
     assert relation.value == pytest.approx(120.0)
     with pytest.raises(ValueError, match="passing_share"):
-        dry_relation(SERIES_MEASURES["passing_share"], [make_speed([1.0], [1.0])], 0.95)
+        SERIES_MEASURES["passing_share"].percent_of_dry([make_speed([1.0], [1.0])], 0.95)

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
+import uictest
+from tests.service_log import logs
 from uictest.analysis.logged_stops.drift import drifts
 from uictest.analysis.logged_stops.stop_groups import (
     LoggedStop,
@@ -14,6 +16,8 @@ from uictest.analysis.logged_stops.stop_groups import (
     extensions,
     outliers_of,
     references,
+    series_table,
+    wet_series,
 )
 from uictest.judging.evaluation import CaseResult
 
@@ -99,6 +103,56 @@ def test_stops_within_15_percent_are_all_accepted():
 def test_the_extension_is_that_over_the_dry_stops_of_the_same_speed():
     stops = [stop(1, 120.0, 500.0), stop(2, 80.0, 230.0), stop(3, 120.0, 600.0, dry=False)]
     assert extensions([*stops, stop(4, 100.0, 400.0, dry=False)]) == pytest.approx({"stop-0003": 20.0})
+
+
+@pytest.fixture(name="k_wet", scope="module")
+def _k_wet():
+    """Return the row of K_wet of a log: normal draws of one scatter (%), from 78.5 to 81.5 km/h."""
+    (dry,) = uictest.load(logs.SCENARIO, set={"rail": logs.DRY})
+    (wet,) = uictest.load(logs.SCENARIO)
+
+    def row(draw, dry_stops, wet_stops, scatter, ratio):
+        stops = []
+        for k in range(dry_stops + wet_stops):
+            is_dry, speed = k < dry_stops, draw.uniform(78.5, 81.5)
+            share = draw.normal(1.0, scatter / 100.0) * (1.0 if is_dry else ratio)
+            length = share * 220.0 * (speed / 80.0) ** 2
+            own = stop(k, speed, length, dry=is_dry)
+            measures = dict(own.result.measures, deceleration_distance_m=length)
+            result = replace(own.result, measures=measures)
+            stops.append(replace(own, result=result, case=dry if is_dry else wet))
+        return next(row for row in series_table(wet_series(stops)).data.rows if row["measure"] == "k_wet")
+
+    return row
+
+
+def held_by_logs(k_wet, dry, wet, scatter, count):
+    draw = np.random.default_rng([dry, wet, scatter])
+    rows = [k_wet(draw, dry, wet, scatter, 1.2) for _ in range(count)]
+    known = [row for row in rows if row["low"] is not None]
+    assert len(known) > 0.9 * count
+    return np.mean([row["low"] <= 1.0 / 1.2 <= row["high"] for row in known])
+
+
+def test_k_wet_of_a_log_has_an_interval_that_holds_it(k_wet):
+    """Dry stops taken as known would hold it in every second log."""
+    assert held_by_logs(k_wet, 3, 20, 3, 80) >= 0.94 - 3.0 * np.sqrt(0.94 * 0.06 / 80)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("dry", [2, 3, 6, 10])
+@pytest.mark.parametrize("scatter", [2, 4, 5])
+def test_so_it_has_whatever_the_number_of_stops(k_wet, dry, scatter):
+    for wet in (5, 12, 30):
+        held = held_by_logs(k_wet, dry, wet, scatter, 300)
+        assert held >= 0.94 - 3.0 * np.sqrt(0.94 * 0.06 / 300), (held, wet)
+
+
+def test_k_wet_of_a_log_with_one_dry_stop_has_no_interval_and_says_why(k_wet):
+    row = k_wet(np.random.default_rng(1), 1, 6, 3.0, 1.2)
+    assert row["value"] == pytest.approx(1.0 / 1.2, rel=0.1)
+    assert row["low"] is None
+    assert row["remark"] == "no 95 % interval: one dry stop shows no scatter, two are needed"
 
 
 def drift_of(lengths, days=None):

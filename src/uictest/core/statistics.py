@@ -83,6 +83,24 @@ def difference_interval(
     return float(low), float(high)
 
 
+def ratio_interval(
+    value: float, interval: tuple[float, float], mean: float, half_width: float
+) -> tuple[float, float]:
+    """Return the interval of an estimate over an independent mean whose interval is `mean` -+ `half_width`.
+
+    MOVER-R of Donner and Zou (Stat. Methods Med. Res. 21 (2012) 347): with value v, low l, mean m and half
+    width h the lower end is (v m - sqrt((v h)^2 + (v - l)^2 (m^2 - h^2))) / (m^2 - h^2). For two means with
+    Student's t it is the theorem of Fieller (1954), with the quantile of each sample: one quantile by Welch
+    and Satterthwaite holds too little beside two or three values (simulated: 87 % instead of 95 %). NaN at
+    both ends where an interval is missing, or that of the mean reaches zero.
+    """
+    square = mean**2 - half_width**2
+    if not (mean > half_width and all(map(math.isfinite, interval))):
+        return math.nan, math.nan
+    below, above = (math.hypot(value * half_width, (value - end) * math.sqrt(square)) for end in interval)
+    return (value * mean - below) / square, (value * mean + above) / square
+
+
 def share_difference_interval(
     first: tuple[int, int], second: tuple[int, int], confidence: float = 0.95
 ) -> tuple[float, float]:

@@ -86,6 +86,7 @@ from .run_folder import (
 )
 from .series.series_sentences import (
     count_sentences as count_sentences,
+    missing_interval as missing_interval,
     not_counted_sentences as not_counted_sentences,
     series_annotations as series_annotations,
     series_explanation as series_explanation,

@@ -27,15 +27,16 @@ def _case(name, stops, role):
 
 
 def make_series(**changes):
-    """A series of one dry stop and six wet ones, the last of them no test, with whatever is to be different.
+    """A series of two dry stops and six wet ones, the last of them no test, with whatever is to be different.
 
     Its K_wet is 0.870; the criterion `k-wet` wants 0.80.
     """
-    dry = _case("acceptance.dry", (_stop(0, 460.0),), "dry")
+    dry = _case("acceptance.dry", (_stop(0, 460.0), _stop(1, 460.0)), "dry")
     valid = [_stop(seed, distance) for seed, distance in enumerate((500.0, 510.0, 520.0, 530.0, 540.0))]
     wet = _case("acceptance.wet", (*valid, _stop(5, 2000.0, "invalid")), "wet")
     figures = [stop.figures for stop in series.observed_stops([wet], 3.0)][:5]
-    speed = SpeedStops(120.0 / 3.6, (series.observed_stops([dry], 3.0)[0].figures,), tuple(figures))
+    of_dry = [stop.figures for stop in series.observed_stops([dry], 3.0)]
+    speed = SpeedStops(120.0 / 3.6, tuple(of_dry), tuple(figures))
     measures = {name: each.of_series([speed], 0.95) for name, each in SERIES_MEASURES.items()}
     k_wet = measures["k_wet"].estimate
     margin = k_wet.value - 0.8
@@ -51,7 +52,7 @@ def make_series(**changes):
     content |= {
         "criteria": (series.SeriesVerdict(verdict, k_wet, confident=True, speed_kmh=120.0),),
         "measures": measures,
-        "speeds": (series.SpeedResult(120.0, series.StopCounts(1, 1), series.StopCounts(6, 5), measures),),
+        "speeds": (series.SpeedResult(120.0, series.StopCounts(2, 2), series.StopCounts(6, 5), measures),),
         "not_counted": (
             series.UncountedStop("acceptance.wet", "wet", 5, "invalid", "energy-balance: 3 % misses < 0.1 %"),
         ),

@@ -32,8 +32,8 @@ def test_lines_tell_the_criteria_and_what_does_not_count_and_the_tally_counts_se
     assert criterion.startswith(
         "criterion acceptance k-wet (requirement) pass: 0.86957 from 120 km/h, lower limit 0.8, margin"
     )
-    assert "mean of 5 stops, 95 % interval 0.8" in criterion
-    assert counted.endswith("Valid stops from 120 km/h: dry 1 of 1, wet 5 of 6 (83.33 %, 80 % needed)")
+    assert "mean of 5 stops over 2 dry, 95 % interval 0.8" in criterion
+    assert counted.endswith("Valid stops from 120 km/h: dry 2 of 2, wet 5 of 6 (83.33 %, 80 % needed)")
     assert not_counted == "stops acceptance 1 stop invalid, not counted: energy-balance: 3 % misses < 0.1 %"
 
 
@@ -42,7 +42,7 @@ def test_a_terminal_shows_the_same_in_its_width():
         lines = list(series_table([make_series()], width))
         text = " ".join(" ".join(lines).split())
         assert "pass acceptance" in text
-        assert "dry 1 of 1, wet 5 of 6" in text
+        assert "dry 2 of 2, wet 5 of 6" in text
         assert "1 stop invalid, not counted" in text
 
 
@@ -53,11 +53,12 @@ def test_tables_have_a_row_per_measure_criterion_and_stop(content, tmp_path):
     k_wet = next(row for row in rows["series.csv"] if (row["measure"], row["speed_kmh"]) == ("k_wet", "120"))
     assert (float(k_wet["value"]), k_wet["method"], k_wet["stops"]) == (pytest.approx(100 / 115), "mean", "5")
     (criterion,) = rows["series-criteria.csv"]
+    assert k_wet["dry_stops"] == "2"
     assert (criterion["criterion"], criterion["verdict"], criterion["certain"]) == ("k-wet", "pass", "true")
     stops = rows["series-stops.csv"]
-    ends = [[each[key] for key in ("role", "seed", "counts", "braking_distance_m")] for each in stops[::6]]
+    ends = [[each[key] for key in ("role", "seed", "counts", "braking_distance_m")] for each in stops[::7]]
     assert ends == [["dry", "0", "true", "460.0"], ["wet", "5", "false", "2000.0"]]
-    assert len(stops) == 7
+    assert len(stops) == 8
 
 
 def test_the_workbook_has_a_sheet_for_each_table(content, tmp_path):
@@ -80,7 +81,7 @@ def test_markdown_compares_and_judges(content):
 def test_the_page_draws_every_stop_and_marks_those_that_do_not_count(content, tmp_path):
     write_formats(tmp_path, content, ["html"])
     page = (tmp_path / "index.html").read_text()
-    assert len(re.findall(r'<path class="dot"', page)) == 6
+    assert len(re.findall(r'<path class="dot"', page)) == 7
     assert len(re.findall(r'<path class="dot uncounted"', page)) == 1
     assert "1 stop invalid, not counted: energy-balance: 3 % misses &lt; 0.1 %" in page
 

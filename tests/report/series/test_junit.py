@@ -30,7 +30,7 @@ def test_a_missed_criterion_is_a_failure_that_says_everything_unless_it_is_expec
     assert (suite.get("failures"), expected.get("failures")) == ("1", "0")
     text = suite.findtext("testcase/failure") or ""
     assert "k-wet (requirement) fail: 0.86957 from 120 km/h, lower limit 0.9, margin -0.03" in text
-    assert "dry 1 of 1, wet 5 of 6" in text
+    assert "dry 2 of 2, wet 5 of 6" in text
     assert "1 stop invalid, not counted" in text
 
 

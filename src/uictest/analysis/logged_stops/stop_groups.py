@@ -230,12 +230,13 @@ def series_table(result: judged_series.SeriesResult) -> report.CampaignTable:
             numbers = (estimate.value, estimate.low, estimate.high) if estimate else (None, None, None)
             unit = "" if measure.unit == "1" else measure.unit
             counts = speed.dry.counted, speed.wet.counted
-            rows.append((speed.speed_kmh, name, *numbers, unit, *counts, value.unavailable_reason))
+            remark = report.missing_interval(estimate) if estimate else value.unavailable_reason
+            rows.append((speed.speed_kmh, name, *numbers, unit, *counts, remark))
     return report.CampaignTable(
         "wet_series",
         "Wet stops as a series",
         "As `uictest evaluate` judges a series; a stop that is no valid test, or was not judged, does not"
-        " count. Distances are brought to the nominal speed; intervals take the dry stops as known.",
+        " count. Distances are brought to the nominal speed; intervals hold the scatter of the dry stops.",
         "detail",
         _SERIES,
         tuple(rows),

@@ -128,14 +128,11 @@ class LogSurvey:
         for speed in series.speeds:
             value = speed.measures["k_wet"].estimate
             if value is not None:
-                known = math.isfinite(value.low)
-                interval = (
-                    f" ({value.low:.3f} to {value.high:.3f}, dry stops taken as known)"
-                    if known
-                    else ", no interval"
-                )
-                wet = report.counted(speed.wet.counted, "wet stop")
-                yield f"K_wet from {speed.speed_kmh:g} km/h: {value.value:.3f}{interval}, {wet}"
+                missing = report.missing_interval(value)
+                interval = f" ({value.low:.3f} to {value.high:.3f})" if not missing else ""
+                counts = f"{report.counted(value.stops, 'wet stop')} over {value.dry_stops} dry"
+                k_wet = f"K_wet from {speed.speed_kmh:g} km/h: {value.value:.3f}{interval}, {counts}"
+                yield f"{k_wet}{'; ' if missing else ''}{missing}"
 
     def _rail_sentence(self) -> str:
         if not self._vehicle_known:

@@ -8,56 +8,35 @@ of the mean of the valid wet stops. One factor for all speeds takes the larger i
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 from types import MappingProxyType
 from typing import Final
 
+from uictest.core.series_measures.estimate import Estimate, largest_of, mean_of, median_of, share_of
 from uictest.core.series_measures.measure import (
     CountedStop,
-    Estimate,
     SeriesMeasure,
-    SpeedStops,
-    largest_of,
     largest_of_wheelsets,
-    mean_of,
     median_and_worst,
-    median_of,
     of_stop,
-    percent_of_dry,
-    share_of,
 )
 
 _BRAKING_DISTANCE = of_stop("braking_distance_m")
 _DECELERATION_DISTANCE = of_stop("deceleration_distance_m")
-_NO_DISTANCE: Final = -100.0
-"""Increase (%) to a distance of zero."""
 
 
-def increases(stops: SpeedStops) -> list[float]:
-    """Return by how much (%) the deceleration distance of every wet stop exceeds the mean of the dry ones."""
-    return [percent - 100.0 for percent in percent_of_dry(_DECELERATION_DISTANCE, stops)]
+def increase(ratio: Estimate) -> Estimate:
+    """Return by how much (%) a figure exceeds that of the dry stops, of their ratio."""
+    return ratio.mapped(lambda value: 100.0 * (value - 1.0))
 
 
-def k_of_increase(increase: float) -> float:
-    """Return 100/(100 + increase), the increase in %."""
-    return 100.0 / (100.0 + increase)
+def k_wet(ratio: Estimate) -> Estimate:
+    """Return 100/(100 + increase in %); without an interval where that of the ratio reaches zero.
 
-
-def _k_wet(values: Sequence[float], confidence: float) -> Estimate:
-    """Return K_wet of the mean increase; without an interval where that of the mean reaches -100 %.
-
-    No distance is below zero: so wide an interval says nothing, and its K_wet would run through infinity.
+    No distance is zero: so wide an interval says nothing, and its K_wet would run through infinity.
     """
-    increase = mean_of(values, confidence)
-    if not increase.low <= _NO_DISTANCE:
-        return increase.mapped(k_of_increase)
-    return replace(increase, low=math.nan, high=math.nan).mapped(k_of_increase)
-
-
-def extensions(stops: SpeedStops) -> list[float]:
-    """Return by how much (%) the braking distance of every wet stop exceeds the mean of the dry ones."""
-    return [percent - 100.0 for percent in percent_of_dry(_BRAKING_DISTANCE, stops)]
+    known = ratio if not ratio.low <= 0.0 else replace(ratio, low=math.nan, high=math.nan)
+    return known.mapped(lambda value: 1.0 / value)
 
 
 def adhesion_utilisation(stop: CountedStop) -> float:
@@ -79,8 +58,9 @@ _MEASURES: Final = (
         unit="%",
         meaning="mean increase of the deceleration distance over the mean of the dry stops of the same speed",
         worse="larger",
-        values=increases,
+        figure=_DECELERATION_DISTANCE,
         statistic=mean_of,
+        of_ratio=increase,
     ),
     SeriesMeasure(
         name="k_wet",
@@ -88,8 +68,9 @@ _MEASURES: Final = (
         unit="1",
         meaning="100/(100 + mean increase of the deceleration distance in %)",
         worse="smaller",
-        values=increases,
-        statistic=_k_wet,
+        figure=_DECELERATION_DISTANCE,
+        statistic=mean_of,
+        of_ratio=k_wet,
     ),
     SeriesMeasure(
         name="stopping_distance_extension",
@@ -97,8 +78,9 @@ _MEASURES: Final = (
         unit="%",
         meaning="median increase of the braking distance over the mean of the dry stops of the same speed",
         worse="larger",
-        values=extensions,
+        figure=_BRAKING_DISTANCE,
         statistic=median_of,
+        of_ratio=increase,
     ),
     SeriesMeasure(
         name="worst_stopping_distance_extension",
@@ -106,8 +88,9 @@ _MEASURES: Final = (
         unit="%",
         meaning="largest increase of the braking distance over the mean of the dry stops of the same speed",
         worse="larger",
-        values=extensions,
+        figure=_BRAKING_DISTANCE,
         statistic=largest_of,
+        of_ratio=increase,
     ),
     *median_and_worst("braking_distance", "length", "m", "braking distance", _BRAKING_DISTANCE),
     SeriesMeasure(
@@ -116,7 +99,7 @@ _MEASURES: Final = (
         unit="%",
         meaning="share of the wet stops that meet every requirement on a stop",
         worse="smaller",
-        values=lambda stops: [float(stop.passed) for stop in stops.wet],
+        figure=lambda stop: float(stop.passed),
         statistic=share_of,
         pooled=True,
     ),

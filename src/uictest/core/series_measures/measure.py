@@ -1,105 +1,22 @@
-"""What declares a measure of a series, the stops that count, and what they say of all stops like them."""
+"""What declares a measure of a series, and the stops that count."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from statistics import median
+from dataclasses import dataclass
 from typing import Literal
 
-from uictest.core import statistics
-
-Method = Literal["median", "mean", "share", "largest", "smallest"]
-"""How a value was made of those of the stops, and with it how its interval was."""
-
-
-@dataclass(frozen=True, slots=True)
-class Estimate:
-    """A value over stops.
-
-    Args:
-        value: the estimate.
-        low, high: the interval that holds the true one with `confidence`; NaN where there is none.
-        confidence: of the interval, a share.
-        method: median: interval by order statistics; mean: by Student's t; share: by Clopper and Pearson;
-            largest and smallest: no interval, see `covered`.
-        stops: how many were drawn.
-        smallest, largest: of the stops, the spread.
-        covered: for the largest (smallest) of the stops: share of all such stops that, with `confidence`,
-            keep on its good side; NaN otherwise.
-
-    """
-
-    value: float
-    low: float
-    high: float
-    confidence: float
-    method: Method
-    stops: int
-    smallest: float
-    largest: float
-    covered: float = math.nan
-
-    def mapped(self, function: Callable[[float], float]) -> Estimate:
-        """Return the estimate of a monotone function of the value."""
-        low, high = sorted((function(self.low), function(self.high)))
-        smallest, largest = sorted((function(self.smallest), function(self.largest)))
-        value = function(self.value)
-        return replace(self, value=value, low=low, high=high, smallest=smallest, largest=largest)
-
-
-Statistic = Callable[[Sequence[float], float], Estimate]
-"""Makes an estimate of the values of stops (at least one, all finite) and a confidence."""
-
-
-def median_of(values: Sequence[float], confidence: float) -> Estimate:
-    """Return the median with its interval by order statistics, whatever the distribution.
-
-    95 % take at least six values.
-    """
-    ranks, ranked = statistics.bound_ranks(0.5, len(values), confidence, "both"), sorted(values)
-    low = math.nan if ranks.lower is None else ranked[ranks.lower - 1]
-    high = math.nan if ranks.upper is None else ranked[-ranks.upper]
-    return _estimate(median(values), low, high, confidence, "median", values)
-
-
-def mean_of(values: Sequence[float], confidence: float) -> Estimate:
-    """Return the mean with its interval by Student's t."""
-    low, high = statistics.mean_interval(values, confidence)
-    return _estimate(math.fsum(values) / len(values), low, high, confidence, "mean", values)
-
-
-def share_of(values: Sequence[float], confidence: float) -> Estimate:
-    """Return the share (%) of values that are 1, the others 0, with its interval by Clopper and Pearson."""
-    successes = sum(value == 1.0 for value in values)
-    low, high = statistics.proportion_interval(successes, len(values), confidence)
-    shares = [100.0 * value for value in values]
-    share = 100.0 * successes / len(values)
-    return _estimate(share, 100.0 * low, 100.0 * high, confidence, "share", shares)
-
-
-def largest_of(values: Sequence[float], confidence: float) -> Estimate:
-    """Return the largest value, and the share of all such stops that stays below it."""
-    return _extreme(max(values), values, confidence, "largest")
-
-
-def smallest_of(values: Sequence[float], confidence: float) -> Estimate:
-    """Return the smallest value, and the share of all such stops that stays above it."""
-    return _extreme(min(values), values, confidence, "smallest")
-
-
-def _extreme(value: float, values: Sequence[float], confidence: float, method: Method) -> Estimate:
-    # All n draws stay below the quantile of order q with probability q^n; with n = 50 q is 94.2 % for 95 %.
-    covered = (1.0 - confidence) ** (1.0 / len(values))
-    whole = _estimate(value, math.nan, math.nan, confidence, method, values)
-    return replace(whole, covered=covered)
-
-
-def _estimate(
-    value: float, low: float, high: float, confidence: float, method: Method, values: Sequence[float]
-) -> Estimate:
-    return Estimate(value, low, high, confidence, method, len(values), min(values), max(values))
+from uictest.core.series_measures.estimate import (
+    Estimate,
+    SeriesValue,
+    Statistic,
+    estimated,
+    largest_of,
+    median_of,
+    over_dry,
+    smallest_of,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,14 +74,6 @@ def largest_of_wheelsets(column: str) -> Figure:
     return largest
 
 
-@dataclass(frozen=True, slots=True)
-class SeriesValue:
-    """A measure of a series: an estimate, or why there is none."""
-
-    estimate: Estimate | None = None
-    unavailable_reason: str = ""
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeriesMeasure:
     """One measure over the wet stops from one initial speed, or from all.
@@ -175,11 +84,11 @@ class SeriesMeasure:
         unit: of its values.
         meaning: what it is, in words.
         worse: which of two values is the worse one. The value of a series is that of its worst speed.
-        values: returns the number of every wet stop, NaN where a stop has none.
+        figure: of every wet stop.
         statistic: makes the estimate of these.
         pooled: whether the value of the series is that of all its stops together instead.
-        figure: what `values` reads of a stop, where it is one figure alone: a bound may then refer to the
-            mean of the dry stops.
+        of_ratio: makes the value of the ratio of the estimate to the mean of the dry stops; None where the
+            value is the estimate itself.
 
     """
 
@@ -188,22 +97,49 @@ class SeriesMeasure:
     unit: str
     meaning: str
     worse: Literal["larger", "smaller"]
-    values: Callable[[SpeedStops], list[float]]
+    figure: Figure
     statistic: Statistic
     pooled: bool = False
-    figure: Figure | None = None
+    of_ratio: Callable[[Estimate], Estimate] | None = None
+
+    @property
+    def has_dry_value(self) -> bool:
+        """Whether it has a value of the dry stops too, to which a bound may refer."""
+        return not self.pooled and self.of_ratio is None
 
     def of_speed(self, stops: SpeedStops, confidence: float) -> SeriesValue:
         """Return the value over the wet stops from one speed."""
-        return estimated(self.values(stops), self.statistic, confidence)
+        if self.of_ratio is not None:
+            return self._over_dry(stops, confidence, self.of_ratio)
+        return self._of_stops(stops.wet, confidence)
 
     def of_series(self, speeds: Sequence[SpeedStops], confidence: float) -> SeriesValue:
         """Return the value of a series: that of its worst speed, or that of all stops together."""
         if self.pooled:
-            return estimated([v for each in speeds for v in self.values(each)], self.statistic, confidence)
-        return self.worst([self.of_speed(each, confidence) for each in speeds])
+            return self._of_stops([stop for each in speeds for stop in each.wet], confidence)
+        return self._worst([self.of_speed(each, confidence) for each in speeds])
 
-    def worst(self, values: Sequence[SeriesValue]) -> SeriesValue:
+    def percent_of_dry(self, speeds: Sequence[SpeedStops], confidence: float) -> SeriesValue:
+        """Return the value of a series in % of the dry stops. Raises ValueError without a dry value."""
+        if not self.has_dry_value:
+            raise ValueError(f"{self.name!r} has no value of the dry stops")
+        return self._worst([self._over_dry(stops, confidence, _in_percent) for stops in speeds])
+
+    def _of_stops(self, stops: Sequence[CountedStop], confidence: float) -> SeriesValue:
+        return estimated([self.figure(stop) for stop in stops], self.statistic, confidence)
+
+    def _over_dry(
+        self, stops: SpeedStops, confidence: float, of_ratio: Callable[[Estimate], Estimate]
+    ) -> SeriesValue:
+        dry = [self.figure(stop) for stop in stops.dry]
+        if not dry:
+            return SeriesValue(unavailable_reason="no dry stop counts")
+        if not abs(stops.dry_mean(self.figure)) > 0.0:
+            return SeriesValue(unavailable_reason="the dry stops have no such number, or zero")
+        wet = self._of_stops(stops.wet, confidence)
+        return wet if wet.estimate is None else SeriesValue(of_ratio(over_dry(wet.estimate, dry)))
+
+    def _worst(self, values: Sequence[SeriesValue]) -> SeriesValue:
         """Return the worst of some values; one that is not known could be worse than all others."""
         unknown = next((value for value in values if value.estimate is None), None)
         if unknown is not None or not values:
@@ -212,36 +148,8 @@ class SeriesMeasure:
         return max(values, key=lambda each: sign * (each.estimate.value if each.estimate else math.nan))
 
 
-def estimated(values: Sequence[float], statistic: Statistic, confidence: float) -> SeriesValue:
-    """Return the estimate of some values, or how many of them are missing."""
-    if not values:
-        return SeriesValue(unavailable_reason="no wet stop counts")
-    missing = sum(not math.isfinite(value) for value in values)
-    if missing:
-        return SeriesValue(unavailable_reason=f"{missing} of {len(values)} wet stops have no such number")
-    return SeriesValue(statistic(values, confidence))
-
-
-def percent_of_dry(figure: Figure, stops: SpeedStops) -> list[float]:
-    """Return a figure of every wet stop as a percentage of its mean over the dry stops of the same speed."""
-    reference = stops.dry_mean(figure)
-    return [100.0 * figure(stop) / reference if reference else float("nan") for stop in stops.wet]
-
-
-def dry_relation(measure: SeriesMeasure, speeds: Sequence[SpeedStops], confidence: float) -> SeriesValue:
-    """Return the value of a series in percent of the dry stops. Raises ValueError where it has no figure."""
-    if measure.figure is None:
-        raise ValueError(f"{measure.name!r} is no figure of single stops")
-    figure = measure.figure
-
-    def of_speed(stops: SpeedStops) -> SeriesValue:
-        if not stops.dry:
-            return SeriesValue(unavailable_reason="no dry stop counts")
-        if not abs(stops.dry_mean(figure)) > 0.0:
-            return SeriesValue(unavailable_reason="the dry stops have no such number, or zero")
-        return estimated(percent_of_dry(figure, stops), measure.statistic, confidence)
-
-    return measure.worst([of_speed(stops) for stops in speeds])
+def _in_percent(ratio: Estimate) -> Estimate:
+    return ratio.mapped(lambda value: 100.0 * value)
 
 
 def median_and_worst(
@@ -261,9 +169,8 @@ def median_and_worst(
             unit=unit,
             meaning=f"{word} of the wet stops: {meaning}",
             worse=worse,
-            values=lambda stops: [figure(stop) for stop in stops.wet],
-            statistic=statistic,
             figure=figure,
+            statistic=statistic,
         )
         for prefix, word, statistic in (("median", "median", median_of), ("worst", which, extreme))
     )

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from uictest.core.measures import MEASURES
-from uictest.core.series_measures import CountedStop, Rail, SpeedStops, of_stop, percent_of_dry
+from uictest.core.series_measures import CountedStop, Rail, SpeedStops, of_stop
 from uictest.core.units import KILOMETRE_PER_HOUR, in_unit
 from uictest.judging import evaluation
 from uictest.judging.evaluation import CaseResult, Outcome, RepeatedStop, Verdict
@@ -143,16 +143,17 @@ def applies(series: Series, criterion: Criterion, stop: SeriesStop) -> bool:
 
 
 def _percent_of_dry(criterion: Criterion, stop: SeriesStop, stops: Sequence[SeriesStop]) -> float:
+    """Return a figure of one stop in % of its mean over the dry stops, as it is; NaN where one is missing."""
     column = MEASURES[criterion.measure].column
     assert column is not None
+    figure = of_stop(column.name)
     dry = tuple(
         each.figures
         for each in stops
         if each.role == "dry" and each.counts and each.speed_kmh == stop.speed_kmh
     )
-    at_speed = SpeedStops(stop.speed_kmh * KILOMETRE_PER_HOUR, dry, (stop.figures,))
-    (percent,) = percent_of_dry(of_stop(column.name), at_speed)
-    return percent
+    mean = SpeedStops(stop.speed_kmh * KILOMETRE_PER_HOUR, dry, ()).dry_mean(figure)
+    return 100.0 * figure(stop.figures) / mean if mean else math.nan
 
 
 def _verdict(criterion: Criterion, percent: float) -> evaluation.Verdict:

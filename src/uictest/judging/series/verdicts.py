@@ -6,13 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from uictest.core.series_measures import (
-    SERIES_MEASURES,
-    Estimate,
-    SeriesValue,
-    SpeedStops,
-    dry_relation,
-)
+from uictest.core.series_measures import SERIES_MEASURES, Estimate, SeriesValue, SpeedStops
 from uictest.core.units import KILOMETRE_PER_HOUR, value_text, with_unit
 from uictest.judging import evaluation
 from uictest.judging.series.counting import SeriesStop
@@ -90,7 +84,7 @@ def _over_series(
 def _value(criterion: Criterion, speeds: Sequence[SpeedStops], confidence: float) -> SeriesValue:
     measure = SERIES_MEASURES[criterion.measure]
     if criterion.of_dry_stop:
-        return dry_relation(measure, speeds, confidence)
+        return measure.percent_of_dry(speeds, confidence)
     return measure.of_series(speeds, confidence)
 
 

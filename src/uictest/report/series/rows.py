@@ -12,7 +12,7 @@ from uictest.report.verdict_sentences import definition_sentence
 
 Row = dict[str, Cell]
 ALL_SPEEDS = "all"
-_ESTIMATE = ("low", "high", "confidence", "method", "stops", "smallest", "largest", "covered")
+_ESTIMATE = ("low", "high", "confidence", "method", "stops", "smallest", "largest", "covered", "dry_stops")
 
 
 def series_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:

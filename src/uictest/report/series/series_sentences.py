@@ -89,15 +89,28 @@ def interval(estimate: Estimate) -> str:
 
 def estimate_words(estimate: Estimate) -> str:
     """Return how an estimate was made and how sure it is: `mean of 9 stops, 95 % interval 1 .. 2 by ...`."""
-    made = _METHODS[estimate.method].format(counted(estimate.stops, "stop"))
+    over = f" over {estimate.dry_stops} dry" if estimate.dry_stops else ""
+    made = f"{_METHODS[estimate.method].format(counted(estimate.stops, 'stop'))}{over}"
     at = percent(estimate.confidence)
+    if missing := missing_interval(estimate):
+        return f"{made}, {missing}"
     if estimate.method in _SIDES:
-        covered = f"at least {percent(estimate.covered)} of such stops lie {_SIDES[estimate.method]} it"
+        end = estimate.high if estimate.method == "largest" else estimate.low
+        limit = "it" if math.isnan(end) else short(end)
+        covered = f"at least {percent(estimate.covered)} of such stops lie {_SIDES[estimate.method]} {limit}"
         return f"{made}; {covered} ({at} confidence)"
-    ends = interval(estimate)
-    if not ends:
-        return f"{made}, too few for a {at} interval"
-    return f"{made}, {at} interval {ends} {_INTERVALS[estimate.method]}"
+    return f"{made}, {at} interval {interval(estimate)} {_INTERVALS[estimate.method]}"
+
+
+def missing_interval(estimate: Estimate) -> str:
+    """Return why nothing says how sure an estimate is; empty where something does."""
+    at = percent(estimate.confidence)
+    if interval(estimate) or math.isfinite(estimate.covered):
+        return ""
+    if estimate.dry_stops == 1:
+        return f"no {at} interval: one dry stop shows no scatter, two are needed"
+    scattered = ", or too scattered," if estimate.dry_stops else ""
+    return f"too few{scattered} for a {at} interval"
 
 
 def confidence_words(each: SeriesVerdict, confidence: float) -> str:
@@ -105,7 +118,9 @@ def confidence_words(each: SeriesVerdict, confidence: float) -> str:
     at = percent(confidence)
     if each.kept is not None and each.stops:
         ends = " .. ".join(map(percent, statistics.proportion_interval(each.kept, each.stops, confidence)))
-        return f"{each.kept} of {counted(each.stops, 'stop')} keep it, {at} interval of the share {ends}"
+        taken = ", the mean of the dry stops taken as known" if each.of_dry_stop else ""
+        share = f"{at} interval of the share {ends}{taken}"
+        return f"{each.kept} of {counted(each.stops, 'stop')} keep it, {share}"
     if each.estimate is None:
         return ""
     uncertain = f"; not certain: {limit_inside(each, 'it')}" if each.confident is False else ""

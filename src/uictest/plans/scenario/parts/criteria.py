@@ -193,7 +193,7 @@ class Criterion(Model):
             yield Inconsistency(("layer",), message, "write `layer: requirement`")
         # A dry value is one number of each stop, which results report.
         if self.scope == "series":
-            has_dry_value = SERIES_MEASURES[self.measure].figure is not None
+            has_dry_value = SERIES_MEASURES[self.measure].has_dry_value
             hint = "medians and worst values of single stops have one, such as `median_braking_distance`"
         else:
             has_dry_value = self.measure in WITH_DRY_VALUE
