@@ -35,14 +35,28 @@ _LINK = re.compile(r'(?:href|src)="([^"]*)"')
 _ID = re.compile(r'id="([^"]*)"')
 
 
-def files_of(*findings, about=None):
+def files_of(*findings, about=None, run=None):
     examination = Examination("selftest", "", about or {"python": "CPython 3.11"}, findings)
-    return dossier.dossier_files(examination, SCHEMAS, MADE)
+    return dossier.dossier_files(examination, SCHEMAS, MADE, run)
 
 
 @pytest.fixture(scope="module")
 def files():
     return files_of(PASSED)
+
+
+PLACES = [str(Path.home()), str(Path.cwd()), tempfile.gettempdir(), str(REPOSITORY)]
+NAMES_PLACES = "; ".join(f"no file {place}/x" for place in PLACES)
+
+
+@pytest.fixture(scope="module")
+def failed(stops):
+    """A dossier of two real checks and of three made up, two of them missed, with a run of the tests."""
+    real = selftest.examine(stops, list(selftest.all_checks(stops))[:2]).findings
+    relative = replace(PASSED, id="relative", tolerance=2e-3, origin="closed form")
+    places = replace(FAILED, id="places", status="error", reason=NAMES_PLACES, expected=NAMES_PLACES)
+    run = run_of(dossier.tested_program()["uictest_installed_sha256"])
+    return files_of(*real, relative, FAILED, places, about={"cache": NAMES_PLACES}, run=run)
 
 
 @pytest.fixture(scope="module")
@@ -105,20 +119,17 @@ def test_the_archive_lists_the_digest_of_each_file(files):
     assert {each.date_time for each in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
 
 
-def test_a_failed_self_test_stands_on_the_cover(files):
-    failed = files_of(PASSED, FAILED)
-    assert "FAILED: 2 checks of the self-test, 1 pass, 1 fail" in text(failed, "index.html")
-    assert json.loads(failed["dossier.json"])["status"] == "fail"
+def test_a_failed_self_test_stands_on_the_cover(files, failed):
+    assert "FAILED: 5 checks of the self-test, 3 pass, 1 fail, 1 error" in text(failed, "index.html")
+    assert json.loads(failed["dossier.json"])["status"] == "error"
+    assert Examination("selftest", "", {}, (PASSED, FAILED)).status == "fail"
     assert "FAILED" not in text(files, "index.html")
 
 
-def test_no_folder_of_the_machine_is_named():
-    places = [str(Path.home()), str(Path.cwd()), tempfile.gettempdir(), str(REPOSITORY)]
-    reason = "; ".join(f"no file {place}/x" for place in places)
-    files = files_of(replace(FAILED, status="error", reason=reason, expected=reason), about={"cache": reason})
-    assert "no file &lt;" in text(files, "known-answers.html")
-    for name, content in files.items():
-        for place in places:
+def test_no_folder_of_the_machine_is_named(failed):
+    assert "no file &lt;" in text(failed, "known-answers.html")
+    for name, content in failed.items():
+        for place in PLACES:
             assert len(place) < 2 or f"{place}/" not in content.decode("utf-8"), name
 
 
@@ -277,9 +288,8 @@ def test_every_limit_says_that_it_is_not_verified(whole):
     assert bounds["energy-balance", "< 0.1 %"]["verified"] == "ours, no leaflet's"
 
 
-def test_answers_say_that_the_tolerance_is_relative_and_where_they_come_from(files):
-    found = replace(PASSED, tolerance=2e-3, origin="closed form")
-    page = text(files_of(found), "known-answers.html")
+def test_answers_say_that_the_tolerance_is_relative_and_where_they_come_from(failed):
+    page = text(failed, "known-answers.html")
     assert "as a share of what is expected" in page
     assert re.search(r">0\.2 %<.*>closed form<.*>TOOL-51<", page, re.DOTALL)
 
@@ -320,10 +330,10 @@ def test_twenty_questions_and_more_have_an_answer_with_its_place(files):
     assert all(_LINK.search(row) for _, row in rows)
 
 
-def test_the_real_self_test_is_in_it(stops):
-    examination = selftest.examine(stops, list(selftest.all_checks(stops))[:2])
-    found = json.loads(dossier.dossier_files(examination, {}, MADE)["dossier.json"])["self_test"]
-    assert [each["status"] for each in found] == ["pass", "pass"]
+def test_the_real_self_test_is_in_it(stops, failed):
+    found = json.loads(failed["dossier.json"])["self_test"]
+    assert [each["id"] for each in found[:2]] == [each.id for each in selftest.all_checks(stops)][:2]
+    assert [each["status"] for each in found[:2]] == ["pass", "pass"]
 
 
 RUN = """<?xml version="1.0" encoding="utf-8"?>
@@ -337,29 +347,27 @@ RUN = """<?xml version="1.0" encoding="utf-8"?>
 <testcase classname="tests.cli.test_entry" name="test_x"><skipped/></testcase></testsuite></testsuites>"""
 
 
-def with_run(digest):
-    run = dossier.read_test_run(RUN.format(digest=digest).encode())
-    examination = Examination("selftest", "", {"python": "CPython 3.11"}, (PASSED,))
-    return dossier.dossier_files(examination, SCHEMAS, MADE, run)
+def run_of(digest):
+    return dossier.read_test_run(RUN.format(digest=digest).encode())
 
 
-def test_a_run_of_the_tests_stands_beside_the_requirements_and_on_the_cover():
-    files = with_run(dossier.tested_program()["uictest_installed_sha256"])
-    whole = json.loads(files["dossier.json"])
+def test_a_run_of_the_tests_stands_beside_the_requirements_and_on_the_cover(failed):
+    whole = json.loads(failed["dossier.json"])
     results = {each["test"]: each["result"] for each in whole["tests"]}
     assert results["test_nan_never_passes"] == "1 failed, 1 passed"
     assert results["test_nan_and_infinity_never_hold"] == "1 passed"
     assert results["test_validity_comes_before_requirements"] == "not run"
     assert whole["test_run"]["outcomes"] == {"passed": 2, "failed": 1, "skipped": 1}
     said = "1 failed, 1 skipped, 2 passed, begun 2026-01-02T03:04:05; of the program that is installed here"
-    assert said in text(files, "index.html")
-    assert said in text(files, "tests.html")
-    assert f"{len(results) - 2} were not run" in text(files, "tests.html")
+    assert said in text(failed, "index.html")
+    assert said in text(failed, "tests.html")
+    assert f"{len(results) - 2} were not run" in text(failed, "tests.html")
 
 
-def test_a_run_of_another_program_is_called_so():
-    assert "of another program (uictest 9.9)" in text(with_run("0" * 64), "index.html")
-    assert "none was given" in text(files_of(PASSED), "index.html")
+def test_a_run_of_another_program_is_called_so(files):
+    """The cover has this sentence: the test before reads it there."""
+    assert "of another program (uictest 9.9)" in run_of("0" * 64).sentence()
+    assert "none was given" in text(files, "index.html")
 
 
 @pytest.mark.parametrize(

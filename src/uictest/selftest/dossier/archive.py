@@ -52,7 +52,7 @@ def dossier_files(
         run: of the tests, as its file records it.
     """
     examination = _without_places(examination)
-    packages, kept = installed_packages(), studies()
+    packages, kept, digest = installed_packages(), studies(), package_digest()
     sources, numbers, bounds = public_sources(), library_numbers(), limits()
     parts: dict[str, str] = {
         "questions.html": sheet("Questions of an assessor", body=rendered(QUESTIONS, "")),
@@ -80,7 +80,7 @@ def dossier_files(
         "result of the self-test": examination.status,
         "run of the tests": "none was given" if run is None else run.sentence(),
         "made": made.strftime("%Y-%m-%d %H:%M:%S UTC"),
-        "SHA-256 over the lines of sha256sum of all installed files, by path": package_digest(),
+        "SHA-256 over the lines of sha256sum of all installed files, by path": digest,
         "packages unlike those tested": ", ".join(untested(packages)) or "none",
         **examination.about,
     }
@@ -91,7 +91,7 @@ def dossier_files(
         "last_release": last_release()._asdict(),
         "status": examination.status,
         "made": made.isoformat(timespec="seconds"),
-        "installed_sha256": package_digest(),
+        "installed_sha256": digest,
         "environment": dict(examination.about),
         "self_test": json.loads(parts["known-answers.json"])["checks"],
         "requirements": requirements(),

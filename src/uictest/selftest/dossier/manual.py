@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Final
@@ -87,9 +87,10 @@ def rendered(page: Path, folder: str) -> str:
     tokens = parser.parse(page.read_text("utf-8"))
     _name_headings(tokens)
     is_list = page.stem == "requirements"
+    known = {path.name for path in pages()}
     for token, following in pairwise([*_all(tokens), None]):
         if token.type == "link_open":
-            _lead(token, following, folder)
+            _lead(token, following, folder, known)
             kind = token.tag
         if token.type == "link_close":
             token.tag = kind
@@ -119,12 +120,11 @@ def _name_headings(tokens: list[Any]) -> None:
             heading.attrSet("id", words.replace(" ", "-"))
 
 
-def _lead(token: Any, words: Any, folder: str) -> None:
+def _lead(token: Any, words: Any, folder: str, known: Collection[str]) -> None:
     """Lead a link to its place in the archive; what is not part of it becomes a text with its path."""
     target = str(token.attrs["href"])
     name, _, anchor = target.partition("#")
     file = Path(name).name
-    known = {path.name for path in pages()}
     if "://" in target or target.startswith("#") or name.endswith(".html") or not folder:
         return
     if words.content.startswith("test_") and name.endswith(".py"):
