@@ -2,28 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, Final
 
 from uictest.core.physics import cleaned_friction, contact_stiffness, creep_force
 
 _SHAPE: Final = ("friction_ratio", "friction_decay", "reduction_adhesion", "reduction_slip")
+Adhesion = Callable[[float, float], float]
+"""F/Q at a creepage, slip speed over the speed of the train, on a rail of which a share is clean, or bare."""
 
 
-def adhesion(rail: Any, creepage: float, speed: float, load: float, friction: float, share: float) -> float:
-    """Return F/Q.
+def adhesion_of(rail: Any, speed: float, load: float, friction: float) -> Adhesion:
+    """Return F/Q as a function of creepage and cleaned share; the rail's law says how much the share counts.
 
     Args:
         rail: condition of a rail that is cleaned.
-        creepage: slip speed over the speed of the train.
         speed: of the train, m/s.
         load: of the wheel, N.
         friction: of the rail as found.
-        share: of it that is clean, or bare; its law says how much that counts.
     """
-    contact, cleaning = rail.contact, rail.cleaning
-    clean, part = cleaning.clean_curve or rail, cleaning.clean_part(share)
-    curve = [getattr(rail, name) + part * (getattr(clean, name) - getattr(rail, name)) for name in _SHAPE]
-    stiffness = contact_stiffness(contact.creep_stiffness, load / contact.reference_wheel_load)
-    now = cleaned_friction(friction, part, cleaning.recovered_friction)
-    force, _ = creep_force(creepage * speed, speed, load, stiffness, now, *curve)
-    return float(force / load)
+    cleaning = rail.cleaning
+    found, clean = (
+        [float(getattr(curve, name)) for name in _SHAPE] for curve in (rail, cleaning.clean_curve or rail)
+    )
+    ratio = load / float(rail.contact.reference_wheel_load)
+    stiffness = contact_stiffness(float(rail.contact.creep_stiffness), ratio)
+    law, own, recovered = cleaning.law, cleaning.law_numbers, float(cleaning.recovered_friction)
+    counting = tuple(own[k] for k in law.passed(law.clean_part))
+
+    def adhesion(creepage: float, share: float) -> float:
+        part = law.clean_part(share, *counting)
+        curve = [a + part * (b - a) for a, b in zip(found, clean, strict=True)]
+        now = cleaned_friction(friction, part, recovered)
+        force, _ = creep_force(creepage * speed, speed, load, stiffness, now, *curve)
+        return float(force / load)
+
+    return adhesion

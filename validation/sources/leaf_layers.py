@@ -10,7 +10,7 @@ import numpy as np
 from studies.stop_runner import StopRunner
 from studies.used_rail import used_rail
 from uictest.units import KILOMETRE_PER_HOUR, KILONEWTON
-from validation.cleaned_rail import adhesion
+from validation.cleaned_rail import adhesion_of
 from validation.source import Comparison, Findings, Source
 
 LAWS: Final = ("leaf-layer", "leaf-film")
@@ -62,8 +62,8 @@ def _of_law(stop_runner: StopRunner, law: str) -> Iterator[Comparison]:
 
 
 def _highest(rail: Any, speed: float, load: float, share: float) -> float:
-    motion = speed * KILOMETRE_PER_HOUR, load * KILONEWTON, float(rail.friction), share
-    return max(adhesion(rail, float(creepage), *motion) for creepage in CREEPAGES)
+    adhesion = adhesion_of(rail, speed * KILOMETRE_PER_HOUR, load * KILONEWTON, float(rail.friction))
+    return max(adhesion(float(creepage), share) for creepage in CREEPAGES)
 
 
 def _row(quantity: str, here: float, fitted: bool) -> Comparison:

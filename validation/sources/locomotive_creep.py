@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 
 import numpy as np
 
@@ -43,6 +44,7 @@ def polach(speed: float, reductions: tuple[float, float]) -> list[float]:
     return [creep_force(each * speed, speed, LOAD, *law)[0] / LOAD for each in CREEPAGES]
 
 
+@cache
 def _stiffness() -> float:
     """Tangential stiffness of the contact without the layer: the slope of the theory, N."""
     contact = HalfSpaceContact(*SEMI_AXES, SHEAR_MODULUS, POISSON)

@@ -12,7 +12,7 @@ import numpy as np
 from studies.stop_runner import StopRunner
 from uictest.core.physics import share_left_behind
 from uictest.units import KILOMETRE_PER_HOUR
-from validation.cleaned_rail import adhesion
+from validation.cleaned_rail import Adhesion, adhesion_of
 from validation.half_space import Array
 from validation.source import Comparison, Findings, Source
 
@@ -63,27 +63,28 @@ class CreepCurve:
 
 def creep_curve(rail: Any, point: Point, passes: int) -> CreepCurve:
     """Return the creep curve of a rail that sliding changes and that has settled at each creepage."""
-    rising, share = [], 0.0
-    for creepage in CREEPAGES:
-        adhesion, share = _settled(rail, point, creepage, passes, share)
-        rising.append(adhesion)
-    falling = []
-    for creepage in CREEPAGES[::-1]:
-        adhesion, share = _settled(rail, point, creepage, passes, share)
-        falling.append(adhesion)
-    return CreepCurve(np.array(rising), np.array(falling[::-1]))
+    load, cleaning = float(rail.contact.reference_wheel_load), rail.cleaning
+    adhesion = adhesion_of(rail, point.speed * KILOMETRE_PER_HOUR, load, point.friction)
+    # Both wheels of the wheelset clean, and the loss per metre is force times creepage.
+    response, carry_over = 2.0 * load * cleaning.response, float(cleaning.carry_over)
+    found, share = [], 0.0
+    for creepage in (*CREEPAGES.tolist(), *CREEPAGES[::-1].tolist()):
+        force, share = _settled(adhesion, creepage, response, (carry_over, passes), share)
+        found.append(force)
+    rising, falling = np.split(np.array(found), 2)
+    return CreepCurve(rising, falling[::-1])
 
 
-def _settled(rail: Any, point: Point, creepage: float, passes: int, share: float) -> tuple[float, float]:
+def _settled(
+    adhesion: Adhesion, creepage: float, response: float, behind: tuple[float, int], share: float
+) -> tuple[float, float]:
     """Return F/Q and the cleaned share of the rail, from the share at the creepage before."""
-    cleaning, load = rail.cleaning, rail.contact.reference_wheel_load
-    speed = point.speed * KILOMETRE_PER_HOUR
+    carry_over, passes = behind
     while True:
-        found = adhesion(rail, creepage, speed, load, point.friction, share)
-        # Both wheels of the wheelset clean, and the loss per metre is force times creepage.
-        own, share_now = 1.0 - math.exp(-2.0 * found * load * creepage * cleaning.response), 0.0
+        found = adhesion(creepage, share)
+        own, share_now = 1.0 - math.exp(-found * creepage * response), 0.0
         for _ in range(passes):
-            share_now = share_left_behind(own, share_now, cleaning.carry_over)
+            share_now = share_left_behind(own, share_now, carry_over)
         if abs(share_now - share) < _SETTLED:
             return found, share_now
         share = share_now
