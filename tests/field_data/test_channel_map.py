@@ -33,9 +33,9 @@ def test_presets_load_and_every_channel_is_canonical():
     assert presets() == ("common-names", "uictest")
     for name in presets():
         loaded, inputs = load_map(name)
-        assert loaded.sources().keys() <= CHANNEL_UNITS.keys()
+        assert loaded.sources.keys() <= CHANNEL_UNITS.keys()
         assert next(iter(inputs)) == f"library:channel_maps/{name}.yaml"
-    assert load_map("uictest")[0].sources().keys() == CHANNEL_UNITS.keys()
+    assert load_map("uictest")[0].sources.keys() == CHANNEL_UNITS.keys()
 
 
 def test_scale_offset_sign_and_unit(tmp_path):
@@ -61,7 +61,7 @@ def test_scale_offset_sign_and_unit(tmp_path):
 def test_wheelsets_are_spelled_out_and_a_child_changes_its_parent(tmp_path):
     _map(tmp_path, 'channels:\n  "wheel_speed_{n}": "axle{n}"\n', "base.yaml")
     text = "extends: base.yaml\nchannels:\n  wheel_speed_3: {source: other, unit: km/h}\n"
-    sources = load_map(_map(tmp_path, text))[0].sources()
+    sources = load_map(_map(tmp_path, text))[0].sources
     assert sources["wheel_speed_2"].source == ("axle2",)
     assert sources["wheel_speed_3"].source == ("other",)
 

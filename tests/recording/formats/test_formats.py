@@ -99,7 +99,7 @@ def test_other_versions_of_mdf_are_read(tmp_path, version):
     with asammdf.MDF(version=version) as mdf:
         mdf.append([asammdf.Signal(20.0 - time, time, name="speed", unit="m/s")])
         mdf.save(path.with_suffix(".mf4" if version > "4" else ".mdf"))
-    (group,) = read_contents(next(tmp_path.iterdir())).groups
+    (group,) = read_here("mdf", next(tmp_path.iterdir()), Dialect()).groups
     assert group.channels["speed"] == pytest.approx(20.0 - time)
     assert group.time == pytest.approx(time)
 

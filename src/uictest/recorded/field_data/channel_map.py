@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated, Any, Final, Literal
@@ -174,8 +175,9 @@ class ChannelMap(Model):
         """The dialect of text files."""
         return Dialect(**dict(self.csv))
 
-    def sources(self) -> dict[str, ChannelSource]:
-        """Return the source of every channel, one per wheelset; a channel of one wheelset has precedence."""
+    @cached_property
+    def sources(self) -> Mapping[str, ChannelSource]:
+        """The source of every channel, one per wheelset; a channel of one wheelset has precedence."""
         spelled_out: dict[str, ChannelSource] = {}
         for name, source in self.channels.items():
             numbers = WHEELSETS if NUMBER in name else ()

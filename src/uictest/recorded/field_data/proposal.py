@@ -76,7 +76,7 @@ def fitting_preset(contents: Contents) -> str | None:
 
 
 def _fits(preset: str, contents: Contents, assigned: Mapping[str, str]) -> bool:
-    sources = load_map(preset)[0].sources()
+    sources = load_map(preset)[0].sources
     return all(
         canonical in sources
         and next((each for each in sources[canonical].source if _group_of(each, contents)), None) == name
@@ -98,7 +98,7 @@ def _by_name(contents: Contents) -> Iterator[tuple[str, str]]:
     for group in contents.groups:
         for name in group.channels:
             names.setdefault(_plain(name), []).append((group, name))
-    for canonical, source in load_map(_COMMON)[0].sources().items():
+    for canonical, source in load_map(_COMMON)[0].sources.items():
         alike = (each for alias in source.source for each in names.get(_plain(alias), ()))
         fitting = (
             name for group, name in alike if not group.units.get(name) or _has_unit(group, canonical, name)

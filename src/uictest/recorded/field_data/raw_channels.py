@@ -67,7 +67,7 @@ def select_channels(
     Raises MapError where a name stands for several channels, a unit is unknown or not the channel's, a text
     is no state, or a channel has no time axis.
     """
-    sources = channel_map.sources()
+    sources = channel_map.sources
     times: dict[int, Array] = {}
     selected: dict[str, RawChannel] = {}
     for name, source in sources.items():

@@ -42,7 +42,7 @@ def pieces_of(path: Path, channel_map: ChannelMap, needed: Collection[str] | Non
 
     Raises UnreadableError, MissingExtraError, MapError, OSError.
     """
-    sources = channel_map.sources()
+    sources = channel_map.sources
     chosen = sources if needed is None else {TIME, _SPEED, *needed}
     names = {alias for name in chosen if name in sources for alias in sources[name].source}
     leading = sources[_SPEED].source if _SPEED in sources else ()

@@ -1,0 +1,27 @@
+"""MDF and TDMS logs are read in this process, except where a process of its own is the point."""
+
+import warnings
+
+import pytest
+
+from uictest.core.recording.formats import isolation, streams
+
+APART = isolation.read_apart
+
+
+def _read_here(name, path, request, seconds=0.0):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        pieces = list(streams.PIECES[name](path, **request))
+    yield from pieces
+
+
+@pytest.fixture(autouse=True)
+def _pieces_here(monkeypatch):
+    monkeypatch.setattr(isolation, "read_apart", _read_here)
+
+
+@pytest.fixture
+def apart(monkeypatch, _pieces_here):
+    """Have a process of its own read MDF and TDMS, as users do."""
+    monkeypatch.setattr(isolation, "read_apart", APART)
