@@ -70,9 +70,9 @@ def test_a_train_is_simulated_once_for_all_of_its_cars(cases, monkeypatch):
     simulated = []
     whole = rig.simulate_cars
 
-    def noted(cars, every=None):
+    def noted(cars, every=None, run=None):
         simulated.append([case.id for case in cars])
-        return whole(cars, every)
+        return whole(cars, every, run)
 
     monkeypatch.setattr(rig, "simulate_cars", noted)
     loaded = cases(f"{TRAIN}\nrepeat: 2")
@@ -193,7 +193,7 @@ def test_the_command_travels_along_a_pipe(cases):
 
 
 def test_an_error_of_a_train_is_one_of_each_of_its_cars(cases, monkeypatch):
-    monkeypatch.setattr(rig, "simulate_cars", lambda cars, every=None: 1 / 0)
+    monkeypatch.setattr(rig, "simulate_cars", lambda *arguments: 1 / 0)
     results = run_cases(cases(TRAIN), RunSettings()).whole()
     assert [(each.outcome, each.train.car) for each in results] == [("error", 1), ("error", 2), ("error", 3)]
 

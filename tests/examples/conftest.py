@@ -118,7 +118,7 @@ def shipped():
     """Every shipped case with the threshold controller, and one with a dynamic brake on a slippery rail."""
     motors = ["brake.dynamic={force: 40 kN, power: 1 MW, wheelsets: [1, 2, 4]}", "rail.friction=0.07"]
     cases = [*load([ROOT / "scenarios"]), *load([ROOT / "scenarios" / "slide-80.yaml"], motors)[-1:]]
-    alone = [case for case in cases if case.train is None]  # a train runs controllers that are built in
+    alone = [case for case in cases if case.train is None]
     return [case for case in alone if case.scenario.controller.algorithm == DEFAULT]
 
 

@@ -23,7 +23,7 @@ from uictest.core.physics import FILL, VENT
 from uictest.plans.scenario import load
 from uictest.rig.external.in_process import run_in_process
 
-from .conftest import EXAMPLES, bits, listening
+from .conftest import EXAMPLES, ROOT, bits, listening
 
 Array = NDArray[np.float64]
 
@@ -53,6 +53,14 @@ def test_every_shipped_stop_has_the_bits_of_the_built_in_controller(way, request
     assert {stop.controller_version for stop in stops} == {"1.0"}
     found = zip(shipped, stops, built_in, strict=True)
     assert [case.id for case, stop, expected in found if bits(stop) != expected] == []
+
+
+def test_every_car_of_a_train_has_the_bits_of_the_built_in_controller(threshold_library, with_controller):
+    cases = load([ROOT / "scenarios" / "train-120.yaml"])
+    outside = [with_controller(case, threshold_library) for case in cases]
+    stops = rig.simulate_cars(outside)
+    assert [bits(stop) for stop in stops] == [bits(stop) for stop in rig.simulate_cars(cases)]
+    assert {stop.controller_version for stop in stops} == {"1.0"}
 
 
 def test_the_example_scenario_runs_with_the_parameters_of_the_built_in_controller(

@@ -162,7 +162,26 @@ def test_every_car_names_what_all_of_its_train_was_read_from(tmp_path, cases):
     assert {name.rpartition("/")[2] for name in files[0]} >= {"train.yaml", "lead.yaml", "last.yaml"}
 
 
-def test_a_controller_from_outside_is_refused(tmp_path, cases):
-    (tmp_path / "wsp.py").write_text("class W:\n    def step(self, inputs, outputs): ...\n", "utf-8")
-    with pytest.raises(ScenarioErrors, match=r"train\.1\.controller: .* is a controller from outside"):
-        cases("train: [{}, {controller: {python: wsp.py, class: W}}]\n")
+OUTSIDE = "{controller: {python: %s, class: W}}"
+
+
+def test_programs_of_a_train_lie_in_one_folder(tmp_path, cases):
+    """A process holds one module of a name: what lies beside one file would serve the other."""
+    for name in ("wsp.py", "twin.py", "other/wsp.py"):
+        path = tmp_path / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text("class W:\n    def step(self, inputs, outputs): ...\n", "utf-8")
+    cars = [OUTSIDE % name for name in ("wsp.py", "twin.py", "wsp.py")]
+    loaded = cases(f"train: [{{}}, {', '.join(cars)}]\n")
+    assert [case.scenario.controller.program is None for case in loaded] == [True, False, False, False]
+    told = r"train\.2\.controller: its controller is loaded from .*/other, that of car 2 from"
+    with pytest.raises(ScenarioErrors, match=told):
+        cases(f"train: [{{}}, {OUTSIDE % 'wsp.py'}, {OUTSIDE % 'other/wsp.py'}]\n")
+
+
+def test_a_program_at_a_socket_serves_one_car(cases):
+    at = "controller: {connect: 'tcp://127.0.0.1:%d'}"
+    apart, twice = f"train: [{{{at % 1}}}, {{{at % 2}}}]\n", f"train: [{{{at % 1}, count: 2}}]\n"
+    assert len(cases(apart)) == 2
+    with pytest.raises(ScenarioErrors, match=r"127\.0\.0\.1:1 is the address of car 1, too"):
+        cases(twice)

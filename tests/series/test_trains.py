@@ -109,9 +109,9 @@ def test_every_stop_says_once_which_car_is_judged(of_trains):
 def test_every_train_is_simulated_once_for_the_series_of_all_cars(of_trains, monkeypatch):
     simulated, whole = [], rig.simulate_cars
 
-    def noted(cars, every=None):
+    def noted(cars, every=None, run=None):
         simulated.append([case.id for case in cars])
-        return whole(cars, every)
+        return whole(cars, every, run)
 
     def run(cases):
         return run_cases(cases, RunSettings(recording=RecordingRequest("none")))

@@ -34,6 +34,7 @@ from .declared import (
     ControllerProgram as ControllerProgram,
     Kind as Kind,
     Problem as Problem,
+    ProgramKey as ProgramKey,
     installed_module as installed_module,
     installed_names as installed_names,
     installed_version as installed_version,

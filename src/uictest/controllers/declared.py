@@ -108,6 +108,8 @@ HEADER: Final = Path(__file__).with_name("uictest_controller.h")
 """What a controller in C includes."""
 
 Kind = Literal["python", "library", "fmu", "connect", "registered"]
+ProgramKey = tuple[str, str, str]
+"""Kind, location and SHA-256 of a program."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +133,18 @@ class ControllerProgram:
     options: Mapping[str, Any] = field(default_factory=dict)
     time_limit: float = 5.0
     real_time: bool = False
+
+    @property
+    def key(self) -> ProgramKey:
+        """What programs share that are the same one."""
+        return self.kind, self.location, self.sha256
+
+    @property
+    def surroundings(self) -> str:
+        """Where the modules and libraries lie that it may load, in words."""
+        if self.kind == "connect":
+            return "a process of its own"
+        return "installed packages" if self.kind == "registered" else str(Path(self.location).parent)
 
 
 LONGEST_VERSION: Final = 100

@@ -5,7 +5,6 @@ from .assembly import (
     assigned as assigned,
     controller_config as controller_config,
     friction_laws as friction_laws,
-    sha256_of_case as sha256_of_case,
 )
 from .backends.controller_code import ControllerCode as ControllerCode, controller_code as controller_code
 from .backends.lanes import (
@@ -34,7 +33,6 @@ from .backends.train_lanes import (
 from .backends.trains import compiled_train as compiled_train
 from .coupled_cars import (
     CouplerPeaks as CouplerPeaks,
-    TrainStop as TrainStop,
     peaks_beside as peaks_beside,
     run_coupled as run_coupled,
 )
@@ -46,16 +44,20 @@ from .external.block import (
     load_block as load_block,
     run_block as run_block,
 )
-from .external.in_process import (
+from .external.drives import (
     Beginning as Beginning,
     Driven as Driven,
     DriveRequest as DriveRequest,
     drive as drive,
+)
+from .external.in_process import (
     empty_exchange as empty_exchange,
     run_in_process as run_in_process,
+    run_train_in_process as run_train_in_process,
 )
 from .external.workers import (
     RunInputs as RunInputs,
+    RunTrain as RunTrain,
     Workers as Workers,
     in_real_time as in_real_time,
 )
@@ -66,6 +68,7 @@ from .simulation import (
     SimulatedStop as SimulatedStop,
     compile_for as compile_for,
     recording_of_stop as recording_of_stop,
+    sha256_of_case as sha256_of_case,
     simulate as simulate,
     simulate_cars as simulate_cars,
     simulate_trains as simulate_trains,
@@ -73,7 +76,7 @@ from .simulation import (
 from .single_stop import StopInputs as StopInputs, noise_key_text as noise_key_text, noise_keys as noise_keys
 from .train_inputs import (
     Coupling as Coupling,
-    TrainInputs as TrainInputs,
     assemble_train as assemble_train,
     coupling_of as coupling_of,
 )
+from .train_stop import TrainInputs as TrainInputs, TrainStop as TrainStop

@@ -69,12 +69,6 @@ def case_sha256(
     return hashlib.sha256(b"".join(records) + program.parameters.encode()).hexdigest()
 
 
-def sha256_of_case(case: Case) -> str:
-    """Return the SHA-256 that a controller from outside is given with a case; empty if it is built in."""
-    config = assemble(case).config
-    return "" if config is None else config.case_sha256
-
-
 def controller_config(parameters: Any, wheelset_parameters: Any, program: ControllerProgram) -> Config:
     """Return what a controller from outside is given before a stop with these records."""
     radii = wheelset_parameters["configured_radius"].tolist()

@@ -1,21 +1,21 @@
 """A case in, a stop out."""
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.controllers import ResponseTimes
+from uictest.controllers import Config, ResponseTimes
 from uictest.core.recording import BRAKE_COMMAND_TIME, ORIGIN, TRACK_BRAKES_BESIDE, Recording
 from uictest.plans.scenario import Case
 from uictest.rig.assembly import assemble
 from uictest.rig.backends.native import compiled_stop
 from uictest.rig.backends.trains import compiled_train
-from uictest.rig.coupled_cars import CouplerPeaks, peaks_beside, run_coupled
-from uictest.rig.external.workers import RunInputs, Workers
+from uictest.rig.coupled_cars import CouplerPeaks, peaks_beside
+from uictest.rig.external.workers import RunInputs, RunTrain, Workers
 from uictest.rig.model.trace import (
     ACCELERATION_CHANNELS,
     CAR_CHANNELS,
@@ -29,8 +29,9 @@ from uictest.rig.model.trace import (
     TRAIN_SPEED_CHANNELS,
     WHEELSET_CHANNELS,
 )
-from uictest.rig.single_stop import FinishedStop, noise_key_text
+from uictest.rig.single_stop import FinishedStop, empty_trace, noise_key_text
 from uictest.rig.train_inputs import assemble_train, coupling_of
+from uictest.rig.train_stop import TrainInputs
 
 
 @dataclass(frozen=True)
@@ -94,60 +95,78 @@ def simulate(case: Case, record_every: float | None = None, run: RunInputs | Non
             finished = workers.run(inputs, steps_per_sample)
     else:
         finished = run(inputs, steps_per_sample)
-    from_outside = inputs.program is not None
-    recording = recording_of_stop(case, finished, from_outside=from_outside) if steps_per_sample else None
-    return SimulatedStop(
-        *(finished.measures, finished.wheelset_measures, recording),
-        *(finished.controller_version, finished.contract if from_outside else 0, finished.response_times),
-        case_sha256="" if inputs.config is None else inputs.config.case_sha256,
-        noise_key=noise_key_text(inputs.parameters),
-    )
+    stop = _stop_of_car(case, finished, inputs.config, recorded=steps_per_sample > 0)
+    return replace(stop, noise_key=noise_key_text(inputs.parameters))
 
 
-def simulate_cars(cases: Sequence[Case], record_every: float | None = None) -> list[SimulatedStop]:
+def simulate_cars(
+    cases: Sequence[Case], record_every: float | None = None, run: RunTrain | None = None
+) -> list[SimulatedStop]:
     """Simulate a train once and return the stops of some of its cars.
 
     Args:
         cases: cars of one train.
         record_every: as for :func:`simulate`.
+        run: what runs the stop [default: a child process if a controller comes from outside].
+
+    Raises:
+        ControllerError: when a controller from outside failed.
     """
-    cars = _train_of(cases)
-    coupling, step = coupling_of(cars[0].scenario), float(cars[0].scenario.simulation.time_step)
+    inputs, step = _inputs_of(cases), float(cases[0].scenario.simulation.time_step)
     steps_per_sample = 0 if record_every is None else max(round(record_every / step), 1)
-    stop = run_coupled(cars, coupling, steps_per_sample)
-
-    def recording(case: Case, place: int) -> Recording | None:
-        return recording_of_stop(case, stop.cars[place], from_outside=False) if steps_per_sample else None
-
-    measures = [(car.measures, car.wheelset_measures) for car in stop.cars]
-    return _stops_of_train(cases, measures, stop.couplers, stop.parameters, recording)
+    with Workers() as workers:
+        stop = (run or workers.run_train)(inputs, steps_per_sample)
+    return _stops_of_train(cases, inputs, stop.cars, stop.couplers, recorded=steps_per_sample > 0)
 
 
 def simulate_trains(
-    trains: Sequence[Sequence[Case]], noise_of: Case | None = None
+    trains: Sequence[Sequence[Case]], noise_of: Case | None = None, run: RunTrain | None = None
 ) -> list[list[SimulatedStop]]:
     """Simulate trains side by side in lanes, each as :func:`simulate_cars` does without a recording.
+
+    Trains with controllers from outside run one after the other.
 
     Args:
         trains: cars of each train.
         noise_of: car of a train whose noise all meet [default: each its own].
+        run: as for :func:`simulate_cars`.
+
+    Raises:
+        ControllerError: when a controller from outside failed.
     """
     from uictest.rig.backends.train_lanes import run_trains_in_lanes  # single stops do without them
 
-    inputs = [assemble_train(cars := _train_of(cases), coupling_of(cars[0].scenario)) for cases in trains]
+    inputs = [_inputs_of(cases) for cases in trains]
     if noise_of is not None:
-        cars = list(noise_of.cars)
-        keys = assemble_train(cars, coupling_of(cars[0].scenario)).parameters["noise_key"]
-        for each in inputs:
+        keys = _inputs_of([noise_of]).parameters["noise_key"]
+        for place, each in enumerate(inputs):
             each.parameters["noise_key"] = keys
-    return [
-        _stops_of_train(
-            cases,
-            list(zip(stop.measures, stop.wheelset_measures.view(np.recarray), strict=True)),
-            *(stop.couplers, own.parameters),
-        )
-        for cases, own, stop in zip(trains, inputs, run_trains_in_lanes(inputs), strict=True)
-    ]
+            configs = (config and replace(config, case_sha256="") for config in each.configs)
+            inputs[place] = each._replace(configs=tuple(configs))
+    in_lanes = iter(run_trains_in_lanes([each for each in inputs if not each.from_outside]))
+    stops: list[list[SimulatedStop]] = []
+    with Workers() as workers:
+        for cases, own in zip(trains, inputs, strict=True):
+            if own.from_outside:
+                stop = (run or workers.run_train)(own, 0)
+                stops.append(_stops_of_train(cases, own, stop.cars, stop.couplers))
+            else:
+                of_lane = next(in_lanes)
+                pairs = zip(of_lane.measures, of_lane.wheelset_measures.view(np.recarray), strict=True)
+                cars = [FinishedStop(*pair, None, None, empty_trace(0)) for pair in pairs]
+                stops.append(_stops_of_train(cases, own, cars, of_lane.couplers))
+    return stops
+
+
+def sha256_of_case(case: Case) -> str:
+    """Return the SHA-256 that a controller from outside is given with a case; empty if it is built in."""
+    config = assemble(case).config if case.train is None else _inputs_of([case]).configs[_place(case)]
+    return "" if config is None else config.case_sha256
+
+
+def _inputs_of(cases: Sequence[Case]) -> TrainInputs:
+    cars = _train_of(cases)
+    return assemble_train(cars, coupling_of(cars[0].scenario))
 
 
 def _train_of(cases: Sequence[Case]) -> list[Case]:
@@ -165,23 +184,41 @@ def _place(case: Case) -> int:
 
 def _stops_of_train(
     cases: Sequence[Case],
-    measures: Sequence[tuple[Any, Any]],
+    inputs: TrainInputs,
+    finished: Sequence[FinishedStop],
     couplers: NDArray[Any],
-    parameters: NDArray[Any],
-    recording: Callable[[Case, int], Recording | None] = lambda case, place: None,
+    *,
+    recorded: bool = False,
 ) -> list[SimulatedStop]:
-    """Return the stops of some cars: of all there are measures, of couplers and cars the records."""
+    """Return the stops of some cars of a train, of which all have finished."""
     peaks = peaks_beside(couplers)
-    return [
-        SimulatedStop(
-            *measures[place],
-            recording(case, place),
-            noise_key=noise_key_text(parameters[place]),
+
+    def of_car(case: Case) -> SimulatedStop:
+        place = _place(case)
+        stop = _stop_of_car(case, finished[place], inputs.configs[place], recorded=recorded)
+        return replace(
+            stop,
+            noise_key=noise_key_text(inputs.parameters[place]),
             coupler_ahead=peaks[place][0],
             coupler_behind=peaks[place][1],
         )
-        for case, place in ((case, _place(case)) for case in cases)
-    ]
+
+    return [of_car(case) for case in cases]
+
+
+def _stop_of_car(
+    case: Case, finished: FinishedStop, config: Config | None, *, recorded: bool
+) -> SimulatedStop:
+    """Return a stop of a car, alone or in a train; `config` is that of a controller from outside."""
+    from_outside = config is not None
+    return SimulatedStop(
+        *(finished.measures, finished.wheelset_measures),
+        recording_of_stop(case, finished, from_outside=from_outside) if recorded else None,
+        finished.controller_version,
+        finished.contract if from_outside else 0,
+        finished.response_times,
+        case_sha256="" if config is None else config.case_sha256,
+    )
 
 
 def recording_of_stop(case: Case, finished: FinishedStop, *, from_outside: bool) -> Recording:

@@ -1,18 +1,22 @@
 """What the rig is given for a train: the inputs of its cars, and what they have because they are coupled."""
 
+import hashlib
+import json
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Final, NamedTuple
+from dataclasses import dataclass, replace
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.plans.scenario import Case, Coupler, Scenario
+from uictest.controllers import Config
+from uictest.plans.scenario import Case, Coupler, Scenario, program_problems
 from uictest.rig.assembly import assemble
 from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.rail import MARGIN, POINTS
 from uictest.rig.sand_parameters import sand_grid
 from uictest.rig.single_stop import StopInputs
+from uictest.rig.train_stop import TrainInputs
 
 _SHARED: Final = ("step", "steps_per_cycle", "initial_speed", "seed", "cycles")
 """What all cars of a train have in common."""
@@ -51,24 +55,6 @@ def coupling_of(scenario: Scenario) -> Coupling:
     )
 
 
-class TrainInputs(NamedTuple):
-    """What the rig is given for one stop of a train of n cars.
-
-    Attributes:
-        parameters: records of :data:`~uictest.rig.model.parameters.PARAMETERS`, shape (n,).
-        wheelset_parameters: of :data:`~uictest.rig.model.wheelset_parameters.WHEELSET_PARAMETERS`, (n, 4).
-        distances: of each car's first wheelset behind that of the train, m, shape (n,).
-        couplers: records of :data:`~uictest.rig.model.couplers.COUPLER` before the stop, shape (n - 1,).
-        rail: friction of the rail, the rows of :mod:`~uictest.rig.model.rail`, shape (4, points).
-    """
-
-    parameters: NDArray[Any]
-    wheelset_parameters: NDArray[Any]
-    distances: NDArray[np.float64]
-    couplers: NDArray[Any]
-    rail: NDArray[np.float64]
-
-
 def assemble_train(cases: Sequence[Case], coupling: Coupling) -> TrainInputs:
     """Return the inputs of a train.
 
@@ -77,7 +63,7 @@ def assemble_train(cases: Sequence[Case], coupling: Coupling) -> TrainInputs:
         coupling: between them.
 
     Raises:
-        ValueError: where cars differ in what a train has only once, or a controller comes from outside.
+        ValueError: where cars differ in what a train has only once, or cannot have their controllers.
     """
     distinct = {id(case.scenario): case for case in cases}
     of_scenario = {scenario: assemble(case) for scenario, case in distinct.items()}
@@ -90,7 +76,32 @@ def assemble_train(cases: Sequence[Case], coupling: Coupling) -> TrainInputs:
     for name in ("stiffness", "damping", "height"):
         couplers[name] = getattr(coupling, name)
     of_wheelsets = np.array([each.wheelset_parameters for each in inputs])
-    return TrainInputs(parameters, of_wheelsets, distances, couplers, np.ascontiguousarray(inputs[0].rail))
+    programs = tuple(each.program for each in inputs)
+    train = TrainInputs(
+        *(parameters, of_wheelsets, distances, couplers, np.ascontiguousarray(inputs[0].rail)),
+        *(programs, tuple(each.config for each in inputs)),
+    )
+    return train if len(inputs) == 1 else train._replace(configs=_configs(train))
+
+
+def _configs(train: TrainInputs) -> tuple[Config | None, ...]:
+    """Return what controllers from outside are given: their stop is named by all that decides the train's.
+
+    The SHA-256 is that of the bytes of all records, of all programs' parameters and of the car's place.
+    """
+    records = (np.ascontiguousarray(each).tobytes() for each in train[:5])
+    given = ("" if each is None else each.parameters for each in train.programs)
+    whole = hashlib.sha256(b"".join(records) + json.dumps([*given]).encode())
+
+    def of_car(place: int) -> str:
+        own = whole.copy()
+        own.update(place.to_bytes(4, "little"))
+        return own.hexdigest()
+
+    return tuple(
+        None if config is None else replace(config, case_sha256=of_car(place))
+        for place, config in enumerate(train.configs)
+    )
 
 
 def _check(cases: Sequence[Case], inputs: Sequence[StopInputs]) -> None:
@@ -99,9 +110,9 @@ def _check(cases: Sequence[Case], inputs: Sequence[StopInputs]) -> None:
     for number, case in enumerate(cases, start=1):
         if case.scenario.rail != cases[0].scenario.rail:
             raise ValueError(f"car {number}: its rail is not that of the first car")
+    for place, problem in program_problems([each.program for each in inputs]):
+        raise ValueError(f"car {place + 1}: {problem.message}; {problem.hint}")
     for number, each in enumerate(inputs, start=1):
-        if each.program is not None:
-            raise ValueError(f"car {number}: its controller comes from outside; a train runs built-in ones")
         for name in _SHARED:
             found, expected = each.parameters[name], inputs[0].parameters[name]
             if found != expected:

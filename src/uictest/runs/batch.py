@@ -213,7 +213,7 @@ def simulate_cases(
     """Run cases while an observer follows their stops; it counts them as `unit`s [default: what they are]."""
     if not cases:
         return campaign.BatchResult()
-    if settings.in_process and any(case.scenario.controller.program for case in cases):
+    if settings.in_process and any(case.is_from_outside for case in cases):
         observer.foreign_in_process()
     asked = {case.id: case for case in cases if settings.asks_firmness_of(case)}
     varied = 0

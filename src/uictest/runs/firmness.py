@@ -37,6 +37,7 @@ class FirmnessRun:
         jobs: number of threads.
         advance: is called with how many more stops are finished, and how many more a search takes.
         run_block: simulates stops with controllers from outside.
+        run_train: simulates trains with such controllers.
         effort: how many stops.
         calibration: stops by which the numbers are known, with the outcomes that these expect.
 
@@ -45,6 +46,7 @@ class FirmnessRun:
     jobs: int
     advance: Advance = lambda finished, further=0: None
     run_block: chunked.RunBlock = rig.run_block
+    run_train: rig.RunTrain = rig.run_train_in_process
     effort: Effort = EFFORT
     calibration: Sequence[scenario.Case] = ()
     trains: dict[str, chunked.VariedTrain] = field(default_factory=dict)
@@ -230,7 +232,7 @@ def _varied_train(case: scenario.Case, run: FirmnessRun) -> chunked.VariedTrain:
     if known is None or known.case.train is None or known.case.train.scenarios != cars:
         run.trains.clear()
         changed = replace(case, scenario=cars[place.number - 1], train=place)
-        run.trains[place.train] = chunked.VariedTrain(changed, run.jobs)
+        run.trains[place.train] = chunked.VariedTrain(changed, run.jobs, run.run_train)
     return run.trains[place.train]
 
 
@@ -287,9 +289,10 @@ def _calibrating_stops(settings: campaign.RunSettings) -> int:
 def firmness_run(settings: campaign.RunSettings, advance: Advance) -> Iterator[FirmnessRun]:
     """Lend what finds out how firm verdicts are; `advance` hears of its stops."""
     with rig.Workers() as workers:
-        run_block = rig.run_block if settings.in_process else workers.run_block
+        here, isolated = (rig.run_block, rig.run_train_in_process), (workers.run_block, workers.run_train)
+        run_with = here if settings.in_process else isolated
         try:
-            run = FirmnessRun(settings.jobs, advance, run_block, EFFORT, settings.calibration)
+            run = FirmnessRun(settings.jobs, advance, *run_with, EFFORT, settings.calibration)
             run.require_calibration()
             yield run
         except KeyboardInterrupt:

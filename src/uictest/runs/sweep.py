@@ -55,7 +55,8 @@ def run_sweep(request: SweepRequest, observer: Observer) -> FinishedSweep | None
     ):
         if request.in_process and any(sweeps.programs_of(request.selection.plan)):
             observer.foreign_in_process()
-        prepared = request if request.in_process else replace(request, run_block=workers.run_block)
+        in_children = replace(request, run_block=workers.run_block, run_train=workers.run_train)
+        prepared = request if request.in_process else in_children
         try:
             store = ChunkStore(request.folder)
             if request.shard.count > 1:

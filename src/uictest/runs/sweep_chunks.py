@@ -46,6 +46,8 @@ class SweepRequest:
     in_process: bool = False
     run_block: chunked.RunBlock = rig.run_block
     """Simulates blocks with controllers from outside."""
+    run_train: rig.RunTrain = rig.run_train_in_process
+    """Simulates trains with such controllers."""
 
     @property
     def reports(self) -> Sequence[str]:
@@ -150,7 +152,7 @@ def _run_chunks(
 
 def prepared_runner(request: SweepRequest, observer: Observer) -> ChunkRunner:
     """Return a runner with a compiled rig."""
-    runner = chunked.chunk_runner(request.selection.plan, request.run_block)
+    runner = chunked.chunk_runner(request.selection.plan, request.run_block, request.run_train)
     with observer.compiling():
         runner.prepare()
     return runner

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from uictest.controllers import INPUTS, Config, ControllerError, ControllerProgram
-from uictest.rig.external import in_process
+from uictest.rig.external import drives
 from uictest.rig.external.in_process import empty_exchange
 
 CONFIG = Config(4, 0.01, 30.0, (0.46,) * 4, {})
@@ -37,9 +37,9 @@ def test_a_controller_that_cannot_be_created_again_was_closed_once(monkeypatch):
         created.append(Instance())
         return created[0]
 
-    monkeypatch.setattr(in_process, "open_controller", opened)
+    monkeypatch.setattr(drives, "open_controller", opened)
     program = ControllerProgram("library", "libwsp.so")
-    request = in_process.DriveRequest(program, CONFIG, np.zeros(0, INPUTS), ("create", "create"))
+    request = drives.DriveRequest(program, CONFIG, np.zeros(0, INPUTS), ("create", "create"))
     with pytest.raises(ControllerError, match="only one licence"):
-        in_process.drive_controller(request, empty_exchange())
+        drives.drive_controller(request, empty_exchange())
     assert created[0].closed == 1

@@ -112,7 +112,7 @@ def test_a_fault_touches_no_later_stop_and_leaves_no_process_behind(stop_of):
 
 def test_a_second_close_leaves_files_of_others_alone():
     """What is opened after the first one has the numbers of what that has closed."""
-    worker = Worker(("python", "", ""))
+    worker = Worker(frozenset({("python", "", "")}))
     worker.close()
     others = [end for _ in range(4) for end in os.pipe()]
     worker.close()
@@ -141,7 +141,7 @@ def test_a_controller_that_hangs_after_its_stop_is_ended(stop_of, monkeypatch, f
 def test_a_process_that_takes_no_request_is_ended(stop_of, block_of, monkeypatch):
     """A block of stops is more than the memory between two processes takes up."""
     monkeypatch.setattr(worker, "ANSWER_LIMIT", 1.0)
-    asked = Worker(("python", "", ""))
+    asked = Worker(frozenset({("python", "", "")}))
     os.kill(asked._process.pid, signal.SIGSTOP)
     with pytest.raises(ControllerError, match="its process took no request within 1 s"):
         asked.run_block(block_of([stop_of()] * 256))

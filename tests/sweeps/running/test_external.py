@@ -9,7 +9,7 @@ from uictest import rig
 from uictest.core.measures import STOP_COLUMNS
 from uictest.plans.sweeps import programs_of
 from uictest.rig import run_in_process
-from uictest.running.campaign import RecordingRequest, Stop, run_stop
+from uictest.running.campaign import RecordingRequest, Stop, map_on_threads, run_stop
 from uictest.running.chunked import chunk_runner, cluster
 from uictest.running.chunked.store import program_digest
 
@@ -40,6 +40,48 @@ def test_one_block_runs_controllers_of_all_kinds_with_the_same_bits(load, librar
     assert with_common_noise(found, "{python") == built_in
     assert with_common_noise(found, "threshold") != built_in
     assert found[3]["id"] == "study[controller=libband,friction=0.06]"
+
+
+TRAIN = """\
+schema: uictest/scenario/1
+name: study
+initial_speed: 14 km/h
+until: 12 km/h
+rail: {condition: wet-cleaning, friction: 0.05}
+criteria: uictest-rig
+expect: skipped
+train: [{}, {brake: {command: 80 %}}]
+"""
+
+
+def test_trains_have_the_same_bits_with_controllers_of_all_kinds(load, library, python_file):
+    kinds = f"[slip-band, {{library: {library}}}, {{python: {python_file}}}]"
+    plan = load(f"matrix:\n  controller: {kinds}\n{FRICTIONS}", stop=TRAIN)
+    found = rows_of(plan)
+    built_in = with_common_noise(found, "slip-band")
+    assert len(built_in) == 2 * 3
+    assert {row["outcome"] for row in built_in} == {"skipped"}
+    assert with_common_noise(found, "{library") == built_in
+    assert with_common_noise(found, "{python") == built_in
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_train_whose_controller_fails_is_rows_of_errors_beside_the_others(load, python_file, jobs):
+    """In child processes, whatever their number; a mixed train, too."""
+    controller = f"{{python: {python_file}, parameters: {{fails_at: -1}}}}"
+    train = TRAIN.replace("[{}, {", f"[{{controller: slip-band}}, {{controller: {controller}, ")
+    plan = load(f"matrix:\n  train.1.controller.parameters.fails_at: [-1, 9]\n{FRICTIONS}", stop=train)
+    with rig.Workers() as workers:
+        runner = chunk_runner(plan, workers.run_block, workers.run_train)
+        blocks = np.array_split(np.arange(plan.size), 2 * jobs)
+        parts = map_on_threads(lambda block: rows(runner.run(block)), blocks, jobs=jobs)
+        found = [row for part in parts for row in part]
+    why = "step failed: ValueError: told to (slip_band.py, line 20) (cycle 9)"
+    told = f"controller: car 2 (slip_band.py): {why}"
+    assert [row["reason"] for row in found[6:]] == [told] * 6
+    assert {row["outcome"] for row in found[:6]} == {"skipped"}
+    expected = rows_of(load(f"matrix:\n  controller: [slip-band]\n{FRICTIONS}", stop=TRAIN))
+    assert [without_names(row) for row in found[:6]] == [without_names(row) for row in expected]
 
 
 @pytest.mark.parametrize("kind", ["library", "python"])

@@ -182,7 +182,7 @@ def verdicts_of(plan: Plan, indices: NDArray[np.int64], runner: ChunkRunner, job
 
     `runner` is that of another plan of the same sweep.
     """
-    runner = chunk_runner(plan, runner.run_block)
+    runner = chunk_runner(plan, runner.run_block, runner.run_train)
 
     def met(block: NDArray[np.int64]) -> list[bool]:
         _, results, _ = runner.results_of(block)

@@ -140,7 +140,7 @@ def _recordings_of_missed(
     A controller from outside may answer otherwise: its stops are not recorded.
     """
     missed = {result.id for result in content.results if not result.met and result.outcome != "error"}
-    again = [case for case in cases if case.id in missed and case.scenario.controller.program is None]
+    again = [case for case in cases if case.id in missed and not case.is_from_outside]
     jobs = runs.available_processors()
     return {case.id: samples for case, samples in campaign.replay(again, every=every, jobs=jobs)}
 

@@ -157,6 +157,11 @@ def _require_single_stops_at_sockets(cases: Sequence[scenario.Case]) -> None:
                 f"{case.id} repeats its stop {case.scenario.repeat} times; run one stop: --repeat 1",
                 param_hint="--real-time",
             )
+        if case.train is not None:
+            raise typer.BadParameter(
+                f"{case.id} is {case.train.label}: cycles of a train are not paced, run a car alone",
+                param_hint="--real-time",
+            )
         program = case.scenario.controller.program
         if program is None or program.kind != "connect":
             raise typer.BadParameter(

@@ -19,6 +19,7 @@ from .compensation_fit import (
     rig_differences as rig_differences,
     with_listed_rig as with_listed_rig,
 )
+from .coupling import coupling_problem as coupling_problem, program_problems as program_problems
 from .declared_parameters import with_parameters as with_parameters
 from .expansion import (
     EXPANSION_KEYS as EXPANSION_KEYS,
@@ -144,6 +145,6 @@ from .resolution import (
 )
 from .resolved_cars import own_keys as own_keys, resolved_cars as resolved_cars
 from .sections import SURVEY as SURVEY, load_share as load_share
-from .train import coupling_problem as coupling_problem, is_train as is_train
+from .train import is_train as is_train
 from .yaml.diagnostics import Diagnostic as Diagnostic, ScenarioErrors as ScenarioErrors
 from .yaml.quantities import Quantity as Quantity

@@ -56,6 +56,12 @@ class Case:
         return replace(self, scenario=scenario, train=replace(self.train, scenarios=scenarios))
 
     @property
+    def is_from_outside(self) -> bool:
+        """Whether its controller, or that of another car of its train, comes from outside."""
+        scenarios = () if self.train is None else self.train.scenarios
+        return any(each.controller.program is not None for each in (self.scenario, *scenarios))
+
+    @property
     def cars(self) -> "tuple[Case, ...]":
         """The cases of all cars of the train, each as if it ran alone; of a car alone, this case."""
         if self.train is None:

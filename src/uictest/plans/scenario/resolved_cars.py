@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from uictest.plans.scenario.coupling import require_couplable
 from uictest.plans.scenario.model import Scenario
 from uictest.plans.scenario.references import Parts
 from uictest.plans.scenario.resolution import resolve
-from uictest.plans.scenario.train import car_trees, is_train, require_couplable
+from uictest.plans.scenario.train import car_trees, is_train
 from uictest.plans.scenario.yaml import (
     Diagnostic,
     Document,

@@ -1,15 +1,12 @@
-"""From a scenario with `train` to one for each car, and what cars cannot be coupled."""
+"""From a scenario with `train` to one for each car."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
-from typing import Annotated, Any, Final, Literal, NamedTuple
+from typing import Annotated, Any, Final, Literal
 
-from uictest.controllers import CONTROLLERS
 from uictest.plans.scenario.model import Scenario
 from uictest.plans.scenario.parts.controller import Controller
-from uictest.plans.scenario.parts.coupler import Coupler
 from uictest.plans.scenario.parts.criteria import Criteria
 from uictest.plans.scenario.parts.fault import Fault
 from uictest.plans.scenario.parts.measures import MeasureDefinitions
@@ -21,7 +18,6 @@ from uictest.plans.scenario.yaml import (
     Diagnostic,
     Document,
     Entry,
-    Key,
     Map,
     Model,
     PartReference,
@@ -30,8 +26,6 @@ from uictest.plans.scenario.yaml import (
     Sequence as List,
     describe,
     diagnose,
-    dotted,
-    entry_at,
     merge,
     quoted,
     single_error,
@@ -45,9 +39,6 @@ _ALONE: Final = ("coupler", "brake.transmission")
 """Keys that only a train has."""
 _ONCE: Final = ("brake.transmission",)
 """Keys that a train has once, inside of what its cars have of their own."""
-_STEADY: Final = 1.0
-"""Largest dt^2 K + 2 dt C with K = 4 k/m and C = 4 c/m. A chain of masses is stable up to 4; chosen, since
-the springs of the cars come on top."""
 _WRITE: Final = "write `train: [{vehicle: intercity-180, count: 4}]`"
 
 
@@ -209,80 +200,3 @@ def _misplaced(name: str, entry: Entry, key: str) -> Diagnostic:
 def _once(name: str, entry: Entry, key: str) -> Diagnostic:
     hint = f"write {name} beside `train`; a car has {', '.join(TrainCar.model_fields)} of its own"
     return diagnose(entry.key, f"a train has one {name.rpartition('.')[2]}", f"{key}.{name}", hint)
-
-
-def require_couplable(cars: Sequence[Scenario], trees: Sequence[Map]) -> None:
-    """Raise ScenarioErrors where cars cannot run as one train.
-
-    Args:
-        cars: of the train, in their order.
-        trees: that they were resolved from.
-    """
-    diagnostics: dict[Diagnostic, None] = {}
-    for place, key, problem in (*_foreign_to_trains(cars), *_impossible_couplers(cars)):
-        entry, _ = entry_at(trees[place], key)
-        diagnostics[diagnose(entry.node.place, problem.message, dotted(key), problem.hint)] = None
-    if diagnostics:
-        raise ScenarioErrors(diagnostics)
-
-
-def coupling_problem(cars: Sequence[Scenario]) -> str:
-    """Return why cars cannot run as one train, empty where they can."""
-    problems = (*_foreign_to_trains(cars), *_impossible_couplers(cars))
-    return next((f"{dotted(key)}: {problem.message}" for _, key, problem in problems), "")
-
-
-class _Problem(NamedTuple):
-    message: str
-    hint: str
-
-
-_CarProblem = tuple[int, Key, _Problem]
-"""A problem at a key of the scenario of a car, which is counted from 0."""
-
-
-def _foreign_to_trains(cars: Sequence[Scenario]) -> Iterator[_CarProblem]:
-    """Yield controllers from outside, and such as do not keep the cycle of the leading car's."""
-    cycle = cars[0].controller.cycle_time
-    for place, car in enumerate(cars):
-        own = car.controller
-        if own.program is not None:
-            hint = f"a train has built-in ones: {', '.join(sorted(CONTROLLERS))}"
-            yield place, ("controller",), _Problem(f"{quoted(own.label)} is a controller from outside", hint)
-        elif own.cycle_time != cycle:
-            message = f"a controller cycle of {own.cycle_time.text}; that of the first car is {cycle.text}"
-            yield place, ("controller",), _Problem(message, "a train has one length of the controller cycle")
-
-
-def _impossible_couplers(cars: Sequence[Scenario]) -> Iterator[_CarProblem]:
-    """Yield couplers too stiff for the step with the lightest car, and too short for two neighbours."""
-    coupler, step = cars[0].coupler or Coupler(), cars[0].simulation.time_step
-    steadiness = [_steadiness(car, coupler) for car in cars]
-    if (worst := max(steadiness)) > _STEADY:
-        mass = cars[steadiness.index(worst)].vehicle.loaded_body.mass / 1000.0
-        yield (
-            *(0, ("coupler",)),
-            _Problem(
-                f"too stiff or too much damped for a body of {mass:.4g} t with a step of {step.text}",
-                f"{100.0 * _STEADY / worst:.2g} % of stiffness and damping are accepted, or a shorter step",
-            ),
-        )
-    reach = [_reach(car) for car in cars]
-    least = max(map(sum, pairwise(reach)), default=0.0)
-    if coupler.distance <= least:
-        message = f"{coupler.distance.text} let the wheels of neighbouring cars overlap"
-        yield 0, ("coupler", "distance"), _Problem(message, f"more than {least:.4g} m are accepted")
-
-
-def _reach(car: Scenario) -> float:
-    """Return how far the wheels of a car reach from its centre, m."""
-    vehicle = car.vehicle
-    return float(vehicle.half_pivot_distance + vehicle.bogie.half_wheelbase + max(vehicle.wheel_radii))
-
-
-def _steadiness(car: Scenario, coupler: Coupler) -> float:
-    """Return dt^2 K + 2 dt C of a chain of such bodies; the lever to their centre makes them lighter."""
-    body, step = car.vehicle.loaded_body, car.simulation.time_step
-    lever = coupler.height - body.height
-    mobility = 1.0 / body.mass + lever**2 / body.pitch_inertia
-    return float(4.0 * mobility * (step**2 * coupler.stiffness + 2.0 * step * coupler.damping))

@@ -95,7 +95,11 @@ CONTROLLER: Final = "controller"
 
 def programs_of(plan: Plan) -> Iterator[ControllerProgram]:
     """Yield the program of each controller from outside, with the parameters that are written beside it."""
-    values = [value.content for value in values_of(plan, CONTROLLER)]
+    train = plan.base.train
+    keys = [key for key in plan.keys if key == CONTROLLER or key.endswith(f".{CONTROLLER}")]
+    values = [value.content for key in keys for value in values_of(plan, key)]
+    if train is not None:  # some cars may keep their own
+        values += [each.controller for each in train.scenarios]
     for controller in values or [plan.base.scenario.controller]:
         if controller.program is not None:
             yield controller.program

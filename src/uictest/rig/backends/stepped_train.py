@@ -14,8 +14,8 @@ from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.rig.single_stop import FinishedStop, rows_of_trace
-from uictest.rig.train_inputs import TrainInputs
 from uictest.rig.train_measures import finished_cars
+from uictest.rig.train_stop import TrainInputs
 
 
 def train_memory(cars: int) -> Any:

@@ -16,8 +16,8 @@ from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import RAIL_MEMORY, ROWS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
-from uictest.rig.train_inputs import TrainInputs
 from uictest.rig.train_measures import note_track_brakes_beside
+from uictest.rig.train_stop import TrainInputs
 
 _ARGUMENTS: Final = 24
 """How many arguments the compiled loop over a queue of trains has."""

@@ -13,7 +13,8 @@ import numpy as np
 
 from uictest.controllers import EXCHANGE, ControllerError
 from uictest.rig.external.block import run_block
-from uictest.rig.external.in_process import drive_controller, run_in_process
+from uictest.rig.external.drives import drive_controller
+from uictest.rig.external.in_process import run_in_process, run_train_in_process
 from uictest.rig.external.messages import (
     Message,
     StreamEndedError,
@@ -24,6 +25,8 @@ from uictest.rig.external.messages import (
     read_message,
     run_message,
     stop_of,
+    train_of,
+    train_stop_message,
     write_message,
 )
 
@@ -56,9 +59,13 @@ def _answer(request: Message, exchanges: Any) -> Message:
         match request.head["request"]:
             case "stop":
                 return finished_message(run_in_process(*stop_of(request), exchanges[0]))
+            case "train":
+                inputs, steps_per_sample = train_of(request)
+                own = exchanges[: len(inputs.from_outside)]
+                return train_stop_message(run_train_in_process(inputs, steps_per_sample, own))
             case "block":
-                inputs = block_of(request)
-                return run_message(run_block(inputs, exchanges[: len(inputs.programs)]))
+                block = block_of(request)
+                return run_message(run_block(block, exchanges[: len(block.programs)]))
             case _:
                 return drives_message(drive_controller(drive_request_of(request), exchanges[0]))
     except ControllerError as error:

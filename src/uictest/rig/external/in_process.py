@@ -1,31 +1,24 @@
-"""A stop in this process, its controller built in or from outside; one from outside opened and driven."""
+"""A stop in this process, of a car or a train; controllers from outside opened and driven."""
 
-import ctypes
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
-from time import perf_counter
-from typing import Any, Final, Literal, NamedTuple
+from pathlib import Path
+from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from uictest.controllers import (
     CLOSING,
     EXCHANGE,
     FORBIDDEN_COMMAND,
-    GUARD,
     NO_FAILURE,
     NO_MAGNET_STATE,
     NO_REDUCTION,
     NO_REQUEST,
     NOT_CALLED,
     OPENING,
-    OUTPUTS,
-    OUTPUTS_AT,
     STEP_FAILED,
-    STEPPING,
-    UNTOUCHED,
     WROTE_BEYOND,
     Config,
     ControllerError,
@@ -35,8 +28,9 @@ from uictest.controllers import (
     shown_version,
 )
 from uictest.rig.backends.native import compiled_stop
-from uictest.rig.model.controller import call_step
+from uictest.rig.backends.trains import compiled_train
 from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
+from uictest.rig.train_stop import TrainInputs, TrainStop, run_train_to_end
 
 _FAILURES: Final = {
     STEP_FAILED: "step failed: {error}",
@@ -129,147 +123,62 @@ def run_in_process(inputs: StopInputs, steps_per_sample: int = 0, exchange: Any 
     exchange = empty_exchange() if exchange is None else exchange
     with opened(inputs.program, inputs.config, inputs.parameters, exchange) as controller:
         finished = run_to_end(run_stop, inputs, steps_per_sample)
+    return _with_controller(finished, controller)
+
+
+def run_train_in_process(
+    inputs: TrainInputs, steps_per_sample: int = 0, exchanges: Sequence[Any] | None = None
+) -> TrainStop:
+    """Run a stop of a train in this process; the failure of one controller ends it.
+
+    Args:
+        inputs: of its cars.
+        steps_per_sample: base steps from one sample of the traces to the next; 0: no traces.
+        exchanges: zeroed records of :data:`~uictest.controllers.EXCHANGE`, one for each controller from
+            outside in the order of the train [default: memory of its own].
+
+    Raises:
+        ControllerError: when a controller from outside cannot be opened, or failed; it names the car.
+    """
+    run_train, programs = compiled_train(), inputs.from_outside
+    if exchanges is None:
+        exchanges = [empty_exchange() for _ in programs]
+    own_exchanges = dict(zip(programs, exchanges, strict=True))
+    controllers: dict[int, ControllerInstance] = {}
+    with ExitStack() as stack:
+        # In one order: trains that need the same programs at sockets do not wait for each other for ever.
+        for car in sorted(programs, key=lambda car: programs[car].location):
+            config, exchange = inputs.configs[car], own_exchanges[car]
+            assert config is not None
+            with of_car(car, programs[car]):
+                context = opened(programs[car], config, inputs.parameters[car], exchange)
+                controllers[car] = stack.enter_context(context)
+        stop = run_train_to_end(run_train, inputs, steps_per_sample)
+        for car, program in programs.items():
+            with of_car(car, program):
+                raise_failure(own_exchanges[car], controllers[car])
+    return stop._replace(
+        cars=tuple(
+            finished if car not in controllers else _with_controller(finished, controllers[car])
+            for car, finished in enumerate(stop.cars)
+        )
+    )
+
+
+@contextmanager
+def of_car(car: int, program: ControllerProgram) -> Iterator[None]:
+    """Let the error of a controller name its car, which is counted from 0, and its program."""
+    try:
+        yield
+    except ControllerError as error:
+        name = program.location if program.kind == "connect" else Path(program.location).name
+        raise ControllerError(f"car {car + 1} ({name}): {error}") from error
+
+
+def _with_controller(finished: FinishedStop, controller: ControllerInstance) -> FinishedStop:
     return replace(
         finished,
         controller_version=shown_version(controller.version),
         response_times=controller.response_times,
         contract=controller.contract,
     )
-
-
-FILLING_TIME: Final = 2.0
-"""Time from empty to full service pressure, s; chosen, of the size that a wheelset's brake has."""
-VENTING_TIME: Final = 0.6
-"""Time from full service pressure to empty, s; chosen, likewise."""
-
-DYNAMIC_RESPONSE: Final = 0.3
-"""Time constant of a motor that follows what is asked of it, s; chosen, that of `brake.dynamic`."""
-
-Beginning = Literal["create", "reset"]
-"""How a drive begins: with a new controller, or with the one of the drive before."""
-
-
-class DriveRequest(NamedTuple):
-    """What a controller is driven through.
-
-    Attributes:
-        program: what is loaded.
-        config: what it is given.
-        inputs: its inputs, one :data:`~uictest.controllers.INPUTS` for each cycle. The cylinder pressure is
-            that of a brake which is never vented, and the dynamic brake that of a motor which is never
-            reduced; valves and motors make of it what the controller asks for.
-        beginnings: the drives through these cycles.
-    """
-
-    program: ControllerProgram
-    config: Config
-    inputs: NDArray[Any]
-    beginnings: Sequence[Beginning] = ("create",)
-
-
-class Driven(NamedTuple):
-    """What a controller has answered.
-
-    Attributes:
-        outputs: one :data:`~uictest.controllers.OUTPUTS` for each cycle.
-        seconds: how long each answer took.
-    """
-
-    outputs: NDArray[Any]
-    seconds: NDArray[np.float64]
-
-
-class Drives(NamedTuple):
-    """What a controller says of itself, its drives, the JSON in which it declares its parameters, and the
-    version of the contract that it keeps.
-    """
-
-    version: str
-    drives: tuple[Driven, ...]
-    declares: str = ""
-    contract: int = 1
-
-
-def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
-    """Drive a controller in this process. Raises ControllerError where it fails."""
-    instance: ControllerInstance | None = None
-    drives = []
-    try:
-        for beginning in request.beginnings:
-            if beginning == "create":
-                closed, instance = instance, None
-                _close(closed, exchange)
-                exchange["calling"] = OPENING
-                instance = open_controller(request.program, request.config)
-            if instance is None:
-                raise ValueError("the first drive begins with a new controller")
-            exchange["calling"] = OPENING
-            instance.reset()
-            exchange["calling"] = NOT_CALLED
-            drives.append(drive(instance, request.inputs, request.config.cycle_time, exchange))
-        if instance is None:
-            return Drives("", ())
-        return Drives(instance.version, tuple(drives), instance.declares, instance.contract)
-    finally:
-        _close(instance, exchange)
-
-
-def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float, exchange: Any) -> Driven:
-    """Drive a controller that has been reset. Raises ControllerError where it fails."""
-    seconds, answers = np.zeros(len(inputs)), bytearray()
-    address = exchange.__array_interface__["data"][0]
-    memory: Any = (ctypes.c_char * EXCHANGE.itemsize).from_address(address)
-    names = "cylinder_pressure", "hold", "vent", "dynamic_reduction", "sand_request", "dynamic_brake"
-    pressure, hold, vent, reduction, sand, dynamic = (exchange[name] for name in names)
-    brakes, gain = bool(inputs["dynamic_brake"].any()), min(cycle_time / DYNAMIC_RESPONSE, 1.0)
-    effort = inputs["dynamic_brake"][:1].copy()
-    untouched = UNTOUCHED if instance.contract == 1 else 0.0
-    newest = [0.0] * len(pressure)
-    for cycle, demanded in enumerate(inputs["cylinder_pressure"].tolist()):
-        memory[:OUTPUTS_AT] = inputs[cycle].tobytes()
-        pressure[:] = newest
-        if brakes:
-            wanted = dynamic * (1.0 - np.clip(reduction, 0.0, 1.0)) if cycle else dynamic
-            effort += gain * (wanted - effort)
-            dynamic[:] = effort[0]
-        exchange["reference_speed"] = np.nan
-        hold[:] = vent[:] = sand[:] = exchange["diagnosis"] = exchange["track_brake_request"] = 0
-        reduction[:] = untouched
-        exchange["guard"] = GUARD
-        exchange["cycles"] += 1
-        exchange["calling"] = STEPPING
-        started = perf_counter()
-        status = call_step(instance.step_address, instance.handle, address)
-        seconds[cycle] = perf_counter() - started
-        exchange["calling"] = NOT_CALLED
-        beyond = exchange["guard"] != GUARD
-        if beyond or (
-            untouched and (any(reduction != untouched) or any(sand) or exchange["track_brake_request"])
-        ):
-            exchange["failure"] = WROTE_BEYOND
-        elif status != 0:
-            exchange["failure"] = STEP_FAILED
-        raise_failure(exchange, instance)
-        answers += memory[OUTPUTS_AT : OUTPUTS_AT + OUTPUTS.itemsize]
-        full, magnets = max(demanded), zip(hold.tolist(), vent.tolist(), strict=True)
-        newest = [
-            _pressure_after(*each, full, cycle_time) for each in zip(newest, demanded, magnets, strict=True)
-        ]
-    return Driven(np.frombuffer(answers, OUTPUTS), seconds)
-
-
-def _close(instance: ControllerInstance | None, exchange: Any) -> None:
-    if instance is not None:
-        exchange["calling"] = CLOSING
-        instance.close()
-        exchange["calling"] = NOT_CALLED
-
-
-def _pressure_after(
-    pressure: float, demanded: float, magnets: tuple[int, int], full: float, cycle_time: float
-) -> float:
-    """Return a cylinder's pressure at the end of a cycle, Pa: filled, held or vented at a steady rate."""
-    hold, vent = magnets
-    if vent:
-        return max(pressure - full * cycle_time / VENTING_TIME, 0.0)
-    return min(pressure if hold else pressure + full * cycle_time / FILLING_TIME, demanded)

@@ -11,13 +11,15 @@ import numpy as np
 from uictest.controllers import INPUTS, OUTPUTS, Config, ControllerProgram
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.external.block import BlockInputs, BlockRun
-from uictest.rig.external.in_process import Driven, DriveRequest, Drives
+from uictest.rig.external.drives import Driven, DriveRequest, Drives
+from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import ROWS
 from uictest.rig.model.state import CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.rig.single_stop import FinishedStop, StopInputs
+from uictest.rig.train_stop import TrainInputs, TrainStop
 
 _COUNT: Final = struct.Struct("<I")
 _LENGTH: Final = struct.Struct("<Q")
@@ -173,6 +175,71 @@ def finished_of(message: Message) -> FinishedStop:
         message.head["controller_version"],
         contract=message.head["contract"],
     )
+
+
+_TRAIN: Final = (PARAMETERS, WHEELSET_PARAMETERS, np.float64, COUPLER, np.float64)
+_TRAIN_STOP: Final = (*_STOP, COUPLER)
+
+
+def train_message(inputs: TrainInputs, steps_per_sample: int) -> Message:
+    """Return a stop of a train, some or all of its controllers from outside, as a message."""
+    head = {
+        "request": "train",
+        "steps_per_sample": steps_per_sample,
+        "places": list(inputs.from_outside),
+        "controllers": written_controllers(inputs.programs, inputs.configs),
+    }
+    return Message(head, bytes_of(inputs[: len(_TRAIN)]))
+
+
+def train_of(message: Message) -> tuple[TrainInputs, int]:
+    """Return the stop of a train in a message, and the base steps from one sample to the next."""
+    blocks = map(bytearray, message.blocks)  # to be written to
+    parameters, of_wheelsets, distances, couplers, rail = (
+        np.frombuffer(*each) if each[0] else np.empty(0, each[1]) for each in zip(blocks, _TRAIN, strict=True)
+    )
+    controllers = map(read_controller, message.head["controllers"])
+    own = dict(zip(message.head["places"], controllers, strict=True))
+    programs, configs = zip(*(own.get(car, (None, None)) for car in range(len(parameters))), strict=True)
+    records = parameters, of_wheelsets.reshape(-1, 4), distances, couplers, rail.reshape(ROWS, -1)
+    return TrainInputs(*records, programs, configs), message.head["steps_per_sample"]
+
+
+def train_stop_message(stop: TrainStop) -> Message:
+    """Return what a stop of a train leaves as a message."""
+    head = {
+        "controller_version": [car.controller_version for car in stop.cars],
+        "contract": [car.contract for car in stop.cars],
+    }
+    of_cars = zip(
+        *((car.measures, car.wheelset_measures, car.car, car.wheelsets, *car.trace) for car in stop.cars),
+        strict=True,
+    )
+    return Message(head, bytes_of((*map(np.stack, of_cars), stop.couplers)))
+
+
+def train_stop_of(message: Message, parameters: Any) -> TrainStop:
+    """Return what a stop of a train has left; the parameters are those that it was given."""
+    *of_cars, couplers = (
+        np.frombuffer(*each) if each[0] else np.empty(0, each[1])
+        for each in zip(message.blocks, _TRAIN_STOP, strict=True)
+    )
+    n = len(parameters)
+    measures, of_wheelsets, cars, wheelsets, train, samples = (each.reshape(n, -1) for each in of_cars)
+    said = zip(message.head["controller_version"], message.head["contract"], strict=True)
+    finished = tuple(
+        FinishedStop(
+            measures[j, 0],
+            of_wheelsets[j].view(np.recarray),
+            cars[j, 0],
+            wheelsets[j].view(np.recarray),
+            Trace(train[j], samples[j].reshape(-1, 4)),
+            version,
+            contract=contract,
+        )
+        for j, (version, contract) in enumerate(said)
+    )
+    return TrainStop(finished, couplers, parameters)
 
 
 def block_message(inputs: BlockInputs) -> Message:

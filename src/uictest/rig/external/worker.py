@@ -24,9 +24,10 @@ from uictest.controllers import (
     STEPPING,
     WROTE_BEYOND,
     ControllerError,
+    ProgramKey,
 )
 from uictest.rig.external.block import BlockInputs, BlockRun
-from uictest.rig.external.in_process import DriveRequest, Drives
+from uictest.rig.external.drives import DriveRequest, Drives
 from uictest.rig.external.messages import (
     BrokenMessageError,
     Message,
@@ -38,9 +39,12 @@ from uictest.rig.external.messages import (
     read_message,
     run_of,
     stop_message,
+    train_message,
+    train_stop_of,
     write_message,
 )
 from uictest.rig.single_stop import FinishedStop, StopInputs
+from uictest.rig.train_stop import TrainInputs, TrainStop
 
 LARGEST_BLOCK: Final = 256
 """Most stops that a child runs at once."""
@@ -63,8 +67,6 @@ _NAMES: Final = {
 }
 
 Read = TypeVar("Read")
-ProgramKey = tuple[str, str, str]
-"""What programs share that may run in one process: kind, location, SHA-256."""
 
 
 class LostChildError(ControllerError):
@@ -79,15 +81,15 @@ class LostChildError(ControllerError):
 
 
 class Worker:
-    """A child process; one thread at a time uses it, for one program.
+    """A child process; one thread at a time uses it, for one program, or those of a train in one folder.
 
     A process holds one module or library of a name: what lies beside another file of the same program in
     another version would take the place of its own.
     """
 
-    def __init__(self, key: ProgramKey) -> None:
-        self.key = key
-        """Of the program that may run on it."""
+    def __init__(self, keys: frozenset[ProgramKey]) -> None:
+        self.keys = keys
+        """Of the programs that may run on it."""
         # The child is ended by a signal and removes no file: its temporary files lie in a folder of ours.
         self._folder = tempfile.TemporaryDirectory(prefix="uictest-child-", ignore_cleanup_errors=True)
         with tempfile.TemporaryFile() as shared:
@@ -103,6 +105,12 @@ class Worker:
     def run(self, inputs: StopInputs, steps_per_sample: int) -> FinishedStop:
         """Run a stop. Raises ControllerError; LostChildError where the child is gone."""
         return self._answer(stop_message(inputs, steps_per_sample), [inputs.program], finished_of)
+
+    def run_train(self, inputs: TrainInputs, steps_per_sample: int) -> TrainStop:
+        """Run a stop of a train. Raises ControllerError, as :meth:`run`; `place` counts such cars only."""
+        programs = list(inputs.from_outside.values())
+        request = train_message(inputs, steps_per_sample)
+        return self._answer(request, programs, lambda answer: train_stop_of(answer, inputs.parameters))
 
     def run_block(self, inputs: BlockInputs) -> BlockRun:
         """Run at most :data:`LARGEST_BLOCK` stops. Raises LostChildError."""

@@ -1,27 +1,28 @@
 """Every stop passes here: it runs in this process, or in a child if its controller is from outside."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from threading import Lock
 from types import TracebackType
 from typing import Final, Self, TypeGuard
 
-from uictest.controllers import ControllerProgram
+from uictest.controllers import ControllerProgram, ProgramKey
 from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.trains import compiled_train
 from uictest.rig.external.block import BlockInputs, BlockRun, empty_run, load_block, run_block
-from uictest.rig.external.in_process import (
-    DriveRequest,
-    Drives,
-    drive_controller,
-    empty_exchange,
-    run_in_process,
-)
-from uictest.rig.external.worker import LARGEST_BLOCK, LostChildError, ProgramKey, Worker
+from uictest.rig.external.drives import DriveRequest, Drives, drive_controller
+from uictest.rig.external.in_process import empty_exchange, of_car, run_in_process, run_train_in_process
+from uictest.rig.external.worker import LARGEST_BLOCK, LostChildError, Worker
 from uictest.rig.single_stop import FinishedStop, StopInputs
+from uictest.rig.train_stop import TrainInputs, TrainStop
 
 RunInputs = Callable[[StopInputs, int], FinishedStop]
 """Runs a stop, with so many base steps between two samples of its trace: here or in a child process."""
+
+
+RunTrain = Callable[[TrainInputs, int], TrainStop]
+"""Runs a stop of a train likewise."""
 
 
 def in_real_time(run: RunInputs) -> RunInputs:
@@ -70,8 +71,28 @@ class Workers:
         if not _is_isolated(inputs.program):
             return run_in_process(inputs, steps_per_sample)
         compiled_stop()  # so that the child finds it in the cache
-        with self._worker(_key(inputs.program)) as worker:
+        with self._worker(inputs.program) as worker:
             return worker.run(inputs, steps_per_sample)
+
+    def run_train(self, inputs: TrainInputs, steps_per_sample: int = 0) -> TrainStop:
+        """Run a stop of a train; one whose controllers are built in, or processes of their own, runs here.
+
+        Raises:
+            ControllerError: as :meth:`run`; the message names the car.
+        """
+        programs = inputs.from_outside
+        if not any(map(_is_isolated, programs.values())):
+            return run_train_in_process(inputs, steps_per_sample)
+        compiled_train()  # so that the child finds it in the cache
+        try:
+            with self._worker(*programs.values()) as worker:
+                return worker.run_train(inputs, steps_per_sample)
+        except LostChildError as error:
+            if error.place is None:
+                raise
+            car, program = list(programs.items())[error.place]
+            with of_car(car, program):
+                raise
 
     def run_block(self, inputs: BlockInputs) -> BlockRun:
         """Run many stops; those whose controller is built in, or a process of its own, run here."""
@@ -81,16 +102,16 @@ class Workers:
         run = empty_run(len(places))
         if here:
             _put(run, here, run_block(inputs.at(here)))
-        for key, there in _places_by_program(inputs.programs).items():
+        for there in _places_by_program(inputs.programs):
             for first in range(0, len(there), LARGEST_BLOCK):
-                self._run_isolated(key, inputs, there[first : first + LARGEST_BLOCK], run)
+                self._run_isolated(inputs, there[first : first + LARGEST_BLOCK], run)
         return run
 
     def drive(self, request: DriveRequest) -> Drives:
         """Drive a controller through given cycles. Raises ControllerError, as :meth:`run`."""
         if not _is_isolated(request.program):
             return drive_controller(request, empty_exchange())
-        with self._worker(_key(request.program)) as worker:
+        with self._worker(request.program) as worker:
             return worker.drive(request)
 
     def close(self) -> None:
@@ -101,11 +122,11 @@ class Workers:
         for worker in workers:
             worker.close()
 
-    def _run_isolated(self, key: ProgramKey, inputs: BlockInputs, places: list[int], run: BlockRun) -> None:
+    def _run_isolated(self, inputs: BlockInputs, places: list[int], run: BlockRun) -> None:
         """Run some stops in a child; when it is lost, find the stop at fault and run the others again."""
         while places:
             try:
-                with self._worker(key) as worker:
+                with self._worker(inputs.programs[places[0]]) as worker:
                     _put(run, places, worker.run_block(inputs.at(places)))
                 return
             except LostChildError as error:
@@ -113,12 +134,12 @@ class Workers:
                     break
                 run.failures[places.pop(error.place or 0)] = f"controller: {error}"
         for place in places:
-            self._run_isolated(key, inputs, [place], run)
+            self._run_isolated(inputs, [place], run)
 
     @contextmanager
-    def _worker(self, key: ProgramKey) -> Iterator[Worker]:
-        """Lend this thread a child for a program."""
-        worker = self._taken(key)
+    def _worker(self, *programs: ControllerProgram | None) -> Iterator[Worker]:
+        """Lend this thread a child for some programs."""
+        worker = self._taken(frozenset(each.key for each in programs if each is not None))
         try:
             yield worker
         finally:
@@ -130,18 +151,18 @@ class Workers:
                 elif worker in self._all:
                     self._all.remove(worker)
 
-    def _taken(self, key: ProgramKey) -> Worker:
+    def _taken(self, keys: frozenset[ProgramKey]) -> Worker:
         with self._lock:
             if self._closed:
                 raise RuntimeError("the child processes have been ended")
             for worker in reversed(self._idle):
-                if worker.key == key:
+                if worker.keys == keys:
                     self._idle.remove(worker)
                     return worker
             if len(self._idle) >= _MOST_IDLE:
                 self._idle[0].close()
                 self._all.remove(self._idle.pop(0))
-            worker = Worker(key)
+            worker = Worker(keys)
             self._all.append(worker)
             return worker
 
@@ -150,17 +171,13 @@ def _is_isolated(program: ControllerProgram | None) -> TypeGuard[ControllerProgr
     return program is not None and program.kind != "connect"
 
 
-def _key(program: ControllerProgram) -> ProgramKey:
-    return program.kind, program.location, program.sha256
-
-
-def _places_by_program(programs: Sequence[ControllerProgram | None]) -> dict[ProgramKey, list[int]]:
+def _places_by_program(programs: Sequence[ControllerProgram | None]) -> Iterable[list[int]]:
     """Return the places of the stops that run in children, those of a program together."""
     places: dict[ProgramKey, list[int]] = {}
     for place, program in enumerate(programs):
         if _is_isolated(program):
-            places.setdefault(_key(program), []).append(place)
-    return places
+            places.setdefault(program.key, []).append(place)
+    return places.values()
 
 
 def _put(run: BlockRun, places: Sequence[int], part: BlockRun) -> None:

@@ -241,10 +241,13 @@ def _observe(
 ) -> int:
     """End a cycle: feed the measures of the cars that ran in it; return how many run on.
 
-    All begin their cycles together, so that a car whose measures are closed is one that had stopped before.
+    None does where a controller from outside has failed. All begin their cycles together, so that a car
+    whose measures are closed is one that had stopped before.
     """
     running = 0
+    failed = 0
     for j in range(len(cars)):
+        failed += cars[j].controller_failed
         car, p, of_stop = cars[j], parameters[j], measures[j]
         own, of_wheelsets = wheelsets[4 * j : 4 * j + 4], wheelset_measures[4 * j : 4 * j + 4]
         if car.closed > 0.0:
@@ -257,4 +260,4 @@ def _observe(
         else:
             close_stop_measures(car, bogies[2 * j : 2 * j + 2], own, of_stop, of_wheelsets, p)
             car.closed = 1.0
-    return running
+    return 0 if failed > 0 else running

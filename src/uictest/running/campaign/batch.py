@@ -245,9 +245,10 @@ def run_cases(
     with rig.Workers() as workers:
         run: rig.RunInputs = rig.run_in_process if settings.in_process else workers.run
         run = rig.in_real_time(run) if settings.real_time else run
+        of_train = rig.run_train_in_process if settings.in_process else workers.run_train
 
         def run_together(block: Block) -> Sequence[StopRun]:
-            return run_block(block, settings.recording, run)
+            return run_block(block, settings.recording, run, of_train)
 
         blocks = blocks_of(cases, settings.recording, settings.jobs)
         stop_runs = ThreadedMap(run_together, blocks, jobs=settings.jobs)

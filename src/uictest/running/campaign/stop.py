@@ -117,19 +117,41 @@ def run_stop(stop: Stop, request: RecordingRequest, run: rig.RunInputs | None = 
     return _run([stop], request, simulated)[0]
 
 
-def run_train(stops: Sequence[Stop], request: RecordingRequest) -> list[StopRun]:
+def run_train(
+    stops: Sequence[Stop], request: RecordingRequest, run: rig.RunTrain | None = None
+) -> list[StopRun]:
     """Simulate a train once, and judge the stops of some of its cars as :func:`run_stop` does."""
-    return _run(stops, request, rig.simulate_cars)
+
+    def simulated(cases: Sequence[scenario.Case], every: float | None) -> list[rig.SimulatedStop]:
+        return rig.simulate_cars(cases, every, run)
+
+    return _run(stops, request, simulated)
 
 
-def run_trains(trains: Sequence[Sequence[Stop]], request: RecordingRequest) -> list[StopRun]:
-    """Simulate trains side by side, none of them recorded at once, and judge as :func:`run_train` does."""
+def run_trains(
+    trains: Sequence[Sequence[Stop]], request: RecordingRequest, run: rig.RunTrain | None = None
+) -> list[StopRun]:
+    """Simulate trains, none of them recorded at once, and judge as :func:`run_train` does.
+
+    Those whose controllers are built in run side by side, the others one after the other with `run`.
+    """
+    here = [stops for stops in trains if not stops[0].case.is_from_outside]
+    in_lanes = iter(_run_in_lanes(here, request)) if here else iter(())
+    return [
+        each
+        for stops in trains
+        for each in (run_train(stops, request, run) if stops[0].case.is_from_outside else next(in_lanes))
+    ]
+
+
+def _run_in_lanes(trains: Sequence[Sequence[Stop]], request: RecordingRequest) -> list[list[StopRun]]:
+    """Simulate trains with built-in controllers side by side."""
     started = perf_counter()
     try:
         cases = [[bench.identified(stop.alone) for stop in stops] for stops in trains]
         simulated = rig.simulate_trains(cases)
     except Exception:  # which train it is shows when they run one by one
-        return [run for stops in trains for run in run_train(stops, request)]
+        return [run_train(stops, request) for stops in trains]
     seconds = (perf_counter() - started) / len(trains)
 
     def judged(stops: Sequence[Stop], of_train: list[rig.SimulatedStop]) -> list[StopRun]:
@@ -138,7 +160,7 @@ def run_trains(trains: Sequence[Sequence[Stop]], request: RecordingRequest) -> l
 
         return _run(stops, request, simulate, seconds)
 
-    return [run for each in zip(trains, simulated, strict=True) for run in judged(*each)]
+    return [judged(*each) for each in zip(trains, simulated, strict=True)]
 
 
 def _run(
@@ -201,7 +223,7 @@ def interval_at_once(stop: Stop, request: RecordingRequest) -> float | None:
     if stop.is_repeated:
         at_once = stop.place < max(request.band_stops, 1)
     else:
-        at_once = request.cases == "all" or stop.case.scenario.controller.program is not None
+        at_once = request.cases == "all" or stop.case.is_from_outside
     return request.every if at_once and request.cases != "none" else None
 
 

@@ -54,13 +54,21 @@ def compile_for(cases: Sequence[scenario.Case], request: RecordingRequest) -> No
         rig.load_train_lanes()
 
 
-def run_block(block: Block, request: RecordingRequest, run: rig.RunInputs | None = None) -> list[StopRun]:
-    """Simulate and judge what runs in one go; `run` runs stops of cars alone, see :func:`.run_stop`."""
+def run_block(
+    block: Block,
+    request: RecordingRequest,
+    run: rig.RunInputs | None = None,
+    run_of_train: rig.RunTrain | None = None,
+) -> list[StopRun]:
+    """Simulate and judge what runs in one go.
+
+    `run` runs stops of cars alone, see :func:`.run_stop`, and `run_of_train` those of trains.
+    """
     if len(block) > 1:
         return run_trains(block, request)
     (stops,) = block
     if stops[0].case.train is not None:
-        return run_train(stops, request)
+        return run_train(stops, request, run_of_train)
     return [run_stop(stop, request, run) for stop in stops]
 
 
@@ -73,5 +81,9 @@ def _in_lanes(cases: Iterable[scenario.Case], request: RecordingRequest) -> int:
 
 
 def _fits(stops: Sequence[Stop], request: RecordingRequest) -> bool:
-    """Return whether stops can run in a lane: those of a train of which no samples are kept."""
-    return stops[0].case.train is not None and interval_at_once(stops[0], request) is None
+    """Return whether stops can run in a lane: those of a train with built-in controllers, of which no samples
+    are kept.
+    """
+    first = stops[0]
+    is_in_train = first.case.train is not None and not first.case.is_from_outside
+    return is_in_train and interval_at_once(first, request) is None

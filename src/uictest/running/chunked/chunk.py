@@ -18,7 +18,7 @@ from uictest.core.ensemble import rows_at
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.judging.evaluation import CaseResult, Detail, error_result, evaluate_simulated, may_be_biased
 from uictest.plans.scenario import Case
-from uictest.plans.sweeps import Plan, in_survey_steps, train_problem
+from uictest.plans.sweeps import Plan, in_survey_steps, programs_of, train_problem
 from uictest.running.campaign import RecordingRequest, ThreadedMap, run_trains, stops_together
 from uictest.running.chunked.case_blocks import BlockAssembler, CaseBlock, CaseValues
 from uictest.running.chunked.case_selection import CaseSelection
@@ -54,6 +54,7 @@ class ChunkRunner(ABC):
 
     plan: Plan
     run_block: RunBlock
+    run_train: rig.RunTrain | None = None
 
     def run(self, indices: NDArray[np.int64]) -> bytes:
         """Return the rows of the cases with the given indices as a Parquet file."""
@@ -82,16 +83,20 @@ class TrainRunner(ChunkRunner):
 
     plan: Plan
     run_block: RunBlock
+    run_train: rig.RunTrain | None = None
 
     def prepare(self) -> None:
-        """Compile the lanes."""
-        rig.load_train_lanes()
+        """Compile the lanes, and what runs trains with controllers from outside one by one."""
+        if any(programs_of(self.plan)):
+            rig.compiled_train()
+        if not self.plan.base.is_from_outside:
+            rig.load_train_lanes()
 
     def results_of(self, indices: NDArray[np.int64]) -> tuple[CaseValues, list[CaseResult], list[int]]:
         """Return cars and their results; an error in one is its result."""
         cars = list(self._cars(indices))
         sound = (case for case, reason in cars if not reason)
-        runs = iter(run_trains(list(stops_together(sound)), RecordingRequest("none")))
+        runs = iter(run_trains(list(stops_together(sound)), RecordingRequest("none"), self.run_train))
         results = [
             error_result(case, reason) if reason else next(runs).case_run.result for case, reason in cars
         ]
@@ -199,10 +204,10 @@ class BlockRunner(ChunkRunner):
         return [result for case in alone for result in self._results_in_own_steps(case)]
 
 
-def chunk_runner(plan: Plan, run_block: RunBlock) -> ChunkRunner:
-    """Return a runner for a plan; `run_block` is asked only where a controller comes from outside."""
+def chunk_runner(plan: Plan, run_block: RunBlock, run_train: rig.RunTrain | None = None) -> ChunkRunner:
+    """Return a runner for a plan; what runs blocks or trains is asked where a controller is from outside."""
     if plan.own_keys:
-        return TrainRunner(plan, run_block)
+        return TrainRunner(plan, run_block, run_train)
     return block_runner(plan, run_block)
 
 

@@ -158,7 +158,7 @@ _RUNNERS: dict[str, ChunkRunner] = {}
 def _cached_runner(token: str, plan: Plan) -> ChunkRunner:
     if token not in _RUNNERS:
         _require_programs(plan)
-        runner = chunk_runner(plan, _WORKERS.run_block)
+        runner = chunk_runner(plan, _WORKERS.run_block, _WORKERS.run_train)
         _RUNNERS.clear()
         _RUNNERS[token] = runner
         return runner

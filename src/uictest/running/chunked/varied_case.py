@@ -10,6 +10,7 @@ from typing import ClassVar, Final
 import numpy as np
 
 from uictest import rig
+from uictest.controllers import ControllerError
 from uictest.judging.evaluation import CaseResult, error_result, evaluate_simulated
 from uictest.plans.scenario import Case, Scenario
 from uictest.plans.sweeps import (
@@ -95,12 +96,14 @@ class VariedTrain:
     Args:
         case: any of its cars.
         jobs: number of threads.
+        run_train: simulates a train with controllers from outside.
 
     """
 
     survey: ClassVar = False
     case: Case
     jobs: int = 1
+    run_train: rig.RunTrain | None = None
     _known: dict[tuple[str, ...], list[CaseResult]] = field(default_factory=dict)
 
     def results(
@@ -130,11 +133,12 @@ class VariedTrain:
         problems = [train_problem(each, settings) for each in trains]
         sound = [self._cars(each) for each, problem in zip(trains, problems, strict=True) if not problem]
         try:
-            stops = iter(rig.simulate_trains(sound, self.case))
+            stops = iter(rig.simulate_trains(sound, self.case, self.run_train))
         except Exception as error:  # which train it is shows when they run one by one
             if len(places) > 1:
                 return [each for place in places for each in self._run(settings, [place])]
-            problems = [f"{type(error).__name__}: {error}"]
+            told = "controller" if isinstance(error, ControllerError) else type(error).__name__
+            problems = [f"{told}: {error}"]
         assert self.case.train is not None
         # Judged as the train itself: numbers of parts are read for the words of a reason alone.
         cars = self._cars(self.case.train.scenarios)

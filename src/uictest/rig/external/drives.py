@@ -1,0 +1,166 @@
+"""A controller from outside driven through given cycles in this process, without the rig."""
+
+import ctypes
+from collections.abc import Sequence
+from time import perf_counter
+from typing import Any, Final, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from uictest.controllers import (
+    CLOSING,
+    EXCHANGE,
+    GUARD,
+    NOT_CALLED,
+    OPENING,
+    OUTPUTS,
+    OUTPUTS_AT,
+    STEP_FAILED,
+    STEPPING,
+    UNTOUCHED,
+    WROTE_BEYOND,
+    Config,
+    ControllerInstance,
+    ControllerProgram,
+    open_controller,
+)
+from uictest.rig.external.in_process import raise_failure
+from uictest.rig.model.controller import call_step
+
+FILLING_TIME: Final = 2.0
+"""Time from empty to full service pressure, s; chosen, of the size that a wheelset's brake has."""
+VENTING_TIME: Final = 0.6
+"""Time from full service pressure to empty, s; chosen, likewise."""
+
+DYNAMIC_RESPONSE: Final = 0.3
+"""Time constant of a motor that follows what is asked of it, s; chosen, that of `brake.dynamic`."""
+
+Beginning = Literal["create", "reset"]
+"""How a drive begins: with a new controller, or with the one of the drive before."""
+
+
+class DriveRequest(NamedTuple):
+    """What a controller is driven through.
+
+    Attributes:
+        program: what is loaded.
+        config: what it is given.
+        inputs: its inputs, one :data:`~uictest.controllers.INPUTS` for each cycle. The cylinder pressure is
+            that of a brake which is never vented, and the dynamic brake that of a motor which is never
+            reduced; valves and motors make of it what the controller asks for.
+        beginnings: the drives through these cycles.
+    """
+
+    program: ControllerProgram
+    config: Config
+    inputs: NDArray[Any]
+    beginnings: Sequence[Beginning] = ("create",)
+
+
+class Driven(NamedTuple):
+    """What a controller has answered.
+
+    Attributes:
+        outputs: one :data:`~uictest.controllers.OUTPUTS` for each cycle.
+        seconds: how long each answer took.
+    """
+
+    outputs: NDArray[Any]
+    seconds: NDArray[np.float64]
+
+
+class Drives(NamedTuple):
+    """What a controller says of itself, its drives, the JSON in which it declares its parameters, and the
+    version of the contract that it keeps.
+    """
+
+    version: str
+    drives: tuple[Driven, ...]
+    declares: str = ""
+    contract: int = 1
+
+
+def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
+    """Drive a controller in this process. Raises ControllerError where it fails."""
+    instance: ControllerInstance | None = None
+    drives = []
+    try:
+        for beginning in request.beginnings:
+            if beginning == "create":
+                closed, instance = instance, None
+                _close(closed, exchange)
+                exchange["calling"] = OPENING
+                instance = open_controller(request.program, request.config)
+            if instance is None:
+                raise ValueError("the first drive begins with a new controller")
+            exchange["calling"] = OPENING
+            instance.reset()
+            exchange["calling"] = NOT_CALLED
+            drives.append(drive(instance, request.inputs, request.config.cycle_time, exchange))
+        if instance is None:
+            return Drives("", ())
+        return Drives(instance.version, tuple(drives), instance.declares, instance.contract)
+    finally:
+        _close(instance, exchange)
+
+
+def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float, exchange: Any) -> Driven:
+    """Drive a controller that has been reset. Raises ControllerError where it fails."""
+    seconds, answers = np.zeros(len(inputs)), bytearray()
+    address = exchange.__array_interface__["data"][0]
+    memory: Any = (ctypes.c_char * EXCHANGE.itemsize).from_address(address)
+    names = "cylinder_pressure", "hold", "vent", "dynamic_reduction", "sand_request", "dynamic_brake"
+    pressure, hold, vent, reduction, sand, dynamic = (exchange[name] for name in names)
+    brakes, gain = bool(inputs["dynamic_brake"].any()), min(cycle_time / DYNAMIC_RESPONSE, 1.0)
+    effort = inputs["dynamic_brake"][:1].copy()
+    untouched = UNTOUCHED if instance.contract == 1 else 0.0
+    newest = [0.0] * len(pressure)
+    for cycle, demanded in enumerate(inputs["cylinder_pressure"].tolist()):
+        memory[:OUTPUTS_AT] = inputs[cycle].tobytes()
+        pressure[:] = newest
+        if brakes:
+            wanted = dynamic * (1.0 - np.clip(reduction, 0.0, 1.0)) if cycle else dynamic
+            effort += gain * (wanted - effort)
+            dynamic[:] = effort[0]
+        exchange["reference_speed"] = np.nan
+        hold[:] = vent[:] = sand[:] = exchange["diagnosis"] = exchange["track_brake_request"] = 0
+        reduction[:] = untouched
+        exchange["guard"] = GUARD
+        exchange["cycles"] += 1
+        exchange["calling"] = STEPPING
+        started = perf_counter()
+        status = call_step(instance.step_address, instance.handle, address)
+        seconds[cycle] = perf_counter() - started
+        exchange["calling"] = NOT_CALLED
+        beyond = exchange["guard"] != GUARD
+        if beyond or (
+            untouched and (any(reduction != untouched) or any(sand) or exchange["track_brake_request"])
+        ):
+            exchange["failure"] = WROTE_BEYOND
+        elif status != 0:
+            exchange["failure"] = STEP_FAILED
+        raise_failure(exchange, instance)
+        answers += memory[OUTPUTS_AT : OUTPUTS_AT + OUTPUTS.itemsize]
+        full, magnets = max(demanded), zip(hold.tolist(), vent.tolist(), strict=True)
+        newest = [
+            _pressure_after(*each, full, cycle_time) for each in zip(newest, demanded, magnets, strict=True)
+        ]
+    return Driven(np.frombuffer(answers, OUTPUTS), seconds)
+
+
+def _close(instance: ControllerInstance | None, exchange: Any) -> None:
+    if instance is not None:
+        exchange["calling"] = CLOSING
+        instance.close()
+        exchange["calling"] = NOT_CALLED
+
+
+def _pressure_after(
+    pressure: float, demanded: float, magnets: tuple[int, int], full: float, cycle_time: float
+) -> float:
+    """Return a cylinder's pressure at the end of a cycle, Pa: filled, held or vented at a steady rate."""
+    hold, vent = magnets
+    if vent:
+        return max(pressure - full * cycle_time / VENTING_TIME, 0.0)
+    return min(pressure if hold else pressure + full * cycle_time / FILLING_TIME, demanded)
