@@ -8,14 +8,14 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import product
 from operator import index
 from pathlib import Path
+from struct import Struct
 from typing import Any, Final, NamedTuple
 
-import numpy as np
-
 from uictest.controllers.declared import CONTRACTS, ControllerProgram, nothing_declared, parameter_problems
-from uictest.controllers.interface import INPUTS, OUTPUTS, WHEELSETS, Inputs, Outputs
+from uictest.controllers.interface import INPUTS, OUTPUT_BYTES, OUTPUTS, WHEELSETS, Inputs, Outputs
 
 STEP: Final = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 """`uictest_step`."""
@@ -129,8 +129,8 @@ class CalledInstance(CallbackInstance):
 
     def answer(self, inputs: int, outputs: int) -> None:
         """Call the method."""
-        answered = self.step(read_inputs(at_address(inputs, INPUTS)))
-        write_outputs(at_address(outputs, OUTPUTS), answered, self.contract)
+        answered = self.step(read_inputs(memory_at(inputs, INPUTS)))
+        write_outputs(memory_at(outputs, OUTPUTS), answered, self.contract)
 
 
 def reason_of(error: BaseException) -> str:
@@ -154,23 +154,38 @@ def _place_of(error: BaseException) -> str:
     return f" ({Path(own[-1].filename).name}, line {own[-1].lineno})" if own else ""
 
 
-def at_address(address: int, layout: Any) -> Any:
-    """Return the record of a layout that lies at an address."""
-    memory = (ctypes.c_char * layout.itemsize).from_address(address)
-    return np.frombuffer(memory, layout)[0]
+def _packed(layout: Any, *names: str) -> Struct:
+    """Return how fields that lie together are packed: whole numbers, floats, and arrays of them."""
+    codes = {"i8": "q", "f8": "d", "i4": "i", "u4": "I"}
+    kinds = [layout[name] for name in names]
+    each = (f"{math.prod(kind.shape)}{codes[kind.base.kind + str(kind.base.itemsize)]}" for kind in kinds)
+    return Struct("=" + "".join(each))
 
 
-def read_inputs(record: Any) -> Inputs:
-    """Return inputs as a Python controller sees them."""
-    cycle, time, speeds, pressures, demand, valid, dynamic, load, command, *train = record.tolist()
-    # Arrays give their numbers as Python's by tolist alone.
-    valid, dynamic = tuple(map(bool, valid.tolist())), tuple(dynamic.tolist())
-    read = tuple(speeds.tolist()), valid, tuple(pressures.tolist()), demand
-    train_speed, acceleration, *found = train
-    has_speed, has_acceleration = map(bool, found)
+_INPUTS: Final = _packed(INPUTS, *INPUTS.names or ())
+_OUTPUTS: Final = _packed(OUTPUTS, "reference_speed", "hold", "vent", "diagnosis")
+_ADDED: Final = ("dynamic_reduction", "sand_request", "track_brake_request")
+"""What version 2 has added to the outputs."""
+_ADDED_OUTPUTS: Final = _packed(OUTPUTS, *_ADDED)
+_NONE: Final = (0,) * WHEELSETS
+_STATES: Final[Any] = {states: states for states in product((0, 1), repeat=WHEELSETS)}
+
+
+def memory_at(address: int, layout: Any) -> Any:
+    """Return the bytes of a record that lies at an address, which can be written."""
+    return (ctypes.c_char * layout.itemsize).from_address(address)
+
+
+def read_inputs(memory: Any) -> Inputs:
+    """Return inputs, the record or its bytes, as a Python controller sees them."""
+    numbers = _INPUTS.unpack_from(memory)
+    cycle, time = numbers[:2]
+    demand, valid_1, valid_2, valid_3, valid_4 = numbers[10:15]
+    load, command, train_speed, acceleration, has_speed, has_acceleration = numbers[19:]
+    valid = valid_1 != 0, valid_2 != 0, valid_3 != 0, valid_4 != 0
     return Inputs(
-        *(cycle, time, *read, dynamic, load, command),
-        *(train_speed, has_speed, acceleration, has_acceleration),
+        *(cycle, time, numbers[2:6], valid, numbers[6:10], demand, numbers[15:19], load, command),
+        *(train_speed, has_speed != 0, acceleration, has_acceleration != 0),
     )
 
 
@@ -181,45 +196,42 @@ def checked_contract(version: Any, said: str) -> int:
     return version
 
 
-def write_outputs(record: Any, outputs: Outputs, contract: int) -> None:
-    """Write the answer of a Python controller of a contract version. Raises ControllerError where it is none.
+def write_outputs(memory: Any, outputs: Outputs, contract: int) -> None:
+    """Write the answer of a controller in Python into memory. Raises ControllerError where it is none.
 
-    Whether reductions are within 0 to 1 is left to who reads them.
+    Whether reductions are within 0 to 1 is left to who reads them. Nothing is written where it raises.
     """
     try:
-        hold, vent, reference, diagnosis = (
-            *(outputs.hold, outputs.vent),
-            *(outputs.reference_speed, outputs.diagnosis),
-        )
+        hold, vent = outputs.hold, outputs.vent
+        reference, diagnosis = outputs.reference_speed, outputs.diagnosis
     except AttributeError:
         raise ControllerError(f"step returned {type(outputs).__name__}, expected Outputs") from None
-    record["hold"], record["vent"] = _magnets("hold", hold), _magnets("vent", vent)
-    record["reference_speed"] = _number("reference_speed", math.nan if reference is None else reference)
-    record["diagnosis"] = _bits(diagnosis)
+    magnets = *_magnets("hold", hold), *_magnets("vent", vent)
+    answer = _number("reference_speed", math.nan if reference is None else reference), *magnets
+    bits = _bits(diagnosis)
     added = [getattr(outputs, name, None) for name in _ADDED]
     if contract > 1:
-        _write_version_2(record, *added)
+        _ADDED_OUTPUTS.pack_into(memory, OUTPUT_BYTES[1], *_of_version_2(*added))
     elif any(each is not None for each in added):
         name = next(name for name, each in zip(_ADDED, added, strict=True) if each is not None)
         raise ControllerError(f"{name} belongs to contract version 2, and the controller is of version 1")
+    _OUTPUTS.pack_into(memory, 0, *answer, bits)
 
 
-_ADDED: Final = ("dynamic_reduction", "sand_request", "track_brake_request")
-"""What version 2 has added to the outputs."""
-_NONE: Final = (0,) * WHEELSETS
-
-
-def _write_version_2(record: Any, reduction: Any, sand: Any, track_brake: Any) -> None:
+def _of_version_2(reduction: Any, sand: Any, track_brake: Any) -> tuple[Any, ...]:
     shares = _four("dynamic_reduction", _NONE if reduction is None else reduction)
-    record["dynamic_reduction"] = [
-        _number(f"dynamic_reduction[{place}]", share) for place, share in enumerate(shares)
-    ]
-    record["sand_request"] = _magnets("sand_request", _NONE if sand is None else sand)
-    record["track_brake_request"] = 0 if track_brake is None else _bit("track_brake_request", track_brake)
+    return (
+        *(_number(f"dynamic_reduction[{place}]", share) for place, share in enumerate(shares)),
+        *_magnets("sand_request", _NONE if sand is None else sand),
+        0 if track_brake is None else _bit("track_brake_request", track_brake),
+    )
 
 
-def _magnets(name: str, values: Any) -> list[int]:
-    return [_bit(f"{name}[{place}]", value) for place, value in enumerate(_four(name, values))]
+def _magnets(name: str, values: Any) -> tuple[int, ...]:
+    listed = _four(name, values)
+    with suppress(KeyError, TypeError):  # what is neither 0 nor 1, and what is no number at all
+        return tuple(_STATES[listed])
+    return tuple(_bit(f"{name}[{place}]", value) for place, value in enumerate(listed))
 
 
 def _bit(name: str, value: Any) -> int:
@@ -236,9 +248,9 @@ def _bits(diagnosis: Any) -> int:
     raise ControllerError(f"diagnosis is {diagnosis!r}, expected a whole number of 32 bits")
 
 
-def _four(name: str, values: Any) -> list[Any]:
+def _four(name: str, values: Any) -> tuple[Any, ...]:
     try:
-        listed = list(values)
+        listed = tuple(values)
     except TypeError:
         raise ControllerError(f"{name} is {values!r}, expected {WHEELSETS} values") from None
     if len(listed) != WHEELSETS:

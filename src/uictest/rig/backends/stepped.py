@@ -54,7 +54,7 @@ class SteppedStop:
         exchange: its part of that name.
         inputs: what the sensors show for the coming cycle, the record of :data:`~uictest.controllers.INPUTS`
             within the exchange.
-        outputs: the commands for that cycle, the record of :data:`~uictest.controllers.OUTPUTS` within it.
+        outputs: the commands for that cycle, :data:`~uictest.controllers.OUTPUTS` within it, shape ().
     """
 
     def __init__(self, inputs: StopInputs, steps_per_sample: int = 0) -> None:
@@ -126,7 +126,7 @@ def within_exchanges(memory: NDArray[Any], cars: int) -> tuple[list[Any], list[A
     places = [first + EXCHANGE.itemsize * car for car in range(cars)]
     return (
         [np.frombuffer(memory, INPUTS, 1, place)[0] for place in places],
-        [np.frombuffer(memory, OUTPUTS, 1, place + OUTPUTS_AT)[0] for place in places],
+        [np.frombuffer(memory, OUTPUTS, 1, place + OUTPUTS_AT).reshape(()) for place in places],
     )
 
 
