@@ -6,6 +6,7 @@ import os
 import sys
 from contextlib import contextmanager
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -124,11 +125,22 @@ C_FMA.restype = ctypes.c_double
 AS_WRITTEN = fma.__code__
 
 
+_entry = C_FMA
+
+
+def _called_fast(a, b, c):
+    """Call it through compiled code from the first call on: for each one ctypes takes six times as long."""
+    compiled = import_module("numba").njit("f8(f8, f8, f8)")(lambda a, b, c: C_FMA(a, b, c))
+    globals()["_entry"] = compiled.overloads[compiled.signatures[0]].entry_point
+    _called_fast.__code__ = (lambda a, b, c: _entry(a, b, c)).__code__
+    return _entry(a, b, c)
+
+
 @pytest.fixture(autouse=True, scope="session")
 def _c_fma():
     """Let plain Python call the C library's operation, where compiled code does not take ours."""
     if lanes.fuses():
-        vars(arithmetic)["_c_fma"] = C_FMA
+        vars(arithmetic)["_c_fma"] = _called_fast
         fma.__code__ = (lambda a, b, c: _c_fma(a, b, c)).__code__
     yield
     fma.__code__ = AS_WRITTEN
