@@ -1,5 +1,6 @@
 """Scenarios made of the stops of a log: they simulate what was recorded, or it is said that they do not."""
 
+import json
 import re
 from pathlib import Path
 from types import SimpleNamespace
@@ -13,6 +14,7 @@ from tests.service_log import logs
 from uictest.cli.entry import execute
 from uictest.core.recording import Recording
 from uictest.plans.scenario import load
+from uictest.recorded import field_data
 from uictest.recorded.service_log import command_course
 from uictest.runs.made_scenario import assumptions
 
@@ -156,3 +158,34 @@ def test_more_pressure_than_the_stated_brake_gives_is_said(factor, told):
     assert course.beyond == pytest.approx(factor, rel=1e-3)
     said = list(assumptions(case.scenario, SimpleNamespace(friction=()), course))
     assert any(f"{factor:.2f} times" in each for each in said) is told
+
+
+def test_logs_of_one_name_are_told_apart_by_their_folder_and_their_digest(tmp_path, monkeypatch):
+    """Two nights, both `a<line feed>b.parquet`: one dry stop, one on a slippery rail."""
+    monkeypatch.chdir(tmp_path)
+    rails = {"mon": logs.DRY, "tue": logs.wet(0.09)}
+    for number, (night, rail) in enumerate(rails.items()):
+        Path(night).mkdir()
+        stop = logs.simulated(rail, 40.0, number)
+        logs.write_log([stop], Path(night, "a\nb.parquet"), begin=1000.0 * number)
+    Path("night.yaml").write_text(logs.CONDITIONS, "utf-8")
+    options = ["--scenario", "night.yaml", "--scenarios", "suite", "-q", "--dry", "mon/a"]
+    assert execute(["log", *(f"{night}/a\nb.parquet" for night in rails), *options]) in (0, 1)
+    made = {path.stem: yaml.safe_load(path.read_text()) for path in Path("suite").glob("stop-*.yaml")}
+    assert len(made) == 2
+    assert {each["title"].partition(" at ")[0] for each in made.values()} == {
+        rf"Recorded stop: {night}/a\nb.parquet" for night in rails
+    }
+    digests = {field_data.digest_of(Path(night, "a\nb.parquet"))[:6] for night in rails}
+    assert {each["name"] for each in made.values()} == {
+        f"a-b-{digest}-{stop}"
+        for digest in digests
+        for stop in made
+        if digest in Path("suite", f"{stop}.yaml").read_text()
+    }
+    assert execute(["run", "suite", "-q"]) in (0, 1)
+    results = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+    (log,) = [path for path in Path("reports").glob("2*") if (path / "stops.csv").is_file()]
+    subjects = json.loads((log / "results.json").read_text("utf-8"))["subjects"]
+    assert [each["settings"]["rail"] for each in subjects.values()] == ["dry", "wet"]
+    assert len(results["cases"]) == 2

@@ -11,6 +11,7 @@ from typing import Any, Final, NamedTuple, get_args
 
 import numpy as np
 
+from uictest import report
 from uictest.core import files
 from uictest.core.recording import TIME
 from uictest.core.units import KILOMETRE_PER_HOUR
@@ -43,6 +44,8 @@ _DIGITS: Final = 4
 """Of a friction coefficient."""
 _LONGEST_NAME: Final = 60
 """Letters of the name of a log in that of a scenario; chosen."""
+_LETTERS: Final = 6
+"""Of its digest, there too: loggers name every night alike; chosen."""
 
 
 def write_scenarios(
@@ -167,8 +170,8 @@ class _Maker(NamedTuple):
         course = service_log.command_course(stop.recording, own, late)
         speed = fitting.initial_speed(stop) / KILOMETRE_PER_HOUR
         changes: dict[str, Any] = {
-            "name": f"{_slug(source.event.file.stem)}-{source.file.name}",
-            "title": f"Recorded stop: {source.event.file.name} at {source.event.time:.6g} s",
+            "name": f"{_slug(source.event.file.stem)}-{source.log_digest[:_LETTERS]}-{source.file.name}",
+            "title": report.printable(f"Recorded stop: {source.event.file} at {source.event.time:.12g} s"),
             "description": _account(fit),
             "initial_speed": f"{speed:.1f} km/h",
         }

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from uictest import report
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.recorded import fitting, service_log
@@ -97,13 +98,13 @@ def assumptions(own: scenario.Scenario, fit: fitting.Fit, course: service_log.Co
 def heading(made: MadeScenario) -> Iterator[str]:
     """Yield the lines above the scenario of a stop."""
     source, event = made.source, made.source.event
-    yield f"# Made by `uictest log` of {event.file.name}, sample {event.row + 1}, {event.time:.6g} s,"
-    yield f" {event.distance:.0f} m from its beginning.\n"
+    place = f"sample {event.row + 1}, {event.time:.12g} s, {event.distance:.0f} m from its beginning"
+    yield report.printable(f"# Made by `uictest log` of {event.file.name}, {place}.") + "\n"
     yield f"# SHA-256 of the log: {source.log_digest}\n"
     yield f"# Why it is here: {_why(source.result)}\n"
     yield from (f"# Assumed: {each}\n" for each in made.assumed)
     yield f"# {_comparison(made)}\n"
-    yield from (f"# {each}\n" for each in event.remarks)
+    yield from (report.printable(f"# {each}") + "\n" for each in event.remarks)
 
 
 def _comparison(made: MadeScenario) -> str:

@@ -160,25 +160,38 @@ def findings_table(signs: Signs, differences: Sequence[NeighbourDifference]) -> 
 
 def _from_differences(differences: Sequence[NeighbourDifference]) -> Iterator[tuple[Cell, ...]]:
     for each in differences:
-        if each.finding:
-            alike = [other for other in differences if other.sign == each.sign and other.finding]
-            of_pair = sum(other.finding == each.finding for other in alike) == len(alike) / 2 == 2
-            unsure = ", or the other two do the contrary" if of_pair else ""
-            kind, digits = each.kind, each.kind.digits
-            unit = "" if kind.unit == "1" else f" {kind.unit}"
-            shown = each.difference
-            places = 1 if kind.relative else digits
-            interval = f"{shown.low:+.{places}f} to {shown.high:+.{places}f}"
-            yield (
-                each.wheelset,
-                each.finding + unsure,
-                kind.meaning,
-                f"{each.own:.{digits}f}{unit}",
-                f"{each.others:.{digits}f}{unit}",
-                f"{shown.value:+.{places}f} {each.unit} ({interval})",
-                f"{len(each.showing)} of {shown.stops} stops",
-                named(each.showing),
-            )
+        if not each.finding:
+            continue
+        alike = [other for other in differences if other.sign == each.sign and other.finding]
+        pair = [other for other in alike if other.finding == each.finding]
+        contrary = [other for other in alike if other.finding != each.finding]
+        wheelset: Cell = each.wheelset
+        finding = each.finding
+        if len(pair) == len(contrary) == 2:
+            if each is not alike[0]:
+                continue
+            # Two against two do not say which of them are sound: one finding on all four.
+            wheelset, finding = None, ", or ".join(_of_pair(two) for two in (pair, contrary))
+        kind, digits = each.kind, each.kind.digits
+        unit = "" if kind.unit == "1" else f" {kind.unit}"
+        shown = each.difference
+        places = 1 if kind.relative else digits
+        interval = f"{shown.low:+.{places}f} to {shown.high:+.{places}f}"
+        yield (
+            wheelset,
+            finding,
+            kind.meaning,
+            f"{each.own:.{digits}f}{unit}",
+            f"{each.others:.{digits}f}{unit}",
+            f"{shown.value:+.{places}f} {each.unit} ({interval})",
+            f"{len(each.showing)} of {shown.stops} stops",
+            named(each.showing),
+        )
+
+
+def _of_pair(pair: Sequence[NeighbourDifference]) -> str:
+    first, second = pair
+    return f"{first.wheelset} and {second.wheelset}: {first.finding}"
 
 
 def _from_valves(signs: Signs) -> Iterator[tuple[Cell, ...]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import math
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -85,6 +85,7 @@ def log(
     settings = _settings(from_speed, to_speed, float(mapped.preparation.standstill_speed))
     stated = _case_of(scenario, expression, overrides or (), trusted)
     stated("log", settings.from_speed)  # What is stated wrongly is told before the log is read.
+    selected = _selected_by(dry)
     found, written = _stops(files, mapped, settings, folder)
     if not quiet:
         _write_events(found)
@@ -93,7 +94,9 @@ def log(
         message(f"uictest: no stop found{applied}")
         return ExitCode.NOTHING_SELECTED
     named = {f"stop-{number:04d}": event for number, event in enumerate(found.stops, start=1)}
-    on_dry_rail = _dry_stops(dry, named)
+    on_dry_rail = frozenset(name for name, event in named.items() if selected(name, event.file))
+    if dry is not None and not on_dry_rail:
+        raise typer.BadParameter(f"{dry}: selects no stop", param_hint="--dry")
     of_dry = stated
     if on_dry_rail:
         of_dry = _case_of(scenario, expression, (*(overrides or ()), *_ON_DRY_RAIL), trusted)
@@ -200,18 +203,18 @@ def _case_of(
     )
 
 
-def _dry_stops(expression: str | None, named: Mapping[str, service_log.LoggedEvent]) -> frozenset[str]:
-    """Return the names of the stops that `--dry` selects. Raises typer.BadParameter where it selects none."""
+def _selected_by(expression: str | None) -> Callable[[str, Path], bool]:
+    """Return whether `--dry` selects a stop, by its name, its file or, with a slash, a part of its path."""
     if expression is None:
-        return frozenset()
+        return lambda name, path: False
     with malformed("--dry", expression):
         selects = campaign.parse(expression)
-    chosen = frozenset(
-        name for name, event in named.items() if selects(campaign.mentioned_in((name, event.file.name)))
-    )
-    if not chosen:
-        raise typer.BadParameter(f"{expression}: selects no stop", param_hint="--dry")
-    return chosen
+
+    def selected(name: str, path: Path) -> bool:
+        named, placed = (campaign.mentioned_in(each) for each in ((name, path.name), (path.as_posix(),)))
+        return selects(lambda word: placed(word) if "/" in word else named(word))
+
+    return selected
 
 
 def _settings(from_speed: str, to_speed: str, standstill: float) -> service_log.FinderSettings:
