@@ -4,6 +4,7 @@ import csv
 import json
 import re
 from dataclasses import replace
+from pathlib import Path
 from zipfile import ZipFile
 
 import numpy as np
@@ -204,6 +205,29 @@ def test_a_selection_of_dry_stops_that_is_empty_is_refused(tmp_path, capsys, mon
     assert "stop-0007: selects no stop" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("braked", [True, False])
+def test_a_log_without_a_stop_leaves_reports_that_say_so(tmp_path, capsys, monkeypatch, braked):
+    monkeypatch.chdir(tmp_path)
+    stop = logs.simulated(logs.DRY, 40.0, 1)
+    if not braked:
+        released = {name: 0.0 * stop[name] for name in stop.channels if "pressure" in name}
+        stop = Recording({**stop.channels, **released}, stop.units)
+    logs.write_log([stop], tmp_path / "night.parquet")
+    (tmp_path / "night.yaml").write_text(logs.CONDITIONS, "utf-8")
+    options = ["--scenario", "night.yaml", "--from", "50 km/h", "--dry", "stop-0001", "--junitxml", "j.xml"]
+    assert execute(["log", "night.parquet", *options, "-q"]) == 5
+    reason = "1 application of the brake passed over" if braked else "the brake is never applied"
+    told = capsys.readouterr().err
+    assert "no stop found: " in told
+    assert reason in told
+    results = json.loads(Path("reports/latest/results.json").read_text("utf-8"))
+    assert (results["cases"], len(results.get("passed_over", []))) == ([], int(braked))
+    assert reason in results["campaign"]["sentences"][0]
+    for name in ("index.html", "stops.csv", "junit.xml"):
+        assert Path("reports/latest", name).is_file()
+    assert Path("j.xml").read_bytes() == Path("reports/latest/junit.xml").read_bytes()
+
+
 @pytest.mark.parametrize(
     ("change", "told"),
     [
@@ -231,7 +255,7 @@ def _recorded(tmp_path_factory):
 
 def surveyed(stop, case):
     result, _ = judge_recording(case, stop)
-    survey = LogSurvey({}, vehicle_known=True)
+    survey = LogSurvey({}, 0, vehicle_known=True)
     survey.add(case, stop, result)
     return survey.campaign([result])
 

@@ -1,5 +1,6 @@
 """Logs as they come: what cannot be known is said."""
 
+import gzip
 from datetime import UTC, datetime, timedelta, timezone
 
 import numpy as np
@@ -9,7 +10,7 @@ from pyarrow import parquet
 
 from tests.service_log.test_found_stops import MAP, STEP, table, written
 from uictest.core.recording.formats import UnreadableError
-from uictest.recorded.field_data import load_map, stop_in
+from uictest.recorded.field_data import MapError, load_map, stop_in
 from uictest.recorded.service_log import find_stops, write_stops
 
 KINDS = ["stop", "drag", "stop", "shunting", "released", "parked"]
@@ -217,3 +218,50 @@ def test_a_tdms_file_whose_recorder_lost_its_power_is_read_up_to_there(tmp_path)
     log = find_stops([path], MAP)
     assert [event.row for event in log.stops] == PLACES
     assert 2000 <= log.first_rows[-1] < len(table(KINDS)["time"])
+
+
+def csv_log(folder, change):
+    """Write the log as text, its lines changed: heading in the first, then samples."""
+    lines = written(table(KINDS), folder / "log.csv").read_text().splitlines()
+    (folder / "log.csv").write_text("\n".join(change(lines)) + "\n")
+    return folder / "log.csv"
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda lines: [lines[0], *(f"{line}," for line in lines[1:])],
+        lambda lines: [*lines[:50], *["," * lines[0].count(",")] * 5, *lines[50:]],
+        lambda lines: [*lines[:2500], *["," * lines[0].count(",")] * 5, *lines[2500:]],
+    ],
+    ids=["delimiters at the ends", "empty cells while running", "empty cells while standing braked"],
+)
+def test_lines_that_evaluate_reads_change_nothing(tmp_path, change):
+    plain, places, reasons = found(table(KINDS), tmp_path / "plain.csv")
+    log = find_stops([csv_log(tmp_path, change)], MAP)
+    assert [event.row for event in log.stops] == places
+    assert [event.reason for event in log.passed_over] == reasons
+    stop = stop_in(min(write_stops(log, MAP, tmp_path / "stops")), MAP)
+    other = stop_in(min(write_stops(plain, MAP, tmp_path / "others")), MAP)
+    assert np.array_equal(stop.recording["speed"], other.recording["speed"])
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (lambda lines: [*lines[:299], lines[299].rpartition(",")[0], *lines[300:]], "Row #300: Expected 7"),
+        (lambda lines: [*lines[:299], f"ERR{lines[299]}", *lines[300:]], "Row #300: .*'ERR"),
+        (lambda lines: [lines[0].replace("speed [", "Speed [", 1), *lines[1:]], "did you mean 'Speed'"),
+    ],
+    ids=["a cell too few", "no number", "another name"],
+)
+def test_what_cannot_be_read_is_told_with_its_line_or_the_names_of_the_file(tmp_path, change, told):
+    with pytest.raises((UnreadableError, MapError), match=told):
+        find_stops([csv_log(tmp_path, change)], MAP)
+
+
+def test_a_compressed_log_is_no_text_of_another_encoding(tmp_path):
+    path = written(table(KINDS), tmp_path / "log.csv")
+    path.write_bytes(gzip.compress(path.read_bytes()))
+    with pytest.raises(UnreadableError, match="compressed by gzip: unpack it"):
+        find_stops([path], MAP)

@@ -39,8 +39,8 @@ class Published(NamedTuple):
 def publish_batch(batch: Batch, output: Path, formats: Sequence[str], observer: Observer) -> Published | None:
     """Run a batch and publish its reports; after an interruption, those of the finished cases.
 
-    Returns None, and writes nothing, if no case is finished. Raises OSError if the reports cannot be written,
-    and removes those that were.
+    Returns None, and writes nothing, if there are cases and none is finished. Raises OSError if the reports
+    cannot be written, and removes those that were.
     """
     # The folder comes first: if it cannot be written, nothing should be simulated.
     with _folder(output, batch.manifest) as folder:
@@ -51,7 +51,7 @@ def publish_batch(batch: Batch, output: Path, formats: Sequence[str], observer: 
             draws_stops=report.draws_stops(formats),
             keep=partial(report.write_recording, folder.path),
         )
-        if not run.content.all_results:
+        if batch.all_cases and not run.content.all_results:
             return None
         document = _write(folder.path, run.content, formats)
         place = folder.publish()

@@ -43,11 +43,12 @@ class LogSurvey:
 
     Args:
         times: of the brake commands by the name of the stop, s as recorded.
+        passed_over: how many applications of the brake are no stops.
         vehicle_known: whether the conditions state vehicle and brake: without, nothing is said of the rail.
     """
 
-    def __init__(self, times: Mapping[str, float], *, vehicle_known: bool) -> None:
-        self._times = times
+    def __init__(self, times: Mapping[str, float], passed_over: int, *, vehicle_known: bool) -> None:
+        self._times, self._passed_over = times, passed_over
         self._vehicle_known = vehicle_known
         self._signs: list[service_log.WheelsetSigns] = []
         self._uses: list[service_log.RailUse] = []
@@ -64,6 +65,8 @@ class LogSurvey:
 
     def campaign(self, results: Sequence[CaseResult]) -> report.Campaign:
         """Return what the stops observed show together; `results` are those of all."""
+        if not results:
+            return report.Campaign((self.without_stop,))
         differences = neighbour_differences(self._signs)
         findings = findings_table(self._signs, differences)
         series = wet_series(self._stops)
@@ -82,6 +85,14 @@ class LogSurvey:
                 compared_table(differences),
             ),
         )
+
+    @property
+    def without_stop(self) -> str:
+        """Why there is nothing to show, where no stop was found."""
+        if self._passed_over:
+            applied = report.counted(self._passed_over, "application")
+            return f"no stop found: {applied} of the brake passed over, each with its reason"
+        return "no stop found: by the channels of the map, the brake is never applied"
 
     def _sentences(
         self,

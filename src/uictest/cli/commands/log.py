@@ -69,7 +69,7 @@ def log(
     """Find the stops in long recordings and judge each. Several files are one log.
 
     Conditions are stated as for 'evaluate'. Applications of the brake that are no stops are listed with the
-    reason. Reports and exit codes are those of 'run'; 5 where there is no stop.
+    reason. Reports and exit codes are those of 'run'; 5 where there is no stop, with reports that say so.
     """
     junit = options.junit_file(junit, output)
     mapped, inputs = recordings.channel_map(map_name, trusted, None)
@@ -89,13 +89,9 @@ def log(
     found, written = _stops(files, mapped, settings, folder)
     if not quiet:
         _write_events(found)
-    if not written:
-        applied = "" if found.passed_over else ": by the channels of the map, the brake is never applied"
-        message(f"uictest: no stop found{applied}")
-        return ExitCode.NOTHING_SELECTED
     named = {f"stop-{number:04d}": event for number, event in enumerate(found.stops, start=1)}
     on_dry_rail = frozenset(name for name, event in named.items() if selected(name, event.file))
-    if dry is not None and not on_dry_rail:
+    if dry is not None and named and not on_dry_rail:
         raise typer.BadParameter(f"{dry}: selects no stop", param_hint="--dry")
     of_dry = stated
     if on_dry_rail:
@@ -113,7 +109,7 @@ def log(
     passed_over = [_sentence(event) for event in found.passed_over]
     times = {name: event.time for name, event in named.items()}
     known = scenario is not None or _states_vehicle(overrides or ())
-    survey = logged_stops.LogSurvey(times, vehicle_known=known)
+    survey = logged_stops.LogSurvey(times, len(passed_over), vehicle_known=known)
     batch = runs.recorded_batch(stops, context.obj, request, strict=strict, observe=survey.add)
     batch = batch._replace(passed_over=passed_over, together=survey.campaign)
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
@@ -123,6 +119,9 @@ def log(
     places = {file.name: math.nan if file.stop is None else file.stop.place for file in stops.files}
     table = logged_stops.stops_table(named, found.passed_over, published.content.ranked, places)
     file_system.write(published.place, runs.STOPS_OF_LOG, report.csv_text(*table))
+    if not named:
+        message(f"uictest: {survey.without_stop}")
+        return ExitCode.NOTHING_SELECTED
     if shown is options.Format.TEXT and not quiet:
         _show_together(published.content.campaign)
     if made_in is not None and scenario is not None:

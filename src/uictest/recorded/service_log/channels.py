@@ -14,6 +14,7 @@ from uictest.core.recording.formats import read_pieces
 from uictest.recorded.field_data import (
     CHANNEL_UNITS,
     ChannelMap,
+    MapError,
     RawChannel,
     resampled,
     select_channels,
@@ -48,10 +49,30 @@ def pieces_of(path: Path, channel_map: ChannelMap, needed: Collection[str] | Non
     leading = sources[_SPEED].source if _SPEED in sources else ()
     known: list[str] = []
     for contents in read_pieces(path, channel_map.dialect, names, leading):
-        read = select_channels(contents, channel_map, None if known else math.inf)
+        try:
+            read = select_channels(contents, channel_map, None if known else math.inf)
+        except MapError:
+            if not known:  # The message names what the file has, not only what was looked for.
+                select_channels(next(read_pieces(path, channel_map.dialect)), channel_map, math.inf)
+            raise
         known = known or list(read)
-        believed = {name: _believed(channel) for name, channel in read.items()}
+        believed = {name: _believed(channel) for name, channel in _without_empty_rows(read).items()}
         yield _over_one_time(believed, known, float(channel_map.preparation.raster))
+
+
+def _without_empty_rows(channels: dict[str, RawChannel]) -> dict[str, RawChannel]:
+    """Return channels without rows that show neither a time nor a train speed: lines of empty cells."""
+    speed = channels[_SPEED]
+    kept = ~(np.isnan(speed.time) & np.isnan(speed.samples))
+    if kept.all() or not kept.any():
+        return channels
+    time = speed.time[kept]
+    return {
+        name: replace(channel, time=time, samples=channel.samples[kept])
+        if channel.time is speed.time
+        else channel
+        for name, channel in channels.items()
+    }
 
 
 def _believed(channel: RawChannel) -> RawChannel:

@@ -204,14 +204,26 @@ _BYTE_ORDER_MARKS: Final = (
     (codecs.BOM_UTF16_LE, "utf-16-le"),
     (codecs.BOM_UTF16_BE, "utf-16-be"),
 )
+_COMPRESSED: Final = (
+    (b"\x1f\x8b", "gzip"),
+    (b"PK\x03\x04", "zip"),
+    (b"BZh", "bzip2"),
+    (b"\xfd7zX", "xz"),
+    (b"\x28\xb5\x2f\xfd", "zstd"),
+)
 MARK: Final = "\ufeff"
 """The byte-order mark as a character: UTF-16 of a named byte order keeps it at the start of the text."""
 
 
 def encoding_of(path: Path, stated: str) -> str:
-    """Return the encoding of a byte-order mark, else the stated one. Raises OSError."""
+    """Return the encoding of a byte-order mark, else the stated one.
+
+    Raises OSError, and UnreadableError for a compressed file.
+    """
     with path.open("rb") as file:
         beginning = file.read(4)
+    if packed := next((name for mark, name in _COMPRESSED if beginning.startswith(mark)), ""):
+        raise UnreadableError(f"compressed by {packed}: unpack it")
     return next((name for mark, name in _BYTE_ORDER_MARKS if beginning.startswith(mark)), stated)
 
 

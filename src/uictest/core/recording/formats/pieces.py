@@ -100,22 +100,38 @@ def _csv(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Table:
     names, stated = csv_text.names_and_units(heading, layout, dialect)
     units = {name: unit for name, unit in zip(names, stated, strict=True) if unit}
     chosen = [name for name in names if wanted is None or name in wanted]
-    first = heading[layout.first_line - 1 :][:_SAMPLED]
+    first = [line for line in heading[layout.first_line - 1 :][:_SAMPLED] if not line.startswith(COMMENT)]
     kinds = {name: _kind([_cell(line, k, dialect) for line in first]) for k, name in enumerate(names)}
-    reader = csv.open_csv(
-        path,
-        csv.ReadOptions(
-            skip_rows=layout.first_line - 1, column_names=names, block_size=_BLOCK, encoding=encoding
-        ),
-        csv.ParseOptions(delimiter=dialect.delimiter, invalid_row_handler=_on_other_lines(path, encoding)),
-        csv.ConvertOptions(
-            include_columns=chosen,
-            column_types={name: pa.float64() if kinds[name] else pa.string() for name in chosen},
-            null_values=["", "nan", "NaN", "NAN", "null", "NULL", "N/A", "-"],
-            decimal_point=dialect.decimal,
-        ),
+    # A delimiter may end each line of samples.
+    ended = bool(first) and all(_is_ended(line.rstrip("\r\n"), len(names), dialect) for line in first)
+    read = csv.ReadOptions(
+        skip_rows=layout.first_line - 1,
+        column_names=[*names, ""] if ended else names,
+        block_size=_BLOCK,
+        encoding=encoding,
     )
-    return chosen, units, iter(reader)
+    parse = csv.ParseOptions(delimiter=dialect.delimiter, invalid_row_handler=_on_other_lines(path, encoding))
+    convert = csv.ConvertOptions(
+        include_columns=chosen,
+        column_types={name: pa.float64() if kinds[name] else pa.string() for name in chosen},
+        null_values=["", "nan", "NaN", "NAN", "null", "NULL", "N/A", "-"],
+        decimal_point=dialect.decimal,
+    )
+    return chosen, units, _batches(path, read, parse, convert)
+
+
+def _batches(path: Path, read: Any, *options: Any) -> Iterator[Any]:
+    """Yield the batches of a table; an error names the row, which Arrow knows with one thread alone."""
+    import pyarrow as pa
+    from pyarrow import csv
+
+    try:
+        yield from csv.open_csv(path, read, *options)
+    except pa.ArrowInvalid:
+        read.use_threads = False
+        for _ in csv.open_csv(path, read, *options):
+            pass
+        raise
 
 
 def _on_other_lines(path: Path, encoding: str) -> Callable[[Any], str]:
@@ -124,6 +140,10 @@ def _on_other_lines(path: Path, encoding: str) -> Callable[[Any], str]:
         file.seek(max(path.stat().st_size - csv_text.LONGEST_LINE, 0))
         last = file.read().decode(encoding, "replace").rpartition("\n")[2]
     return lambda row: "skip" if row.text.startswith(COMMENT) or row.text == last else "error"
+
+
+def _is_ended(line: str, cells: int, dialect: Dialect) -> bool:
+    return line.endswith(dialect.delimiter) and line.count(dialect.delimiter) == cells
 
 
 def _cell(line: str, column: int, dialect: Dialect) -> str:
