@@ -38,17 +38,22 @@ class Column:
     """The values of a parameter in several cases.
 
     Args:
-        written: the values as written, Arrow strings.
+        write: returns the values as written, Arrow strings.
         numbers: in SI units, NaN where they are no numbers.
         exact: as a scenario holds them where all are numbers of one type, else None.
         value_at: returns the value of the case at a place.
 
     """
 
-    written: pa.Array
+    write: Callable[[], pa.Array]
     numbers: NDArray[np.float64]
     exact: NDArray[Any] | None
     value_at: Callable[[int], ParameterValue]
+
+    @cached_property
+    def written(self) -> pa.Array:
+        """The values as written; cases are simulated without them."""
+        return self.write()
 
     @cached_property
     def texts(self) -> list[str]:
@@ -67,7 +72,7 @@ class Column:
         import pyarrow as pa
 
         return Column(
-            self.written.take(pa.array(places)),
+            lambda: self.written.take(pa.array(places)),
             self.numbers[places],
             None if self.exact is None else self.exact[places],
             lambda place: self.value_at(int(places[place])),
@@ -83,7 +88,7 @@ class Column:
 
     def __len__(self) -> int:
         """Return the number of cases."""
-        return len(self.written)
+        return len(self.numbers)
 
 
 def listed_column(choices: Sequence[ParameterValue]) -> Column:
@@ -95,8 +100,8 @@ def listed_column(choices: Sequence[ParameterValue]) -> Column:
     types = {type(content) is int for content in contents}
     exact = np.array(contents) if len(types) == 1 and all(map(_is_number, contents)) else None
     numbers = np.array([value.number for value in choices])
-    texts = pa.array([value.text for value in choices], pa.string())
-    return Column(texts, numbers, exact, choices.__getitem__)
+    texts = [value.text for value in choices]
+    return Column(lambda: pa.array(texts, pa.string()), numbers, exact, choices.__getitem__)
 
 
 def drawn_column(numbers: NDArray[np.float64], unit: str, kind: str) -> Column:
@@ -105,22 +110,25 @@ def drawn_column(numbers: NDArray[np.float64], unit: str, kind: str) -> Column:
     A value is that of its text, so that a scenario with that text gives the same case. An empty kind is that
     of plain numbers that no part of the rig reads, which may be whole or not.
     """
-    import pyarrow.compute as pc
-
     from uictest.plans.sweeps.sampling import rounded_numbers
 
     rounded = rounded_numbers(numbers)
-    written = pc.binary_join_element_wise(rounded.texts, unit, " ") if unit else rounded.texts
     si = KINDS[kind].units[unit] if kind and unit else None
     values = rounded.in_unit(*((Fraction(1), Fraction(0)) if si is None else (si.factor, si.offset)))
 
+    def write() -> pa.Array:
+        import pyarrow.compute as pc
+
+        return pc.binary_join_element_wise(rounded.texts, unit, " ") if unit else rounded.texts
+
     def value_at(place: int) -> ParameterValue:
-        text = written[place].as_py()
+        text = column.written[place].as_py()
         if not kind:
             return ParameterValue(text, scalar_value(text))
         return ParameterValue(text, Quantity(values[place], text, KINDS[kind].canonical))
 
-    return Column(written, values, values if kind else None, value_at)
+    column = Column(write, values, values if kind else None, value_at)
+    return column
 
 
 def content_of(text: str, kind: str) -> Any:

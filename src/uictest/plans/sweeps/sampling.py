@@ -6,20 +6,17 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.compute as pc
 from numpy.typing import NDArray
 
 from uictest.plans.scenario import Distribution, Method, Normal
 from uictest.plans.scenario.yaml import rounded_text
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    import pyarrow as pa
 
 Points = NDArray[np.float64]
 _BLOCK = 1024
@@ -45,9 +42,9 @@ def points(method: Method, size: int, dimensions: int, seed: int, numbers: NDArr
 def _random(dimensions: int, seed: int, numbers: NDArray[np.int64]) -> Points:
     blocks, within = numbers // _BLOCK, numbers % _BLOCK
     drawn = np.empty((numbers.size, dimensions))
-    for block in sorted(set(blocks.tolist())):  # `np.unique` would load masked arrays
+    for block in np.unique(blocks):
         rows = blocks == block
-        generator = np.random.Generator(np.random.Philox(np.random.SeedSequence([seed, block])))
+        generator = np.random.Generator(np.random.Philox(np.random.SeedSequence([seed, int(block)])))
         drawn[rows] = generator.random((_BLOCK, dimensions))[within[rows]]
     return drawn
 
@@ -209,14 +206,27 @@ _POWERS: Final = np.array([float(10**power) for power in range(23)])
 
 @dataclass(frozen=True)
 class RoundedNumbers:
-    """Numbers of ten digits: their texts, and `digits / 10**places`.
+    """Numbers rounded to ten digits, `digits / 10**places`.
 
-    `texts` are Arrow strings without an exponent; `digits` are whole, NaN where no float holds them.
+    `digits` are whole, NaN where no float holds them.
     """
 
-    texts: pa.Array
+    numbers: NDArray[np.float64]
     digits: NDArray[np.float64]
     places: NDArray[np.int64]
+
+    @cached_property
+    def texts(self) -> pa.Array:
+        """The texts of :func:`rounded_text`, Arrow strings without an exponent."""
+        import pyarrow as pa
+        import pyarrow.compute as pc
+
+        is_exact = ~np.isnan(self.digits)
+        texts = _texts(np.where(is_exact, self.digits, 0.0), self.places)
+        if is_exact.all():
+            return texts
+        by_hand = [rounded_text(number) for number in self.numbers[~is_exact].tolist()]
+        return pc.replace_with_mask(texts, pa.array(~is_exact), pa.array(by_hand, pa.string()))
 
     def in_unit(self, factor: Fraction, offset: Fraction) -> NDArray[np.float64]:
         """Return `factor * number + offset`, exact up to one division."""
@@ -232,7 +242,7 @@ class RoundedNumbers:
 
 
 def rounded_numbers(numbers: NDArray[np.float64]) -> RoundedNumbers:
-    """Return numbers rounded to ten digits, with the texts of :func:`rounded_text`."""
+    """Return numbers rounded to ten digits."""
     magnitudes = np.where(numbers == 0.0, 1.0, abs(numbers))
     places = _LAST_DIGIT - np.floor(np.log10(magnitudes)).astype(int)
     has_power = (places >= 0) & (places < _POWERS.size)
@@ -240,19 +250,18 @@ def rounded_numbers(numbers: NDArray[np.float64]) -> RoundedNumbers:
     scaled = numbers * _POWERS[places]
     digits = np.rint(scaled)
     is_exact = has_power & (abs(scaled - digits) < _NO_TIE)
-    texts = _texts(digits, places)
-    if not is_exact.all():
-        by_hand = [rounded_text(number) for number in numbers[~is_exact].tolist()]
-        texts = pc.replace_with_mask(texts, pa.array(~is_exact), pa.array(by_hand, pa.string()))
-        digits[~is_exact] = np.nan
-    return RoundedNumbers(texts, digits, places)
+    digits[~is_exact] = np.nan
+    return RoundedNumbers(numbers, digits, places)
 
 
 def _texts(digits: NDArray[np.float64], places: NDArray[np.int64]) -> pa.Array:
     """Return the texts of `digits / 10**places`; zeros that call for an exponent are put in afterwards."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
     zeros = np.maximum(places - _PLACES_WITHOUT_EXPONENT, 0)
     texts = pa.array(digits / _POWERS[places - zeros]).cast(pa.string())
-    for count in sorted({*zeros.tolist()} - {0}):
+    for count in np.unique(zeros[zeros > 0]).tolist():
         smaller = pc.replace_substring(texts, ".", "." + count * "0", max_replacements=1)
         texts = pc.if_else(pa.array(zeros == count), smaller, texts)
     return texts

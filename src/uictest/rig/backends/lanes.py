@@ -82,7 +82,7 @@ def run_in_lanes(
     )
     # Lanes begin their controller cycles together, so that all must have the same number of steps in one.
     steps_per_cycle = parameters["steps_per_cycle"]
-    for steps in sorted(set(steps_per_cycle.tolist())):
+    for steps in np.unique(steps_per_cycle):
         queue = longest_first(parameters, rail, np.flatnonzero(steps_per_cycle == steps))
         _run_queue(parameters, own, rail, batch, queue, width or register_width())
     return batch

@@ -135,7 +135,7 @@ class BlockRunner(ChunkRunner):
 
     def prepare(self) -> None:
         """Compile the rig for the controllers of the plan."""
-        rig.load_block(self.assembler.block(np.zeros(1, np.int64)).programs)
+        rig.load_block([*programs_of(self.plan)] or [None])
 
     def results_of(self, indices: NDArray[np.int64]) -> tuple[CaseValues, list[CaseResult], list[int]]:
         """Return cases and their results, see :meth:`results`."""

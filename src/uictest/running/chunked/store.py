@@ -250,9 +250,9 @@ class ChunkStore:
         files.write(self.folder, f"{CHUNKS}/{name}", content, listed=False)
 
     def _files(self) -> list[tuple[int, Path]]:
-        paths = sorted((self.folder / CHUNKS).iterdir())
-        matches = ((_NAME.fullmatch(path.name), path) for path in paths)
-        return [(int(match[1]), path) for match, path in matches if match]
+        chunks = self.folder / CHUNKS
+        matches = map(_NAME.fullmatch, sorted(os.listdir(chunks)))  # noqa: PTH208 - paths sort slowly
+        return [(int(match[1]), chunks / match[0]) for match in matches if match]
 
     def _discard(self) -> None:
         files.remove_listed(self.folder, report.SWEEP_RESULTS)  # other chunks will have another result

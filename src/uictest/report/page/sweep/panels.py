@@ -72,7 +72,7 @@ def panels_of_points(scatter: Scatter, fragments: Mapping[str, str]) -> PanelsOf
                 ],
             )
             for k, (measure, y) in enumerate(zip(scatter.measures, up, strict=True))
-            if len(set(measure.numbers[np.isfinite(measure.numbers)].tolist())) > 1
+            if len(np.unique(measure.numbers[np.isfinite(measure.numbers)])) > 1
         ],
         [(*shapes[word], _count(scatter, word)) for word in shapes],
         list(_sentences(scatter)),
