@@ -22,6 +22,7 @@ from uictest.controllers.built_in import threshold
 from uictest.core.physics import FILL, VENT
 from uictest.plans.scenario import load
 from uictest.rig.external.in_process import run_in_process
+from uictest.running.campaign import map_on_threads
 
 from .conftest import EXAMPLES, ROOT, bits, listening
 
@@ -61,6 +62,28 @@ def test_every_car_of_a_train_has_the_bits_of_the_built_in_controller(threshold_
     stops = rig.simulate_cars(outside)
     assert [bits(stop) for stop in stops] == [bits(stop) for stop in rig.simulate_cars(cases)]
     assert {stop.controller_version for stop in stops} == {"1.0"}
+
+
+def test_programs_at_sockets_serve_a_car_each_whatever_the_order_of_the_cars(
+    serve, with_controller, tmp_path
+):
+    """Two trains at once that need the same programs: neither waits for ever for what the other has."""
+    (tmp_path / "pair.yaml").write_text(
+        "schema: uictest/scenario/1\nname: pair\ninitial_speed: 14 km/h\nuntil: 12 km/h\n"
+        "rail: {condition: wet, friction: 0.05}\ntrain: [{count: 2}]\n"
+        "criteria: uictest-rig\nexpect: skipped\n"
+    )
+    cars = load([tmp_path / "pair.yaml"])
+    program = serve(EXAMPLES / "threshold-c" / "threshold.c")
+    with listening(program) as one, listening(program) as other:
+
+        def simulated(addresses):
+            return rig.simulate_cars([with_controller(*each) for each in zip(cars, addresses, strict=True)])
+
+        orders = [(one, other), (other, one)] * 4
+        trains = list(map_on_threads(simulated, orders, jobs=4))
+    expected = [bits(stop) for stop in rig.simulate_cars(cars)]
+    assert [[bits(stop) for stop in stops] for stops in trains] == [expected] * 8
 
 
 def test_the_example_scenario_runs_with_the_parameters_of_the_built_in_controller(

@@ -1,5 +1,8 @@
 """A train with other values of its numbers: the bits of a scenario that states them, one run for all cars."""
 
+import shutil
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -11,6 +14,7 @@ from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
 from uictest.running.chunked import VariedTrain
 from uictest.runs.firmness import FirmnessRun
 
+SLIP_BAND = Path(__file__).parents[1] / "sweeps" / "controllers" / "slip_band.py"
 VENT = "brake.system.wsp_valve.vent_conductance"
 RADIUS = "vehicle.wheelset.radius"
 SMALL = Effort(blocks=2, block=4, seeds=2, seeds_at_ends=1)
@@ -67,6 +71,26 @@ def test_drawn_numbers_are_those_of_a_train_that_states_them(train):
     assert figures(one)[1] != figures(both)[1]
 
 
+def test_a_controller_from_outside_meets_the_same_values(train, tmp_path, monkeypatch):
+    """In child processes or here; where it fails, in the stops in which it does."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(SLIP_BAND, tmp_path)
+    outside = "train.1.controller={python: slip_band.py, class: SlipBand, parameters: {fails_at: %d}}"
+    chosen = settings(train(), 2, {(1, VENT): 0.3})
+    built_in = VariedTrain(train("train.1.controller=slip-band")[0]).results(chosen)
+    with rig.Workers() as workers:
+        isolated = VariedTrain(train(outside % -1)[0], 1, workers.run_train).results(chosen)
+        failed = VariedTrain(train(outside % 7)[0], 1, workers.run_train).results(chosen)
+    here = VariedTrain(train(outside % -1)[0], 2, rig.run_train_in_process).results(chosen)
+    assert [figures(each) for each in here] == [figures(each) for each in isolated]
+    distances = [[each.measures["braking_distance_m"] for each in cars] for cars in built_in]
+    assert [[each.measures["braking_distance_m"] for each in cars] for cars in here] == distances
+    why = "step failed: ValueError: told to (slip_band.py, line 20) (cycle 7)"
+    assert [each.reason for cars in failed for each in cars] == [
+        f"controller: car 2 (slip_band.py): {why}"
+    ] * 4
+
+
 def test_a_number_that_would_change_the_noise_meets_that_of_the_train(train):
     chosen = settings(train(), 1, {(1, RADIUS): 0.3})
     cars = train(f"train.1.{RADIUS}={chosen[1][RADIUS].texts[0]}")
@@ -81,9 +105,9 @@ def test_the_cars_of_a_train_share_their_stops(train, monkeypatch):
     ran = []
     simulate = rig.simulate_trains
 
-    def noted(trains, noise_of=None):
+    def noted(trains, noise_of=None, run=None):
         ran.append(len(trains))
-        return simulate(trains, noise_of)
+        return simulate(trains, noise_of, run)
 
     monkeypatch.setattr(rig, "simulate_trains", noted)
     first, second = train()

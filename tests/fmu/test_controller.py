@@ -15,6 +15,7 @@ from uictest.controllers import ControllerError
 from uictest.plans import templates
 from uictest.plans.scenario import load, load_controller
 
+from ..stop_bits import stop_bits
 from .conftest import Instance
 
 fmpy = pytest.importorskip("fmpy", reason="the extra fmu is not installed")
@@ -146,6 +147,39 @@ def test_a_stop_has_the_bits_of_the_controller_in_process(folder, exported, cont
     assert {"speed", "valve_command_1", "reference_speed"} <= common
     assert [name for name in sorted(common) if there[name] != here[name]] == []
     assert there != recorded(folder, "threshold" if controller != "threshold" else "slip-band")
+
+
+TRAIN = f"{STOP}until: 36 km/h\ncriteria: uictest-rig\nexpect: skipped\ntrain: [{{}}, {{}}]\ncontroller: "
+
+
+def figures(folder, controller):
+    """What both cars of a train measure, to the bit, without what is noted of reports."""
+    (folder / "train.yaml").write_text(f"{TRAIN}{controller}\n")
+    stops = rig.simulate_cars(load([folder / "train.yaml"]), run=rig.run_train_in_process)
+    return [stop_bits(stop.measures, stop.wheelset_measures) for stop in stops]
+
+
+@VERSIONS
+def test_every_car_of_a_train_has_an_instance_of_its_own(folder, exported, version):
+    path = exported("slip-band", version)
+    assert figures(folder, f"{{fmu: {path.name}}}") == figures(folder, "slip-band")
+
+
+@VERSIONS
+def test_an_fmu_that_can_be_instantiated_once_serves_one_car(folder, exported, version):
+    path = folder / f"once-{version}.fmu"
+    with zipfile.ZipFile(exported("slip-band", version)) as there, zipfile.ZipFile(path, "w") as here:
+        for name in there.namelist():
+            content = there.read(name)
+            if name == "modelDescription.xml":
+                once = b'canBeInstantiatedOnlyOncePerProcess="%s"'
+                content = content.replace(once % b"false", once % b"true")
+            here.writestr(name, content)
+    told = rf"^car 2 \({path.name}\): {path.name} can be instantiated only once in a process"
+    with pytest.raises(ControllerError, match=told):
+        figures(folder, f"{{fmu: {path.name}}}")
+    alone = recorded(folder, f"{{fmu: {path.name}}}")
+    assert alone["speed"] == recorded(folder, "slip-band")["speed"]
 
 
 @VERSIONS

@@ -131,6 +131,14 @@ def test_only_a_program_at_a_socket_keeps_to_the_clock(call, scenario, controlle
     assert not Path("reports").exists()
 
 
+def test_no_train_keeps_to_the_clock(call, scenario):
+    cars = ", ".join(f"{{controller: {{connect: 'tcp://127.0.0.1:{port}'}}}}" for port in (1, 2))
+    scenario("stop", f"train: [{cars}]\n")
+    call(
+        "run", "--real-time", code=4, says="--real-time: stop[car=1] is car 1 of 2: cycles of a train are not"
+    )
+
+
 def test_who_interrupts_does_not_wait_for_a_program(faults, program, workplace):
     faults("hang", "none")
     with subprocess.Popen([program, "run", "-n2"], start_new_session=True) as running:

@@ -69,31 +69,62 @@ OUTPUTS_2: Final = (
 _BITS: Final = 0xFFFF_FFFF
 
 
-class _Idle(local):
-    """FMUs of a thread that no stop uses, by path and SHA-256."""
+class _Slaves:
+    """Instances of one FMU: those that no stop uses, and those in use, of which the cars of a train need
+    several.
+    """
 
     def __init__(self) -> None:
-        self.slaves: defaultdict[tuple[str, str], list[Slave]] = defaultdict(list)
+        self.idle: list[Slave] = []
+        self.in_use: list[Slave] = []
+
+    def take(self, program: ControllerProgram) -> Slave:
+        """Return an idle one, or load one. Raises ControllerError."""
+        path = Path(program.location)
+        others = self.in_use
+        if others and others[0].description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
+            raise ControllerError(
+                f"{path.name} can be instantiated only once in a process, so that only one car of a train can"
+                " have it"
+            )
+        slave = self.idle.pop() if self.idle else load_slave(path, program.sha256)
+        self.in_use.append(slave)
+        return slave
+
+    def give_back(self, slave: Slave) -> None:
+        """Keep one for the next stop; one that has failed is released."""
+        self.in_use.remove(slave)
+        if slave.usable:
+            self.idle.append(slave)
+        else:
+            slave.release()
 
 
-_idle = _Idle()
+class _OfThread(local):
+    """The FMUs of a thread, by path and SHA-256."""
+
+    def __init__(self) -> None:
+        self.slaves: defaultdict[tuple[str, str], _Slaves] = defaultdict(_Slaves)
+
+
+_of_thread = _OfThread()
 
 
 def open_fmu(program: ControllerProgram, config: Config) -> "FmuInstance":
     """Take an idle FMU of this file, or load one. Raises ControllerError."""
-    idle = _idle.slaves[program.location, program.sha256]
-    slave = idle.pop() if idle else load_slave(Path(program.location), program.sha256)
+    slaves = _of_thread.slaves[program.location, program.sha256]
+    slave = slaves.take(program)
     try:
-        return FmuInstance(slave, idle, config, program.options.get("variables", {}))
+        return FmuInstance(slave, slaves, config, program.options.get("variables", {}))
     except ControllerError as error:
-        idle.append(slave)
+        slaves.give_back(slave)
         raise ControllerError(f"{Path(program.location).name} {error}") from error
 
 
 class FmuInstance(CalledInstance):
     """An FMU, for one stop."""
 
-    def __init__(self, slave: Slave, idle: list[Slave], config: Config, names: Mapping[str, str]) -> None:
+    def __init__(self, slave: Slave, slaves: _Slaves, config: Config, names: Mapping[str, str]) -> None:
         super().__init__()
         slave.check_step_size(config.cycle_time)
         known = [declared.name for declared in (*INPUTS, *CONSTANTS, *OUTPUTS, *INPUTS_2, *OUTPUTS_2)]
@@ -102,7 +133,7 @@ class FmuInstance(CalledInstance):
                 raise ControllerError(f"has no use for variables.{name}; the keys are {', '.join(known)}")
         self.version = slave.description.version or ""
         self._slave = slave
-        self._idle = idle
+        self._slaves = slaves
         self._config = config
         self.contract = 2 if bind(slave.description, OUTPUTS_2, names) else 1
         added = (INPUTS_2, OUTPUTS_2) if self.contract > 1 else ((), ())
@@ -164,10 +195,7 @@ class FmuInstance(CalledInstance):
 
     def close(self) -> None:
         """Keep the FMU for the next stop of this thread; one that has failed is released."""
-        if self._slave.usable:
-            self._idle.append(self._slave)
-        else:
-            self._slave.release()
+        self._slaves.give_back(self._slave)
 
     def _set_inputs(self, inputs: Inputs) -> None:
         values = {
