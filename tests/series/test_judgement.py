@@ -283,6 +283,23 @@ def test_a_verdict_is_as_certain_as_that_of_its_least_certain_speed(two_speeds, 
     assert (long.verdict.status, long.speed_kmh, long.confident) == ("pass", 120.0, False)
 
 
+def test_the_scatter_of_dry_stops_can_make_the_largest_value_uncertain_and_never_certain(load, judge, write):
+    longest = "{id: longest, layer: requirement, scope: series, measure: worst_braking_distance,"
+    own = f"criteria: [{longest} upper: 125 % of the dry stop}}]\n"
+    write("own.yaml", f"schema: uictest/criteria/1\nname: own\n{own}")
+    (one,) = load("dry: {scenario: dry.yaml, repeat: 2}\nwet: wet.yaml\ncriteria: own.yaml\n")
+
+    def certain(dry, wet):
+        each = verdicts(judge(one, [dry, wet]))["longest"]
+        return each.verdict.status, each.confident
+
+    # One wet stop of 120 % and of 130 % of 400 m; t for two dry stops is 12.7.
+    assert certain([400.0, 400.0], 480.0) == ("pass", None)
+    assert certain([396.0, 404.0], 480.0) == ("pass", False)
+    assert certain([400.0, 400.0], 520.0) == ("fail", True)
+    assert certain([396.0, 404.0], 520.0) == ("fail", False)
+
+
 def test_one_speed_that_misses_for_certain_makes_a_miss_certain(two_speeds, judge):
     scattered = [240.0, 242.0, 244.0, 280.0, 282.0, 284.0, 286.0]
     long = verdicts(judge(two_speeds, [[200.0] * 2, [400.0] * 2, scattered, [540.0] * 7]))["long"]

@@ -45,7 +45,7 @@ class Estimate:
     dry_stops: int = 0
 
     def mapped(self, function: Callable[[float], float]) -> Estimate:
-        """Return the estimate of a function of the value: a monotone one, rising where one end is missing."""
+        """Return the estimate of a monotone function of the value."""
         ends = self.low, self.high
         low, high = sorted(math.nan if math.isnan(end) else function(end) for end in ends)
         smallest, largest = sorted((function(self.smallest), function(self.largest)))
@@ -131,7 +131,7 @@ def over_dry(estimate: Estimate, dry: Sequence[float]) -> Estimate:
     """Return an estimate over the mean of dry stops, a ratio, with the scatter of both; `dry` are finite.
 
     The interval is that of :func:`uictest.core.statistics.ratio_interval`. Of the largest (smallest) value
-    the covered share holds for `high` (`low`): the value over the worse end of the interval of the mean; what
+    it is the value over both ends of that of the mean, and the covered share holds for `high` (`low`); what
     may fail is halved between both (Bonferroni). Raises ZeroDivisionError for a mean of zero.
     """
     mean = mean_of(dry, estimate.confidence)
@@ -144,6 +144,4 @@ def over_dry(estimate: Estimate, dry: Sequence[float]) -> Estimate:
         return replace(ratio, covered=math.nan)
     covered = _covered(estimate.stops, 0.5 + 0.5 * estimate.confidence)
     low, high = sorted((estimate.value / mean.low, estimate.value / mean.high))
-    if estimate.method == "largest":
-        return replace(ratio, covered=covered, high=high)
-    return replace(ratio, covered=covered, low=low)
+    return replace(ratio, covered=covered, low=low, high=high)

@@ -93,7 +93,8 @@ def _confident(
 ) -> bool | None:
     """Return whether the verdict is the same wherever in their intervals the values of all speeds lie.
 
-    One speed that misses for certain makes a miss certain. None: for lack of an interval nobody knows.
+    One speed that misses for certain makes a miss certain. None: for lack of an interval nobody knows. The
+    interval of the largest or smallest value is of the dry stops alone: it makes no pass certain.
     """
     hold = [
         bounds.hold_throughout(each.low, each.high)
@@ -104,7 +105,8 @@ def _confident(
         return True
     if status == "pass" and None in hold:
         return False
-    if len(hold) < len(estimates):
+    extreme = any(each.method in ("largest", "smallest") for each in estimates)
+    if len(hold) < len(estimates) or (status == "pass" and extreme):
         return None
     return status == "pass"
 
