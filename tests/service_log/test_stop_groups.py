@@ -13,12 +13,10 @@ from uictest.analysis.logged_stops.drift import drifts
 from uictest.analysis.logged_stops.stop_groups import (
     LoggedStop,
     dry_table,
-    extensions,
     outliers_of,
     references,
-    series_table,
-    wet_series,
 )
+from uictest.analysis.logged_stops.wet_stops import extensions, series_table, wet_series
 from uictest.judging.evaluation import CaseResult
 
 KMH = 1.0 / 3.6

@@ -23,10 +23,8 @@ from uictest.analysis.logged_stops.stop_groups import (
     dry_table,
     outliers_of,
     references,
-    series_table,
-    wet_series,
-    wet_table,
 )
+from uictest.analysis.logged_stops.wet_stops import series_table, wet_series, wet_table
 from uictest.core.document import Cell, Data
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging.evaluation import CaseResult, narrowest_margin

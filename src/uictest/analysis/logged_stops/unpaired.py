@@ -104,9 +104,15 @@ def _groups(content: report.RunContent) -> dict[Group, list[CountedStop]]:
         if stop.nominal is not None:
             own = measures | {_DISTANCE: stop.distance, "friction": frictions.get(result.id, math.nan)}
             own[_JUDGED] = float(result.outcome in ("pass", "fail"))
-            share = (stop.nominal / stop.speed) ** 2
             wheelsets = tuple(
-                {**each, **{name: share * each[name] for name in _BY_SQUARE if each.get(name) is not None}}
+                {
+                    **each,
+                    **{
+                        name: stop.to_nominal * each[name]
+                        for name in _BY_SQUARE
+                        if each.get(name) is not None
+                    },
+                }
                 for each in result.wheelsets
             )
             counted = CountedStop(own, wheelsets, result.outcome == "pass")
