@@ -67,20 +67,20 @@ def proportion_interval(successes: int, trials: int, confidence: float = 0.95) -
 
 
 def difference_interval(
-    first: Sequence[float], second: Sequence[float], confidence: float = 0.95
+    first: tuple[float, float, float], second: tuple[float, float, float]
 ) -> tuple[float, float]:
-    """Return the interval of the mean of the second sample less that of the first, by Welch (1947).
+    """Return the interval of the second of two independent estimates less the first, each (value, low, high).
 
-    The variances need not be equal. NaN at both ends where a sample has one value, or both have no spread: t
-    would feign certainty.
+    MOVER of Zou and Donner (Statist. Med. 27 (2008) 1693): the lower end is d - sqrt((v2 - l2)^2 +
+    (u1 - v1)^2). For two means with Student's t it holds with few values too; that of Welch (1947), with 3
+    beside 20, misses four times as often as stated at 99.5 % (simulated). NaN at both ends where an interval
+    is missing, or neither has a width: it would feign certainty.
     """
-    from scipy.stats import ttest_ind
-
-    spread = max(max(sample) - min(sample) for sample in (first, second))
-    if min(len(first), len(second)) < 2 or not spread > 0.0:
+    (v1, l1, u1), (v2, l2, u2) = first, second
+    below, above = math.hypot(v2 - l2, u1 - v1), math.hypot(u2 - v2, v1 - l1)
+    if not (below > 0.0 or above > 0.0):
         return math.nan, math.nan
-    low, high = ttest_ind(second, first, equal_var=False).confidence_interval(confidence)
-    return float(low), float(high)
+    return v2 - v1 - below, v2 - v1 + above
 
 
 def ratio_interval(
@@ -99,20 +99,6 @@ def ratio_interval(
         return math.nan, math.nan
     below, above = (math.hypot(value * half_width, (value - end) * math.sqrt(square)) for end in interval)
     return (value * mean - below) / square, (value * mean + above) / square
-
-
-def share_difference_interval(
-    first: tuple[int, int], second: tuple[int, int], confidence: float = 0.95
-) -> tuple[float, float]:
-    """Return the interval of the second probability less the first; each side is (successes, trials).
-
-    From the limits of each by Clopper and Pearson, put together as by Zou and Donner (Statist. Med. 27 (2008)
-    1693): the lower end is d - sqrt((p2 - l2)^2 + (u1 - p1)^2). Raises ValueError for counts that cannot be.
-    """
-    (p1, l1, u1), (p2, l2, u2) = (
-        (each[0] / max(each[1], 1), *proportion_interval(*each, confidence)) for each in (first, second)
-    )
-    return p2 - p1 - math.hypot(p2 - l2, u1 - p1), p2 - p1 + math.hypot(u2 - p2, p1 - l1)
 
 
 def trials_needed(probability: float, confidence: float = 0.95) -> int | None:

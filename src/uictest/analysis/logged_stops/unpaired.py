@@ -1,4 +1,4 @@
-"""Two logs group by group: their stops do not pair, so means are compared with Welch's interval.
+"""Two logs group by group: their stops do not pair, so means are compared with the intervals of both.
 
 95 % holds for all rows together (Bonferroni). The rails are not the same on both sides: what a row shows is
 the difference of the stops, and of the software alone only where nothing else differs.
@@ -17,7 +17,7 @@ from uictest.core import document
 from uictest.core.document import Cell
 from uictest.core.measures import column_unit
 from uictest.core.series_measures import CountedStop, Figure, largest_of_wheelsets, of_stop
-from uictest.core.statistics import difference_interval, share_difference_interval
+from uictest.core.statistics import difference_interval, mean_interval, proportion_interval
 from uictest.core.units import in_unit
 
 _LEFT_OUT: Final = ("error", "skipped", "invalid")
@@ -63,9 +63,9 @@ def compare_logs(first: report.RunContent, second: report.RunContent) -> report.
     return report.CampaignTable(
         "unpaired",
         "Stops of two logs, unpaired",
-        "B - A: means with Welch's interval, shares by Clopper and Pearson's limits of both (Zou and Donner"
-        " 2008); 95 % for all rows together. Distances and energies are brought to the nominal speed, times"
-        " and actuations are not. Rails differ: look at the friction."
+        "B - A: means by Student's t, shares by Clopper and Pearson, the intervals of both joined (Zou and"
+        " Donner 2008); 95 % for all rows together. Distances and energies are brought to the nominal speed,"
+        " times and actuations are not. Rails differ: look at the friction."
         + ("" if alike else " Judged by different criteria: shares that pass are not compared.")
         + (f" On one side only: {alone}." if alone else ""),
         "first",
@@ -141,7 +141,8 @@ def _enough(first: Stops, second: Stops, name: str) -> bool:
 
 def _means(group: Group, name: str, first: Stops, second: Stops, confidence: float) -> tuple[Cell, ...]:
     one, other = _values(first, name), _values(second, name)
-    interval = difference_interval(one, other, confidence)
+    sides = ((fmean(values), *mean_interval(values, confidence)) for values in (one, other))
+    interval = difference_interval(*sides)
     unit = "" if name == "friction" else column_unit(name.removeprefix("largest_"))
     return _row(group, name, (len(one), len(other)), (fmean(one), fmean(other)), interval, unit)
 
@@ -150,7 +151,8 @@ def _shares(group: Group, first: Stops, second: Stops, confidence: float) -> Ite
     """Yield the shares that pass where every stop was judged: what lacks a channel can fail, but not pass."""
     if all(stop.measures[_JUDGED] for stop in (*first, *second)):
         one, other = ((sum(stop.passed for stop in side), len(side)) for side in (first, second))
-        low, high = (100.0 * end for end in share_difference_interval(one, other, confidence))
+        sides = ((side[0] / side[1], *proportion_interval(*side, confidence)) for side in (one, other))
+        low, high = (100.0 * end for end in difference_interval(*sides))
         shares = 100.0 * one[0] / one[1], 100.0 * other[0] / other[1]
         yield _row(group, "stops that pass", (one[1], other[1]), shares, (low, high), "%")
 
