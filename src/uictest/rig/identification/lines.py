@@ -116,17 +116,18 @@ def runs(pressure: Samples, smallest: float) -> list[tuple[int, int, int]]:
     A run ends at its extreme; the pressure has turned once it has come back by ``smallest``.
     """
     segments: list[tuple[int, int, int]] = []
+    pressures = pressure.tolist()
     first = extreme = low = high = 0
     direction = 0
-    for n, value in enumerate(pressure):
-        if direction >= 0 and value > pressure[high]:
+    for n, value in enumerate(pressures):
+        if direction >= 0 and value > pressures[high]:
             high = n
-        if direction <= 0 and value < pressure[low]:
+        if direction <= 0 and value < pressures[low]:
             low = n
         turned = 0
-        if direction >= 0 and value < pressure[high] - smallest:
+        if direction >= 0 and value < pressures[high] - smallest:
             turned, extreme = -1, high
-        elif direction <= 0 and value > pressure[low] + smallest:
+        elif direction <= 0 and value > pressures[low] + smallest:
             turned, extreme = 1, low
         if turned:
             if direction != 0:
@@ -191,12 +192,14 @@ def computed_force(
     share = _shares(wsp_acting, step / max(transition_time, step))
     lower = _mixed(pressure, lines["bc_squeezing"], lines["wsp_squeezing"], share)
     upper = np.maximum(_mixed(pressure, lines["bc_releasing"], lines["wsp_releasing"], share), lower)
-    force = np.empty_like(pressure)
-    held = start
-    for n in range(len(pressure)):
-        held = min(max(held, lower[n]), upper[n])
-        force[n] = held
-    return force
+    force, held = [], start
+    for low, high in zip(lower.tolist(), upper.tolist(), strict=True):
+        if held < low:
+            held = low
+        if held > high:
+            held = high
+        force.append(held)
+    return np.array(force)
 
 
 def _mixed(pressure: Samples, bc: FittedLine, wsp: FittedLine, share: Samples) -> Samples:
@@ -206,9 +209,10 @@ def _mixed(pressure: Samples, bc: FittedLine, wsp: FittedLine, share: Samples) -
 
 
 def _shares(acting: Mask, largest_change: float) -> Samples:
-    shares = np.empty(len(acting))
-    share = float(acting[0])
-    for n, target in enumerate(acting.astype(float)):
+    if acting.all() or not acting.any():
+        return acting.astype(float)
+    shares, share = [], float(acting[0])
+    for target in acting.astype(float).tolist():
         share += min(max(target - share, -largest_change), largest_change)
-        shares[n] = share
-    return shares
+        shares.append(share)
+    return np.array(shares)
