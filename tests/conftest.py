@@ -34,6 +34,7 @@ _LONGEST = (
     "rig/model/test_module_air.py",
     "docs/test_examples.py",
     "rig/external/test_workers.py",
+    "report/test_accessibility.py",
     "studies/test_bands.py",
     "cli/commands/test_sweep.py",
     "studies/experiments/test_independent_integration.py",

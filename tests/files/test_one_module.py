@@ -37,8 +37,8 @@ def changing_calls(tree):
     for node in ast.walk(tree):
         if not isinstance(node, ast.Call):
             continue
-        of_os = isinstance(node.func, ast.Attribute) and ast.unparse(node.func.value) == "os"
-        name = node.func.attr if isinstance(node.func, ast.Attribute) else ast.unparse(node.func)
+        of_os = isinstance(node.func, ast.Attribute) and _is_os(node.func.value)
+        name = getattr(node.func, "attr", getattr(node.func, "id", ""))
         if (
             name in CHANGING
             or (of_os and name in ("open", "remove", "replace", "link", "fdopen") and not _reads(node))
@@ -49,11 +49,15 @@ def changing_calls(tree):
             yield node.lineno, name
 
 
+def _is_os(value):
+    return isinstance(value, ast.Name) and value.id == "os"
+
+
 def _reads(call):
     """Return whether `open` states a mode, or none, that only reads."""
     if ast.unparse(call.func) == "os.open":
         return ast.unparse(call.args[1]) == "os.O_RDONLY"
-    is_method = isinstance(call.func, ast.Attribute) and ast.unparse(call.func.value) != "os"
+    is_method = isinstance(call.func, ast.Attribute) and not _is_os(call.func.value)
     given = [word.value for word in call.keywords if word.arg == "mode"] or call.args[0 if is_method else 1 :]
     mode = given[0] if given else ast.Constant("r")
     # A method `open` of something else than a path takes no mode.

@@ -27,7 +27,7 @@ def _with_sensor_noise(recording, dice):
     return {name: RawChannel(name, name, time, np.asarray(values)) for name, values in samples.items()}
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def recorded_stop():
     """Simulate a stop from a speed in km/h on a friction, and record it with the sensor noise of a seed."""
 

@@ -1,5 +1,7 @@
 """Energy and recovered friction found again in stops that the rig simulated, or said not to be there."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -15,19 +17,31 @@ def cleaning(energy, recovered):
     )
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def library():
     """A scenario with the library's cleaning, which is not that of the recorded stops."""
     return stated_case("guess", 80.0 / 3.6, ["rail.condition=wet-cleaning"]).scenario
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def stop(recorded_stop):
     def make(speed, mu, seed, cleans, **facts):
         rig = facts.pop("rig", "rig.topology=one-caliper")
         return recorded_stop(speed, str(mu), seed, settings=(cleans, rig), **facts)[1]
 
     return make
+
+
+@pytest.fixture(scope="module")
+def fitted(stop, library):
+    """Fit a stop with deep slides, or return the fit of before."""
+
+    @cache
+    def fit(friction, topology):
+        recorded = stop(80.0, friction, 1, cleaning(8000.0, 0.22), rig=f"rig.topology={topology}")
+        return fit_cleaning([recorded], library)
+
+    return fit
 
 
 def errors(fit, energy, recovered):
@@ -49,9 +63,8 @@ def errors(fit, energy, recovered):
         pytest.param(0.1, "one-caliper", marks=pytest.mark.slow),
     ],
 )
-def test_stops_with_deep_slides_tell_both_within_their_confidence(stop, library, friction, topology):
-    recorded = stop(80.0, friction, 1, cleaning(8000.0, 0.22), rig=f"rig.topology={topology}")
-    fit = fit_cleaning([recorded], library)
+def test_stops_with_deep_slides_tell_both_within_their_confidence(fitted, friction, topology):
+    fit = fitted(friction, topology)
     assert fit.determined
     assert max(errors(fit, 8000.0, 0.22)) < 1.5
     assert fit.estimate.energy_half_width < 0.2 * fit.estimate.energy
@@ -59,17 +72,17 @@ def test_stops_with_deep_slides_tell_both_within_their_confidence(stop, library,
     assert float(fit.in_force.energy) == pytest.approx(fit.estimate.energy, rel=1e-3)
 
 
-def test_the_cleanest_rail_under_a_wheelset_is_as_clean_as_the_rig_made_it(recorded_stop, library):
+def test_the_cleanest_rail_under_a_wheelset_is_as_clean_as_the_rig_made_it(recorded_stop, fitted):
     """Friction under a wheelset is mu0 + C (mur - mu0), with the cleaned share C."""
     settings = (cleaning(8000.0, 0.22), "rig.topology=one-caliper")
-    case, recorded = recorded_stop(80.0, "0.07", 1, settings=settings)
+    case, _ = recorded_stop(80.0, "0.07", 1, settings=settings)
     recording = simulate(case, record_every=0.01).recording
     speed, definition = recording["speed"], case.scenario.measures
     slip = speed - np.array([recording[f"wheel_speed_{n}"] for n in WHEELSETS])
     slides = (slip > definition.sliding_slip) & (slip > definition.sliding_slide * speed)
     friction = np.array([recording[f"friction_{n}"] for n in WHEELSETS])
     share = (friction[slides & (speed > definition.moving_speed)].max() - 0.07) / (0.22 - 0.07)
-    assert fit_cleaning([recorded], library).estimate.largest_share == pytest.approx(share, rel=0.1)
+    assert fitted(0.07, "one-caliper").estimate.largest_share == pytest.approx(share, rel=0.1)
 
 
 def test_without_forces_the_noise_of_the_train_speed_is_too_much(stop, library):

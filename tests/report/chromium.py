@@ -109,9 +109,9 @@ def run(browser, script, *arguments):
 
 def wait(browser, script, *arguments):
     """Return what a script returns as soon as that is anything, at the latest after some minutes."""
-    for _ in range(4000):
+    for _ in range(20_000):
         found = run(browser, script, *arguments)
         if found:
             return found
-        time.sleep(0.05)
+        time.sleep(0.01)
     raise AssertionError(f"nothing came of: {script}")

@@ -87,7 +87,7 @@ def test_an_mdf_file_whose_groups_follow_each_other_in_a_circle(written):
     group = content.index(b"##DG")
     content[group + 24 : group + 32] = struct.pack("<Q", group)
     path.write_bytes(content)
-    _refused(path, seconds=5.0)
+    _refused(path, seconds=2.0)
 
 
 def test_a_mat_file_that_unpacks_to_more_than_memory(tmp_path):
