@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any, Final, get_args
 
 from uictest.controllers import Kind
@@ -32,12 +33,23 @@ _RAIL_OVERRIDES: Final = ("friction", "cleaning", "variation")
 """Keys of the rail that replace what the rail condition has under the same name."""
 
 
+class _Same:
+    """A part that is equal to itself alone: to compare parts, or to hash one, is to read all of it."""
+
+    __slots__ = ("part",)
+
+    def __init__(self, part: Part) -> None:
+        self.part = part
+
+    def __hash__(self) -> int:
+        return id(self.part)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and self.part is other.part
+
+
 class EffectiveParts:
     """Computes the effective parts of scenarios; a part that many scenarios share is computed once."""
-
-    def __init__(self) -> None:
-        # Keyed by identity: holding the part keeps Python from giving its identity to another object.
-        self._computed: dict[tuple[int, Key], tuple[Part, EffectivePart]] = {}
 
     def of(self, scenario: Scenario) -> dict[str, EffectivePart]:
         """Return every part of a simulated stop by its role: the kind, and `criteria.0`, ... for profiles."""
@@ -64,11 +76,7 @@ class EffectiveParts:
 
     def part(self, part: Part, kind: str, key: str, overridden: Key = ()) -> EffectivePart:
         """Return one part that stands at `key`, without the keys that the scenario overrides."""
-        kept = self._computed.get((id(part), overridden))
-        if kept is None:
-            kept = part, _effective(part, kind, key, overridden)
-            self._computed[id(part), overridden] = kept
-        return kept[1]
+        return _effective(_Same(part), kind, key, overridden)
 
     def _criteria(self, profiles: Iterable[Part]) -> dict[str, EffectivePart]:
         return {
@@ -76,7 +84,13 @@ class EffectiveParts:
         }
 
 
-def _effective(part: Part, kind: str, key: str, overridden: Key) -> EffectivePart:
+_MOST_KEPT: Final = 1000
+"""Parts that are kept in a process, those that were asked for last; chosen."""
+
+
+@lru_cache(_MOST_KEPT)
+def _effective(same: _Same, kind: str, key: str, overridden: Key) -> EffectivePart:
+    part = same.part
     values, original = (
         {place: value for place, value in values_in(each) if place[0] not in overridden}
         for each in (part, part.original)

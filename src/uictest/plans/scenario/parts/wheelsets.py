@@ -199,18 +199,27 @@ def values_in(value: object, key: Key = ()) -> list[tuple[Key, Value]]:
     A criterion is named by its id. Parts inside are skipped, and so are values that are not set. Beside the
     path of a program stands the SHA-256 of its file.
     """
-    inner: list[tuple[Key, object]] = []
-    if isinstance(value, str | int | float):
-        file = [((*key[:-1], "sha256"), value.sha256)] if isinstance(value, ProgramFile) else []
-        return [(key, value), *file]
-    if isinstance(value, BaseModel):
+    found: list[tuple[Key, Value]] = []
+    _collect(value, key, found)
+    return found
+
+
+def _collect(value: object, key: Key, found: list[tuple[Key, Value]]) -> None:
+    if isinstance(value, (str, int, float)):
+        found.append((key, value))
+        if isinstance(value, ProgramFile):
+            found.append(((*key[:-1], "sha256"), value.sha256))
+    elif isinstance(value, BaseModel):
         names = {} if key and isinstance(value, Part) else _written_names(type(value))
-        inner = [((*key, names[name]), each) for name, each in value if name in names]
+        for name, each in vars(value).items():
+            if name in names:
+                _collect(each, (*key, names[name]), found)
     elif isinstance(value, dict):
-        inner = [((*key, name), each) for name, each in value.items()]
+        for name, each in value.items():
+            _collect(each, (*key, name), found)
     elif isinstance(value, tuple):
-        inner = [((*key, getattr(each, "id", index)), each) for index, each in enumerate(value)]
-    return [found for place, each in inner for found in values_in(each, place)]
+        for index, each in enumerate(value):
+            _collect(each, (*key, getattr(each, "id", index)), found)
 
 
 @cache
