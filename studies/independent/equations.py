@@ -15,6 +15,7 @@ whose friction varies, wheelsets that differ, faults, the cylinder filter of the
 
 from __future__ import annotations
 
+import math
 from types import SimpleNamespace
 from typing import Final
 
@@ -81,6 +82,7 @@ class Equations:
         self.weight_along_rail = self.car.weight * float(self.rail.gradient)
         self._read_brake()
         self.openings = [Openings(stop, n, scenario) for n in range(1, 5)]
+        self._asked = math.nan, np.empty((3, 4))
         computes = scenario.rig.topology == "one-caliper"
         self.modelled_air = ModelledAir(scenario) if computes else None
 
@@ -242,7 +244,7 @@ class Equations:
 
     def _flow(self, time: float, y: Array, dy: Array) -> None:
         brake, mass, warmth = self.brake, y[PLACES["mass"]], y[PLACES["temperature"]]
-        fill, vent, acting = np.array([each.at(time) for each in self.openings]).T
+        fill, vent, acting = self._valves(time)
         volume = self.volume + self.area * y[PLACES["stroke"]]
         pressure = mass * self.gas * warmth / volume
         line_mass, line_warmth = y[PLACES["line"]]
@@ -267,6 +269,13 @@ class Equations:
             modelled = self.modelled_air.rates(state, (fill, vent, acting), self.orifice)
             for name, rate in modelled.items():
                 dy[PLACES[name]] = rate
+
+    def _valves(self, time: float) -> Array:
+        """Return the openings of fill and vent and the share of the WSP's lines, of each module."""
+        # A Jacobian asks for all columns at one time.
+        if time != self._asked[0]:
+            self._asked = time, np.array([each.at(time) for each in self.openings]).T
+        return self._asked[1]
 
     def _move_pistons(self, y: Array, dy: Array, gauge: Array) -> None:
         caliper, stroke = self.caliper, y[PLACES["stroke"]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -23,11 +24,9 @@ class Orifice:
         high, low = np.maximum(p1, p2), np.minimum(p1, p2)
         warmth, b = np.where(p1 >= p2, t1, t2), self.critical
         quotient = low / high
-
-        def subsonic(ratio: Any) -> Any:
-            return np.sqrt(1.0 - np.maximum((ratio - b) / (1.0 - b), 0.0) ** 2)
-
-        near = subsonic(self.laminar) * (1.0 - quotient) / (1.0 - self.laminar)
-        share = np.where(quotient > self.laminar, near, subsonic(np.minimum(quotient, self.laminar)))
+        at_limit = math.sqrt(1.0 - max((self.laminar - b) / (1.0 - b), 0.0) ** 2)
+        near = at_limit * (1.0 - quotient) / (1.0 - self.laminar)
+        sonic = np.maximum((np.minimum(quotient, self.laminar) - b) / (1.0 - b), 0.0)
+        share = np.where(quotient > self.laminar, near, np.sqrt(1.0 - sonic**2))
         size = conductance * _ANR_DENSITY * high * share * np.sqrt(_ANR_TEMPERATURE / warmth)
         return np.where(p1 >= p2, size, -size)

@@ -243,8 +243,14 @@ class CleanedStop:
 
         return found
 
-    def _without_delay(self, delay: float) -> Balances:
-        """Return the balances with wheel speeds that are read later by a delay."""
-        s = self._balances.samples
-        wheels = np.array([np.interp(s.time + delay, s.time, each) for each in s.wheel_speed])
-        return replace(self._balances, samples=replace(s, wheel_speed=wheels, slip=s.speed - wheels))
+    @cached_property
+    def _without_delay(self) -> Callable[[float], Balances]:
+        """The balances with wheel speeds that are read later by a delay, which few of the unknowns change."""
+
+        @lru_cache(_KEPT)
+        def read_earlier(delay: float) -> Balances:
+            s = self._balances.samples
+            wheels = np.array([np.interp(s.time + delay, s.time, each) for each in s.wheel_speed])
+            return replace(self._balances, samples=replace(s, wheel_speed=wheels, slip=s.speed - wheels))
+
+        return read_earlier
