@@ -2,7 +2,7 @@
 
 import pytest
 
-from uictest.core.document import MANIFEST, RESULT, head, is_of, require
+from uictest.core.envelope import MANIFEST, RESULT, head, is_of, require
 
 
 @pytest.mark.parametrize("kind", ["run", "sweep", "validation"])

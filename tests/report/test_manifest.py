@@ -1,6 +1,6 @@
 import pytest
 
-from uictest.core.document import MANIFEST
+from uictest.core.envelope import MANIFEST
 from uictest.report.manifest import RunManifest, manifest_digest, manifest_form, read_manifest, run_manifest
 
 

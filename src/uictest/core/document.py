@@ -1,7 +1,7 @@
 """What a result says, for people and programs, before it is written in any format.
 
 Tables and sentences, which each format renders and which know no kind of result; the testcases that a CI
-server is told of; the head of every JSON document that we write: its schema and its kind of result.
+server is told of.
 """
 
 from __future__ import annotations
@@ -9,26 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import PurePosixPath
-from typing import Any, Final, Generic, Literal, NamedTuple, Self, TypeVar
+from typing import Any, Generic, Literal, NamedTuple, Self, TypeVar
 
 Cell = str | float | int | bool | None
 Tone = Literal["good", "bad", "odd"]
 """How a word is coloured. odd: an error of the program or the scenario, not of what was tested."""
 Row = TypeVar("Row")
 TestcaseStatus = Literal["passed", "failure", "error", "skipped"]
-RESULT: Final = "uictest/result/2"
-MANIFEST: Final = "uictest/manifest/2"
-_SHOWN: Final = 80
-"""Characters that a reader is shown of an entry."""
-Kind = Literal["run", "sweep", "validation", "comparison", "variants", "unpaired", "firm-variants", "k-dry"]
-_EARLIER: Final[Mapping[str, tuple[str, Kind]]] = {
-    "uictest/result/1": (RESULT, "run"),
-    "uictest/sweep-result/1": (RESULT, "sweep"),
-    "uictest/validation-result/1": (RESULT, "validation"),
-    "uictest/manifest/1": (MANIFEST, "run"),
-    "uictest/sweep-manifest/1": (MANIFEST, "sweep"),
-}
-"""Schemas of 0.2, whose documents hold what those of today do -> how the head is written now."""
 
 
 class Data(NamedTuple):
@@ -152,28 +139,3 @@ def class_name(file: str) -> str:
     """Return the path of a file as servers group by it: `scenarios/dry.yaml` -> `scenarios.dry`."""
     path = PurePosixPath(file).with_suffix("")
     return ".".join(part for part in path.parts if part not in ("/", "..", "."))
-
-
-def head(schema: str, kind: Kind) -> dict[str, str]:
-    """Return the first entries of a document."""
-    return {"schema": schema, "kind": kind}
-
-
-def is_of(document: object, schema: str, kind: Kind) -> bool:
-    """Return whether a document that was read back has this schema and kind, or is what 0.2 wrote for it."""
-    if not isinstance(document, Mapping):
-        return False
-    own = document.get("schema"), document.get("kind")
-    return own == (schema, kind) or _EARLIER.get(str(own[0])) == (schema, kind)
-
-
-def require(document: Mapping[str, Any], schema: str, kind: Kind) -> None:
-    """Raise ValueError for a document of another schema or kind."""
-    if not is_of(document, schema, kind):
-        raise ValueError(f"expected schema {schema!r}, kind {kind!r}, found {head_of(document)}")
-
-
-def head_of(document: Mapping[str, Any]) -> str:
-    """Return the schema and kind of a document in words, shortened; `no schema` where it has none."""
-    heads = (f"{name} {document[name]!r}"[:_SHOWN] for name in ("schema", "kind") if name in document)
-    return ", ".join(heads) or "no schema"

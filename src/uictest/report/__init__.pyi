@@ -13,6 +13,7 @@ from .content import (
     RunContent as RunContent,
     drawn_cases as drawn_cases,
 )
+from .counts import counted as counted, counted_in as counted_in
 from .difference import (
     BaselineComparison as BaselineComparison,
     Difference as Difference,
@@ -202,8 +203,6 @@ from .traces.vent_cycles import VentCycle as VentCycle, vent_cycles as vent_cycl
 from .verdict_sentences import (
     CASE_WORDS as CASE_WORDS,
     DIFFERS as DIFFERS,
-    counted as counted,
-    counted_in as counted_in,
     counts_text as counts_text,
     explanation as explanation,
     line_word as line_word,

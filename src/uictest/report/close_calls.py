@@ -10,6 +10,7 @@ from uictest.core.document import Lines
 from uictest.core.units import in_unit
 from uictest.judging import evaluation
 from uictest.plans.scenario import supposed_definition
+from uictest.report.counts import counted
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.series.series_sentences import (
@@ -19,7 +20,7 @@ from uictest.report.series.series_sentences import (
     of_dry_stop,
     percent,
 )
-from uictest.report.verdict_sentences import counted, quantity, value_and_limits
+from uictest.report.verdict_sentences import quantity, value_and_limits
 
 if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult, SeriesVerdict

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any, Final
 
 from uictest.core.document import Cell
 from uictest.report.content import RunContent
+from uictest.report.counts import counted
 from uictest.report.escaping import printable
 from uictest.report.part_wording import notices
 from uictest.report.series.series_sentences import series_word
 from uictest.report.sheet import Row, Styles, heading_rows, print_on_a4, write_cell
-from uictest.report.verdict_sentences import CASE_WORDS, counted, tone
+from uictest.report.verdict_sentences import CASE_WORDS, tone
 
 if TYPE_CHECKING:
     from xlsxwriter import Workbook

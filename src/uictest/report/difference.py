@@ -11,11 +11,11 @@ from typing import Final
 from uictest.core import measures
 from uictest.core.document import Column, Table, Tone
 from uictest.judging import evaluation
+from uictest.report.counts import counted
 from uictest.report.escaping import printable
 from uictest.report.traces.quantities import WHEELSETS
 from uictest.report.verdict_sentences import (
     DIFFERS,
-    counted,
     explanation,
     listed,
     number,

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Final
 
 from pydantic import ConfigDict, TypeAdapter
 
-from uictest.core import document
+from uictest.core import envelope
 from uictest.judging import evaluation
 from uictest.report.part_wording import part_sentence
 
@@ -41,7 +41,7 @@ class RunManifest:
 
     __pydantic_config__: ClassVar = ConfigDict(defer_build=True)
 
-    schema: str = document.MANIFEST
+    schema: str = envelope.MANIFEST
     kind: str = "run"
     command: tuple[str, ...] = ("uictest",)
     seed: int | None = None
@@ -67,9 +67,9 @@ def read_manifest(content: Mapping[str, Any]) -> RunManifest:
     """
     own = content.get("manifest", {})
     manifest = evaluation.from_json_form(_MANIFEST, own, place="manifest")
-    if own and not document.is_of(own, document.MANIFEST, "run"):
-        wanted = f"schema {document.MANIFEST!r}, kind 'run'"
-        raise ValueError(f"manifest: expected {wanted}, found {document.head_of(own)}")
+    if own and not envelope.is_of(own, envelope.MANIFEST, "run"):
+        wanted = f"schema {envelope.MANIFEST!r}, kind 'run'"
+        raise ValueError(f"manifest: expected {wanted}, found {envelope.head_of(own)}")
     return manifest
 
 

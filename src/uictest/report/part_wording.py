@@ -12,8 +12,9 @@ from uictest import controllers
 from uictest.core.units import KINDS, in_unit, value_text
 from uictest.judging import evaluation
 from uictest.report.causes import fault_sentences, is_bypassed
+from uictest.report.counts import counted
 from uictest.report.escaping import printable
-from uictest.report.verdict_sentences import counted, listed
+from uictest.report.verdict_sentences import listed
 
 _PATHS = (".yaml", ".yml")
 _DIGITS = 12

@@ -9,6 +9,7 @@ from uictest.core.document import Tone
 from uictest.core.measures import MEASURES
 from uictest.judging import evaluation
 from uictest.report.causes import cause_sentences
+from uictest.report.counts import counted
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.repeat_wording import repeat_sentences
@@ -274,14 +275,3 @@ def listed(names: Sequence[str]) -> str:
     more = len(names) - _NAMED
     shown = ", ".join(map(printable, names[:_NAMED]))
     return f"{shown} and {more} more" if more > 0 else shown
-
-
-def counted(count: int, noun: str, plural: str = "") -> str:
-    """Return a count with its noun, e.g. `1 case`, `2 cases`; `plural` where it is not the noun with an s."""
-    return f"{count} {noun}" if count == 1 else f"{count} {plural or f'{noun}s'}"
-
-
-def counted_in(cases: int, series: int) -> str:
-    """Return counts of cases and series, e.g. `2 cases, 1 series`; without any series the cases alone."""
-    of_cases = [counted(cases, "case")] if cases or not series else []
-    return ", ".join([*of_cases, *([f"{series} series"] if series else [])])

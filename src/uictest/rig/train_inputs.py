@@ -3,8 +3,8 @@
 import hashlib
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any, Final
+from dataclasses import replace
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,8 +24,7 @@ _KEY_STEP: Final = 0x9E3779B1
 """Between the noise keys of neighbours, so that equal cars differ in noise; the first keeps its own."""
 
 
-@dataclass(frozen=True)
-class Coupling:
+class Coupling(NamedTuple):
     """How the cars of a train hang together.
 
     Attributes:

@@ -11,7 +11,7 @@ from pydantic import TypeAdapter
 
 from uictest import rig
 from uictest.analysis.firmness import COMPARED
-from uictest.core import document
+from uictest.core import envelope
 from uictest.judging.evaluation import Firmness, to_json_form
 from uictest.plans import scenario
 from uictest.plans.scenario.yaml import nearest
@@ -84,7 +84,7 @@ def _others(case: scenario.Case, keys: Sequence[str]) -> tuple[tuple[str, str], 
 
 def firm_pairs_json(pairs: Sequence[FirmPair]) -> str:
     """Return pairs as a JSON document; a quantity `pass`es where the first stop comes to less."""
-    form = {**document.head(document.RESULT, "firm-variants"), "pairs": list(map(_form, pairs))}
+    form = {**envelope.head(envelope.RESULT, "firm-variants"), "pairs": list(map(_form, pairs))}
     return json.dumps(form, indent=2, allow_nan=False)
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from uictest import report
-from uictest.core import document, files, recording
+from uictest.core import envelope, files, recording
 from uictest.running import campaign
 from uictest.runs import history
 from uictest.runs.batch import Batch, run_batch
@@ -98,7 +98,7 @@ def holds_sweep(folder: Path) -> bool:
         manifest = chunked.ChunkStore(folder).manifest()
     except OSError:
         return False
-    return document.is_of(manifest, document.MANIFEST, "sweep")
+    return envelope.is_of(manifest, envelope.MANIFEST, "sweep")
 
 
 def why_no_run(folder: Path) -> str:

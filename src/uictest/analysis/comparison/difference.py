@@ -11,7 +11,7 @@ from uictest.analysis.comparison.overlay import Overlay
 from uictest.analysis.comparison.paired.pairing import PairedComparison, paired_form
 from uictest.analysis.comparison.paired.wording import paired_sections
 from uictest.analysis.comparison.parameters import ParameterChange, parameter_lines
-from uictest.core import document
+from uictest.core import envelope
 from uictest.core.document import Column, Document, Lines, Table
 from uictest.report import (
     DIFFERS,
@@ -63,7 +63,7 @@ class Comparison:
     def to_dict(self) -> dict[str, Any]:
         """Return the JSON form, overlays left out."""
         return {
-            **document.head(document.RESULT, "comparison"),
+            **envelope.head(envelope.RESULT, "comparison"),
             "first": self.first,
             "second": self.second,
             "agrees": self.agrees,

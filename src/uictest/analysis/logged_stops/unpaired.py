@@ -13,7 +13,7 @@ from typing import Any, Final
 
 from uictest import report
 from uictest.analysis.logged_stops.stop_groups import LoggedStop
-from uictest.core import document
+from uictest.core import envelope
 from uictest.core.document import Cell
 from uictest.core.measures import column_unit
 from uictest.core.series_measures import CountedStop, Figure, largest_of_wheelsets, of_stop
@@ -171,5 +171,5 @@ def _group_text(group: Group) -> str:
 
 def logs_form(first: str, second: str, table: report.CampaignTable) -> dict[str, Any]:
     """Return the comparison of two logs as a JSON document."""
-    head = document.head(document.RESULT, "unpaired")
+    head = envelope.head(envelope.RESULT, "unpaired")
     return {**head, "first": first, "second": second, "basis": table.basis, "rows": list(table.data.rows)}

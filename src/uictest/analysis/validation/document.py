@@ -14,7 +14,7 @@ from pydantic import ConfigDict, TypeAdapter
 from uictest import __version__
 from uictest.analysis.validation.domain import Conditions, Domain, conditions_of, deviations, domains_of
 from uictest.analysis.validation.stops import Agreement, ComparedStop, agreement_of
-from uictest.core import document
+from uictest.core import envelope
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS, column_unit
 from uictest.judging.evaluation import DomainOfValidity, EffectivePart, from_json_form, to_json_form
 from uictest.plans.scenario.yaml import display_name
@@ -86,7 +86,7 @@ _VALIDATION: Final = TypeAdapter(Validation)
 
 def validation_json(validation: Validation) -> str:
     """Return a validation as JSON; NaN is null."""
-    form = {**document.head(document.RESULT, "validation"), **to_json_form(_VALIDATION, validation)}
+    form = {**envelope.head(envelope.RESULT, "validation"), **to_json_form(_VALIDATION, validation)}
     return json.dumps(form, indent=2, allow_nan=False) + "\n"
 
 
@@ -103,7 +103,7 @@ def read_validation(path: Path) -> ValidationReference:
     except RecursionError as error:
         raise ValueError("not the result of a validation: it is nested too deeply") from error
     try:
-        document.require(form if isinstance(form, dict) else {}, document.RESULT, "validation")
+        envelope.require(form if isinstance(form, dict) else {}, envelope.RESULT, "validation")
     except ValueError as error:
         raise ValueError(f"not the result of a validation: {error}") from error
     own = {name: value for name, value in form.items() if name not in ("schema", "kind")}

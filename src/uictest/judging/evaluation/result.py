@@ -20,7 +20,7 @@ from pydantic import (
 )
 
 from uictest.controllers import ResponseTimes
-from uictest.core import document
+from uictest.core import envelope
 from uictest.judging.evaluation.car_in_train import CarInTrain
 from uictest.judging.evaluation.firmness import WrittenFirmness
 from uictest.judging.evaluation.json_values import (
@@ -244,7 +244,7 @@ def result_document(results: Iterable[CaseResult], **header: Any) -> dict[str, A
     """
     results = list(results)
     return {
-        **document.head(document.RESULT, "run"),
+        **envelope.head(envelope.RESULT, "run"),
         **json_form(header),
         "parts": parts_document(result.parts for result in results),
         "cases": cases_document(results),
@@ -275,7 +275,7 @@ def results_of(content: Mapping[str, Any]) -> list[CaseResult]:
 
     """
     try:
-        document.require(content, document.RESULT, "run")
+        envelope.require(content, envelope.RESULT, "run")
         results = cases_of(content["cases"], parts_of(content))
         _require_distinct(results)
     except KeyError as error:

@@ -138,7 +138,7 @@ def applies(series: Series, criterion: Criterion, stop: SeriesStop) -> bool:
     scenario = planned.case.scenario
     conditions = scenarios.test_conditions_of(scenario)
     if not planned.rail:
-        conditions = replace(conditions, rail_cleaned=None)
+        conditions = conditions._replace(rail_cleaned=None)
     return not scenarios.unmet_conditions(criterion.applies, conditions, float(scenario.initial_speed))
 
 

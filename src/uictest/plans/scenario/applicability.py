@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from uictest.core.units import in_unit, value_text
 from uictest.plans import scenario
 
 
-@dataclass(frozen=True, slots=True)
-class TestConditions:
+class TestConditions(NamedTuple):
     """Conditions of a stop that a criterion can require.
 
     `command` is a share of full service, the first of so many `commands`; `gradient` a share, positive
@@ -46,8 +45,7 @@ def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class UnmetCondition:
+class UnmetCondition(NamedTuple):
     """A condition of a criterion that a stop does not meet: names, or a nominal value in `unit`."""
 
     what: str

@@ -1,7 +1,6 @@
 """From files to cases."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, NamedTuple
 
@@ -107,8 +106,7 @@ def load_with_trees(
     return loaded
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _ScenarioFile:
+class _ScenarioFile(NamedTuple):
     """One scenario file: what its cases share, and the case of every id."""
 
     path: Path
@@ -116,8 +114,8 @@ class _ScenarioFile:
     documents: tuple[Document, ...]
     short: dict[str, str]
     labels: Labels
-    vary: Entry | None = None
-    ids: dict[str, Variant] = field(default_factory=dict)
+    vary: Entry | None
+    ids: dict[str, Variant]
 
 
 class _Loader:
@@ -165,7 +163,7 @@ class _Loader:
         settings = [setting for variant in variants for setting in variant]
         short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
         labels = controller_labels(settings, self.parts)
-        return _ScenarioFile(path, base, documents, short, labels, vary), variants
+        return _ScenarioFile(path, base, documents, short, labels, vary, {}), variants
 
     def _without_vary(self, own: Map, merged: Map) -> tuple[Map, Entry | None]:
         """Take off what a sweep varies. Raises ScenarioErrors where the file should be none, or is none."""

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
-from uictest.core.document import RESULT, is_of
+from uictest.core.envelope import RESULT, is_of
 from uictest.plans import library
 from uictest.plans.scenario.files import Files, nearest_file
 from uictest.plans.scenario.model import Scenario

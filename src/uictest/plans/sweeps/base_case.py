@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Final, TypeVar
+from typing import Any, Final, NamedTuple, TypeVar
 
 from uictest.plans.scenario import (
     CONDITION,
@@ -151,8 +151,7 @@ REPEAT_KEYS: Final = ("repeat", "outcome_of_repeats")
 SEEDS_IN_SWEEPS: Final = "list or sample `seed`, as in `matrix: {seed: [0, 1, 2]}`"
 
 
-@dataclass(frozen=True)
-class BaseCase:
+class BaseCase(NamedTuple):
     """A case and the YAML tree that it comes from."""
 
     case: Case

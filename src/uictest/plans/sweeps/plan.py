@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from uictest.plans.scenario import (
     CAR,
@@ -69,8 +69,7 @@ class ListedGroup:
         return [labels[place] for place in places.tolist()]
 
 
-@dataclass(frozen=True)
-class ParameterDraw:
+class ParameterDraw(NamedTuple):
     """The distribution of one parameter: of numbers with a unit, or a choice among values.
 
     `kind` is the kind of quantity, empty for plain numbers that no part of the rig reads.
@@ -91,8 +90,7 @@ class ParameterDraw:
         return drawn_column(numbers, self.unit, self.kind)
 
 
-@dataclass(frozen=True)
-class SampledGroup:
+class SampledGroup(NamedTuple):
     """Parameters drawn together, point by point."""
 
     keys: tuple[str, ...]

@@ -9,9 +9,8 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, Final, Literal, NamedTuple
 
 from pydantic import Field
 
@@ -47,8 +46,7 @@ _OF_SUMMARY: Final = ("quantiles", "k_dry")
 _EXAMPLE: Final = "vary: {matrix: {rail.friction: [0.08, 0.10]}}"
 
 
-@dataclass(frozen=True)
-class SweepFile:
+class SweepFile(NamedTuple):
     """A sweep file as read.
 
     Args:

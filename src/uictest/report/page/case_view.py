@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -195,7 +194,15 @@ def plots_json() -> str:
         for loop in LOOPS
     ]
     quantities = {key: quantity._asdict() for key, quantity in PLOT_QUANTITIES.items()}
-    strips = [dataclasses.asdict(strip) | {"heading": strip.heading, "rows": strip.rows} for strip in STRIPS]
+    strips = [
+        {
+            **strip._asdict(),
+            "lanes": [lane._asdict() for lane in strip.lanes],
+            "heading": strip.heading,
+            "rows": strip.rows,
+        }
+        for strip in STRIPS
+    ]
     compared = [panel_form(panel, panel_lines(panel)) for panel in _COMPARED]
     return script_json(
         {

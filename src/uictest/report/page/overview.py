@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 from uictest.judging import evaluation
 
 
-@dataclass(frozen=True, slots=True)
-class CaseMap:
+class CaseMap(NamedTuple):
     """Cases of a scenario by two keys; `cells[row][column]` is None where there is no such case."""
 
     scenario: str

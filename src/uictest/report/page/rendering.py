@@ -19,6 +19,7 @@ from markupsafe import Markup
 
 from uictest.core import user_cache
 from uictest.core.document import Tone
+from uictest.report.counts import counted, counted_in
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences, firmness_table
 from uictest.report.part_wording import (
@@ -31,15 +32,7 @@ from uictest.report.part_wording import (
 )
 from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.train_wording import train_facts, train_text
-from uictest.report.verdict_sentences import (
-    counted,
-    counted_in,
-    listed,
-    number,
-    reading_sentences,
-    reading_sources,
-    tone,
-)
+from uictest.report.verdict_sentences import listed, number, reading_sentences, reading_sources, tone
 
 _UPLOT: Final = MappingProxyType(
     {

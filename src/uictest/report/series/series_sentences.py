@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Final
 
 from uictest.core import statistics
 from uictest.core.series_measures import SERIES_MEASURES, Estimate, Method
+from uictest.report.counts import counted
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.github import annotation
 from uictest.report.verdict_sentences import (
     CASE_WORDS,
     UNSETTLED,
-    counted,
     counts_text,
     limits,
     line_word,

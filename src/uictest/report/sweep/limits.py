@@ -8,8 +8,8 @@ from typing import Final
 
 from uictest.core.units import PERCENT
 from uictest.judging.evaluation import Deviation
+from uictest.report.counts import counted
 from uictest.report.part_wording import deviation_text
-from uictest.report.verdict_sentences import counted
 
 _MOST_NAMED: Final = 6
 """Conditions that a note lists before the rest is counted."""

@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Final
 
 from pydantic import ConfigDict, Field, TypeAdapter
 
-from uictest.core import document
+from uictest.core import envelope
 from uictest.judging import evaluation
 from uictest.judging.evaluation import NamedParts, Number, WrittenCaseResult, required
 from uictest.report.content import CaseDescription
@@ -244,10 +244,10 @@ def sweep_document(result: SweepResult) -> dict[str, Any]:
     place = names.index("worst")
     parts = evaluation.parts_document([result.base, *(case.parts for case in result.worst)])
     head, tail = ({name: form[name] for name in some} for some in (names[:place], names[place:]))
-    return {**document.head(document.RESULT, "sweep"), **head, "parts": parts, **tail}
+    return {**envelope.head(envelope.RESULT, "sweep"), **head, "parts": parts, **tail}
 
 
 def read_sweep_document(content: Mapping[str, Any]) -> SweepResult:
     """Return the result in a document. Raises ValueError where it is none."""
-    document.require(content, document.RESULT, "sweep")
+    envelope.require(content, envelope.RESULT, "sweep")
     return evaluation.from_json_form(_RESULT, content, context=evaluation.parts_of(content))

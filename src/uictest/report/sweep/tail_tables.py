@@ -7,13 +7,14 @@ from collections.abc import Iterator, Sequence
 from operator import itemgetter
 from typing import Any, Final
 
-from uictest.core import document
+from uictest.core import envelope
 from uictest.core.document import Cell, Column, Table
+from uictest.report.counts import counted
 from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.sweep_sentences import circumstances_words
 from uictest.report.sweep.tails import DrawCount, KDry, KDryLevel, MeasureQuantiles, Quantile
 from uictest.report.text_tables import csv_text
-from uictest.report.verdict_sentences import counted, number, quantity
+from uictest.report.verdict_sentences import number, quantity
 
 _K_DRY_DECIMALS = 3
 
@@ -199,7 +200,7 @@ def k_dry_yaml(result: SweepResult) -> str:
     import yaml  # heavier than all that other sweeps write
 
     content = {
-        **document.head(document.RESULT, "k-dry"),
+        **envelope.head(envelope.RESULT, "k-dry"),
         "sweep": result.name,
         "tables": list(map(_k_dry_entry, result.k_dry)),
     }

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
@@ -112,8 +111,7 @@ PANELS = (
 """Panels over time from top to bottom; strips stand between and below them."""
 
 
-@dataclass(frozen=True, slots=True)
-class Lane:
+class Lane(NamedTuple):
     """Bars of one magnet within the row of a wheelset: while its valve is in one of the `states`.
 
     A row is 1 high; `offset` is that of the lane below its middle.
@@ -130,8 +128,7 @@ MAGNETS = (Lane("hold", -0.22, (HOLD, VENT)), Lane("vent", 0.22, (VENT,)))
 """The magnets of a WSP valve: neither fills, hold alone holds, both vent."""
 
 
-@dataclass(frozen=True, slots=True)
-class Strip:
+class Strip(NamedTuple):
     """Bars in a row for each wheelset over time; `note` explains them.
 
     A strip stands below the panel `below`, else below all panels. `lanes` divide the row of a wheelset.

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from uictest import report
-from uictest.core import document, files
+from uictest.core import envelope, files
 from uictest.judging.evaluation import EffectiveParts
 from uictest.plans import library
 from uictest.plans.scenario import SURVEY
@@ -46,7 +46,7 @@ def sweep_manifest(
     plan, parts = selection.plan, EffectiveParts()
     folder = Path(plan.file).parent
     return {
-        **document.head(document.MANIFEST, "sweep"),
+        **envelope.head(envelope.MANIFEST, "sweep"),
         "sweep": plan.name,
         "title": plan.title,
         "file": plan.file,

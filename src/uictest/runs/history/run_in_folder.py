@@ -12,7 +12,7 @@ from typing import Any, Final, Literal, NamedTuple
 from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt, ValidationError
 
 from uictest import report
-from uictest.core import document
+from uictest.core import envelope
 from uictest.runs.history.entry import ENTRY, CaseEntry, RunEntry, entry_of, read_entry
 from uictest.runs.history.foreign_files import (
     UnreadableError,
@@ -31,7 +31,7 @@ MANIFEST: Final = "manifest.json"
 _PAGE: Final = "index.html"
 _OTHERS: Final[Mapping[str, tuple[Kind, Callable[[Mapping[str, Any]], bool]]]] = {
     "fit.json": ("fit", lambda content: str(content.get("schema")).startswith("uictest/fit/")),
-    "validation.json": ("validation", lambda content: document.is_of(content, document.RESULT, "validation")),
+    "validation.json": ("validation", lambda content: envelope.is_of(content, envelope.RESULT, "validation")),
     "studies.json": ("studies", lambda content: str(content.get("schema")).startswith("uictest/studies/")),
 }
 """File that names what a folder without manifest holds -> its kind, and whether its content is of that."""
@@ -106,11 +106,11 @@ def _read(folder: Path, *, with_cases: bool) -> ListedRun:
     if not exists(folder / MANIFEST):
         return _other(folder)
     manifest = json_object(folder / MANIFEST)
-    if document.is_of(manifest, document.MANIFEST, "run"):
+    if envelope.is_of(manifest, envelope.MANIFEST, "run"):
         return _run(folder, manifest, with_cases=with_cases)
-    if document.is_of(manifest, document.MANIFEST, "sweep"):
+    if envelope.is_of(manifest, envelope.MANIFEST, "sweep"):
         return _sweep(folder, manifest)
-    raise UnreadableError(f"not of uictest: {MANIFEST} has {document.head_of(manifest)}")
+    raise UnreadableError(f"not of uictest: {MANIFEST} has {envelope.head_of(manifest)}")
 
 
 def _run(folder: Path, content: Mapping[str, Any], *, with_cases: bool) -> ListedRun:
@@ -188,7 +188,7 @@ def _sweep(folder: Path, manifest: Mapping[str, Any]) -> ListedRun:
         head = _SweepHead.model_validate_json(bytes_of(folder / report.SWEEP_RESULTS))
     except ValidationError as error:
         raise UnreadableError(f"{report.SWEEP_RESULTS} is damaged: {first_problem(error)}") from error
-    if not document.is_of({"schema": head.form, "kind": head.kind}, document.RESULT, "sweep"):
+    if not envelope.is_of({"schema": head.form, "kind": head.kind}, envelope.RESULT, "sweep"):
         raise UnreadableError(f"{report.SWEEP_RESULTS} is damaged: schema {shown(head.form)}")
     if head.name != manifest.get("sweep") or head.cases != manifest.get("cases"):
         raise UnreadableError(
@@ -227,7 +227,7 @@ def _other(folder: Path) -> ListedRun:
             continue
         content = json_object(folder / name)
         if not is_own(content):
-            raise UnreadableError(f"not of uictest: {name} has {document.head_of(content)}")
+            raise UnreadableError(f"not of uictest: {name} has {envelope.head_of(content)}")
         page = _page(folder) or f"{folder.name}/{name}"
         return ListedRun(folder.name, kind, _started(folder, name), page=page)
     raise UnreadableError(f"not of uictest: there is no {MANIFEST}")

@@ -15,7 +15,7 @@ from uictest.analysis.comparison.paired.difference import (
     paired_group,
 )
 from uictest.analysis.comparison.paired.groups import Group, GroupKey, Side, groups_of
-from uictest.core import document
+from uictest.core import envelope
 from uictest.judging.evaluation import json_form
 from uictest.report import RunContent
 
@@ -92,7 +92,7 @@ def paired_form(compared: PairedComparison) -> dict[str, Any]:
 def variants_json(run: str, compared: Sequence[PairedComparison]) -> str:
     """Return the variants of a run as a JSON document."""
     form = {
-        **document.head(document.RESULT, "variants"),
+        **envelope.head(envelope.RESULT, "variants"),
         "run": run,
         "variants": [paired_form(each) for each in compared],
     }

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -44,12 +43,11 @@ class DrawnPanel(NamedTuple):
     paths: Sequence[tuple[str, str]]
 
 
-@dataclass(frozen=True, slots=True)
-class Drawing:
+class Drawing(NamedTuple):
     """Panels above each other over one time axis."""
 
-    height: float = _BELOW
-    panels: list[DrawnPanel] = field(default_factory=list)
+    height: float
+    panels: list[DrawnPanel]
 
 
 def drawing_of(trace: PlotTrace) -> Drawing:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby, pairwise
 from typing import Final
 
+from uictest.report.counts import counted
 from uictest.report.page.axis import Axis, axis_title
 from uictest.report.page.plot import X_PIXELS, Y_PIXELS, Key, Label, Plot, Shape, box
 from uictest.report.sweep.result import (
@@ -18,7 +19,7 @@ from uictest.report.sweep.result import (
 )
 from uictest.report.sweep.sweep_sentences import circumstances_words, measure_words
 from uictest.report.sweep.tail_tables import bound_text, k_dry_text, share_text
-from uictest.report.verdict_sentences import counted, number
+from uictest.report.verdict_sentences import number
 
 STACKED: Final = ("pass", "fail", "invalid", "inconclusive", "skipped", "error")
 """Outcomes from the axis upwards."""

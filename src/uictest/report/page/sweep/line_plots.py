@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from uictest.report.counts import counted
 from uictest.report.page.axis import Axis, axis_title, spanned
 from uictest.report.page.plot import X_PIXELS, Y_PIXELS, Key, Label, Plot, Shape, dot, line
 from uictest.report.sweep.map_cells import CellAxis, MapCells
@@ -20,7 +21,6 @@ from uictest.report.sweep.result import (
     Trend,
 )
 from uictest.report.sweep.sweep_sentences import circumstances_words, flip_words
-from uictest.report.verdict_sentences import counted
 
 MOST_LINES: Final = 6
 """Lines of a plot: more cannot be told apart. Chosen."""

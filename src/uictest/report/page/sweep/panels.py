@@ -10,13 +10,14 @@ from typing import Any, Final
 
 import numpy as np
 
+from uictest.report.counts import counted
 from uictest.report.escaping import printable
 from uictest.report.page.axis import Axis, Tick, axis_title, spanned
 from uictest.report.page.plot import Plot, Shape, dot
 from uictest.report.page.stop.overlay_view import script_json
 from uictest.report.page.sweep.scatter import PointNumbers, Scatter
 from uictest.report.sweep import every_case
-from uictest.report.verdict_sentences import counted, tone
+from uictest.report.verdict_sentences import tone
 
 _SIDES: Final = ((50.0, 292.0), (172.0, 24.0))
 """Ends of the frame of a panel, across and up."""
