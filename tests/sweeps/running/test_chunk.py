@@ -10,6 +10,7 @@ from uictest.analysis.summaries import summarized
 from uictest.judging.evaluation import evaluate
 from uictest.running import chunked
 from uictest.running.chunked import CaseSelection, ChunkStore, run_on_threads
+from uictest.running.chunked.chunk import queues_of
 from uictest.runs import Observer, SweepRequest
 from uictest.runs.sweep_chunks import run_missing_chunks
 
@@ -45,6 +46,21 @@ def test_chunks_that_share_a_queue_give_the_bytes_of_each_alone(load, made_up):
     runner = made_up(plan)
     chunks = [np.arange(0, 31), np.arange(31, 62), np.arange(62, 90)]
     assert runner.run_together(chunks) == [runner.run(each) for each in chunks]
+
+
+@pytest.mark.parametrize(
+    ("chunks", "jobs", "sizes"),
+    [
+        (33, 2, [5, 4, 4, 4, 4, 4, 4, 4]),
+        (19, 2, [3, 2, 3, 2, 2, 3, 2, 2]),
+        (3, 2, [1, 1, 1]),
+        (33, 1, [7, 7, 6, 7, 6]),
+    ],
+)
+def test_queues_are_alike_hold_every_chunk_once_and_the_last_is_no_longer_than_the_first(chunks, jobs, sizes):
+    queues = queues_of(range(chunks), jobs, 31)
+    assert [chunk for queue in queues for chunk in queue] == list(range(chunks))
+    assert [len(queue) for queue in queues] == sizes
 
 
 @pytest.mark.parametrize(("jobs", "queues"), [(1, [8, 8, 8, 8]), (2, [4] * 8), (100, [1] * 32)])

@@ -239,7 +239,7 @@ def run_on_threads(
     jobs = min(jobs, len(numbers)) or 1
     with ThreadedMap(
         lambda queue: runner.run_together([selection.chunk(number) for number in queue]),
-        _queues(numbers, jobs, selection.chunk_size),
+        queues_of(numbers, jobs, selection.chunk_size),
         jobs=jobs,
         pending=jobs + _QUEUES_AHEAD,
     ) as contents:
@@ -248,14 +248,14 @@ def run_on_threads(
             write_chunk(number, content)
 
 
-def _queues(numbers: Sequence[int], jobs: int, chunk_size: int) -> list[Sequence[int]]:
+def queues_of(numbers: Sequence[int], jobs: int, chunk_size: int) -> list[Sequence[int]]:
     """Return the chunks that are simulated in one queue each; queues differ by one chunk at most.
 
-    A thread that is left with a short queue at the end would let all others wait.
+    The longer ones come first: at the end of the last one all other threads wait.
     """
     most = max(_QUEUED // chunk_size, 1)
     count = max(-(-len(numbers) // most), min(_TURNS * jobs, len(numbers)))
-    ends = [len(numbers) * place // count for place in range(count + 1)]
+    ends = [-(-len(numbers) * place // count) for place in range(count + 1)]
     return [numbers[begin:end] for begin, end in pairwise(ends)]
 
 
