@@ -75,7 +75,7 @@ def test_a_share_of_a_dry_figure_of_zero_names_the_dry_stops(load, judge, write)
     )
     (one,) = load("dry: dry.yaml\nwet: wet.yaml\ncriteria: own.yaml\n")
     locks = verdicts(judge(one, [460.0, 500.0]))["locks"].verdict
-    assert (locks.status, locks.reason) == ("inconclusive", "the dry stops have no such number, or zero")
+    assert (locks.status, locks.reason) == ("inconclusive", "the dry stops have no such number above zero")
 
 
 def test_every_wet_stop_must_keep_a_criterion_of_stops_and_passes_only_within_its_share(planned, judge):

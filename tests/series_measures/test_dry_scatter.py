@@ -100,3 +100,27 @@ def test_figures_in_percent_of_the_dry_stop_have_the_same_interval():
     increase = SERIES_MEASURES["stopping_distance_extension"].of_series([stops], 0.95).estimate
     assert (percent.low, percent.high) == pytest.approx((100.0 + increase.low, 100.0 + increase.high))
     assert percent.dry_stops == increase.dry_stops == 4
+
+
+@pytest.mark.parametrize("dry", [(0.0, 0.0), (-1.0, -2.0), (math.inf, 4.0), (math.nan, 4.0)])
+def test_a_share_of_what_is_not_above_zero_is_none(dry):
+    """A reservoir margin of -0.4 bar would be four times that of -0.1 bar, and pass a lower limit."""
+
+    def stops(values):
+        return tuple(CountedStop({"reservoir_margin_bar": own}, (), passed=True) for own in values)
+
+    value = SERIES_MEASURES["worst_reservoir_margin"].percent_of_dry(
+        [SpeedStops(30.0, stops(dry), stops((-4.0, 2.0)))], 0.95
+    )
+    assert value.unavailable_reason == "the dry stops have no such number above zero"
+
+
+def test_k_wet_of_no_distance_is_none():
+    def stops(values):
+        return tuple(CountedStop({"deceleration_distance_m": own}, (), passed=True) for own in values)
+
+    def of(wet):
+        return SERIES_MEASURES["k_wet"].of_speed(SpeedStops(30.0, stops((400.0, 410.0)), stops(wet)), 0.95)
+
+    assert of((0.0, 0.0)).unavailable_reason == "the wet stops have no such number above zero"
+    assert of((0.0, 810.0)).estimate.value == pytest.approx(1.0)

@@ -88,17 +88,19 @@ def ratio_interval(
 ) -> tuple[float, float]:
     """Return the interval of an estimate over an independent mean whose interval is `mean` -+ `half_width`.
 
-    MOVER-R of Donner and Zou (Stat. Methods Med. Res. 21 (2012) 347): with value v, low l, mean m and half
-    width h the lower end is (v m - sqrt((v h)^2 + (v - l)^2 (m^2 - h^2))) / (m^2 - h^2). For two means with
-    Student's t it is the theorem of Fieller (1954), with the quantile of each sample: one quantile by Welch
-    and Satterthwaite holds too little beside two or three values (simulated: 87 % instead of 95 %). NaN at
-    both ends where an interval is missing, or that of the mean reaches zero.
+    MOVER-R of Donner and Zou (Stat. Methods Med. Res. 21 (2012) 347): with value v, low l and half width h,
+    each over the mean, the lower end is (v - sqrt((v h)^2 + (v - l)^2 (1 - h^2))) / (1 - h^2). For two means
+    with Student's t it is the theorem of Fieller (1954), with the quantile of each sample: one quantile by
+    Welch and Satterthwaite holds too little beside two or three values (simulated: 87 % instead of 95 %). NaN
+    at both ends where an interval is missing, or that of the mean reaches zero.
     """
-    square = mean**2 - half_width**2
-    if not (mean > half_width and all(map(math.isfinite, interval))):
+    if not (mean > 0.0 and all(map(math.isfinite, interval))):
         return math.nan, math.nan
-    below, above = (math.hypot(value * half_width, (value - end) * math.sqrt(square)) for end in interval)
-    return (value * mean - below) / square, (value * mean + above) / square
+    ratio, share = value / mean, half_width / mean
+    if not (rest := 1.0 - share**2) > 0.0:
+        return math.nan, math.nan
+    below, above = (math.hypot(ratio * share, (ratio - end / mean) * math.sqrt(rest)) for end in interval)
+    return (ratio - below) / rest, (ratio + above) / rest
 
 
 def trials_needed(probability: float, confidence: float = 0.95) -> int | None:

@@ -36,7 +36,7 @@ def k_wet(ratio: Estimate) -> Estimate:
     No distance is zero: so wide an interval says nothing, and its K_wet would run through infinity.
     """
     known = ratio if not ratio.low <= 0.0 else replace(ratio, low=math.nan, high=math.nan)
-    return known.mapped(lambda value: 1.0 / value)
+    return known.mapped(lambda value: 1.0 / value if value > 0.0 else math.inf)
 
 
 def adhesion_utilisation(stop: CountedStop) -> float:

@@ -128,11 +128,11 @@ def estimated(values: Sequence[float], statistic: Statistic, confidence: float) 
 
 
 def over_dry(estimate: Estimate, dry: Sequence[float]) -> Estimate:
-    """Return an estimate over the mean of dry stops, a ratio, with the scatter of both; `dry` are finite.
+    """Return an estimate over the mean of dry stops, above zero, as a ratio with the scatter of both.
 
     The interval is that of :func:`uictest.core.statistics.ratio_interval`. Of the largest (smallest) value
     it is the value over both ends of that of the mean, and the covered share holds for `high` (`low`); what
-    may fail is halved between both (Bonferroni). Raises ZeroDivisionError for a mean of zero.
+    may fail is halved between both (Bonferroni).
     """
     mean = mean_of(dry, estimate.confidence)
     ratio = replace(estimate.mapped(lambda value: value / mean.value), dry_stops=len(dry))

@@ -55,8 +55,10 @@ class SpeedStops:
     rail: Rail = ""
 
     def dry_mean(self, figure: Figure) -> float:
-        """Return the mean of a figure over the dry stops, the reference; NaN without any."""
-        return math.fsum(map(figure, self.dry)) / len(self.dry) if self.dry else math.nan
+        """Return the mean of a figure over the dry stops, the reference; NaN without any above zero."""
+        mean = math.fsum(map(figure, self.dry)) / len(self.dry) if self.dry else math.nan
+        # No share of a figure that is negative says which of two is the worse one.
+        return mean if 0.0 < mean < math.inf else math.nan
 
 
 def of_stop(column: str) -> Figure:
@@ -134,10 +136,15 @@ class SeriesMeasure:
         dry = [self.figure(stop) for stop in stops.dry]
         if not dry:
             return SeriesValue(unavailable_reason="no dry stop counts")
-        if not abs(stops.dry_mean(self.figure)) > 0.0:
-            return SeriesValue(unavailable_reason="the dry stops have no such number, or zero")
+        if math.isnan(stops.dry_mean(self.figure)):
+            return SeriesValue(unavailable_reason="the dry stops have no such number above zero")
         wet = self._of_stops(stops.wet, confidence)
-        return wet if wet.estimate is None else SeriesValue(of_ratio(over_dry(wet.estimate, dry)))
+        if wet.estimate is None:
+            return wet
+        value = of_ratio(over_dry(wet.estimate, dry))
+        if math.isfinite(value.value):
+            return SeriesValue(value)
+        return SeriesValue(unavailable_reason="the wet stops have no such number above zero")
 
     def _worst(self, values: Sequence[SeriesValue]) -> SeriesValue:
         """Return the worst of some values; one that is not known could be worse than all others."""

@@ -153,7 +153,7 @@ def _percent_of_dry(criterion: Criterion, stop: SeriesStop, stops: Sequence[Seri
         if each.role == "dry" and each.counts and each.speed_kmh == stop.speed_kmh
     )
     mean = SpeedStops(stop.speed_kmh * KILOMETRE_PER_HOUR, dry, ()).dry_mean(figure)
-    return 100.0 * figure(stop.figures) / mean if mean else math.nan
+    return 100.0 * figure(stop.figures) / mean
 
 
 def _verdict(criterion: Criterion, percent: float) -> evaluation.Verdict:
