@@ -51,9 +51,10 @@ def test_a_series_that_keeps_everything_passes_and_a_miss_says_how_much_is_missi
     assert uncertain.outcome == "pass"
     # The wet stops of the first, beside dry ones that scatter by 5 %.
     assert verdicts(judge(planned, [[444.0, 476.0], 519.0, 520.0, 521.0]))["k-wet"].confident is False
-    # One dry stop shows no scatter: nobody knows.
+    # One dry stop shows no scatter, nor do two equal ones.
     alone = verdicts(judge(planned, [460.0, 519.0, 520.0, 521.0]))["k-wet"]
-    assert (alone.verdict.status, alone.confident) == ("pass", None)
+    assert (alone.verdict.status, alone.confident) == ("pass", False)
+    assert verdicts(judge(planned, [[460.0, 460.0], 519.0, 520.0, 521.0]))["k-wet"].confident is False
     assert "no 95 % interval: one dry stop shows no scatter" in report.series_verdict_sentence(alone, 0.95)
 
 
@@ -279,7 +280,7 @@ def test_every_bound_is_judged_at_the_speed_nearest_to_missing_it(two_speeds, ju
 def test_a_verdict_is_as_certain_as_that_of_its_least_certain_speed(two_speeds, judge):
     # From 80 km/h the median is 115 % but may lie at 140 %; that from 120 km/h is 125 % for certain.
     scattered = [214.0, 216.0, 218.0, 230.0, 270.0, 275.0, 280.0]
-    long = verdicts(judge(two_speeds, [[200.0] * 2, [400.0] * 2, scattered, [500.0] * 7]))["long"]
+    long = verdicts(judge(two_speeds, [[199.99, 200.01], [399.99, 400.01], scattered, [500.0] * 7]))["long"]
     assert (long.verdict.status, long.speed_kmh, long.confident) == ("pass", 120.0, False)
 
 
@@ -294,15 +295,15 @@ def test_the_scatter_of_dry_stops_can_make_the_largest_value_uncertain_and_never
         return each.verdict.status, each.confident
 
     # One wet stop of 120 % and of 130 % of 400 m; t for two dry stops is 12.7.
-    assert certain([400.0, 400.0], 480.0) == ("pass", None)
+    assert certain([399.99, 400.01], 480.0) == ("pass", None)
     assert certain([396.0, 404.0], 480.0) == ("pass", False)
-    assert certain([400.0, 400.0], 520.0) == ("fail", True)
+    assert certain([399.99, 400.01], 520.0) == ("fail", True)
     assert certain([396.0, 404.0], 520.0) == ("fail", False)
 
 
 def test_one_speed_that_misses_for_certain_makes_a_miss_certain(two_speeds, judge):
     scattered = [240.0, 242.0, 244.0, 280.0, 282.0, 284.0, 286.0]
-    long = verdicts(judge(two_speeds, [[200.0] * 2, [400.0] * 2, scattered, [540.0] * 7]))["long"]
+    long = verdicts(judge(two_speeds, [[199.99, 200.01], [399.99, 400.01], scattered, [540.0] * 7]))["long"]
     assert (long.verdict.status, long.speed_kmh, long.confident) == ("fail", 80.0, True)
 
 
@@ -350,7 +351,7 @@ def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(write, load
     assert {stop.case.scenario.rig.wsp for stop in planned.stops[5:]} == {"bypassed"}
     # Wheels lock: that they miss the criteria is what is expected, and no reason to keep their recordings.
     assert {stop.case.scenario.expect for stop in planned.stops[5:]} == {"fail"}
-    distances = [[460.0] * 2, 500.0, 510.0, 600.0, 610.0]
+    distances = [[459.99, 460.01], 500.0, 510.0, 600.0, 610.0]
     better, without = judge(planned, distances, {480.0: "fail"}, 480.0), judge(planned, distances)
     assert better.bypassed_k_wet.estimate.value == pytest.approx(400.0 / 420.0)
     assert (better.criteria, better.speeds, better.outcome) == (

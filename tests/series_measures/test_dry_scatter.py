@@ -80,15 +80,17 @@ def test_the_share_below_the_largest_extension_holds_beside_dry_stops_that_scatt
 @pytest.mark.parametrize(
     "name", ["k_wet", "stopping_distance_extension", "worst_stopping_distance_extension"]
 )
-def test_one_dry_stop_shows_no_scatter_and_two_that_are_equal_show_none_in_the_interval(name):
+def test_one_dry_stop_shows_no_scatter_nor_do_few_equal_ones_and_many_scatter_by_nothing(name):
     draw = np.random.default_rng(9)
     stops = drawn(draw, 1, 8, 4.0, 4.0, 1.2)
     measure = SERIES_MEASURES[name]
-    alone = measure.of_series([stops], 0.95).estimate
-    assert all(map(math.isnan, (alone.low, alone.high, alone.covered)))
-    twice = SpeedStops(30.0, stops.dry * 2, stops.wet)
-    exact = measure.of_series([twice], 0.95).estimate
-    assert exact.value == alone.value
+    for count in (1, 2, 4):
+        few = measure.of_series([SpeedStops(30.0, stops.dry * count, stops.wet)], 0.95).estimate
+        assert all(map(math.isnan, (few.low, few.high, few.covered)))
+        assert not few.dry_scatter
+    exact = measure.of_series([SpeedStops(30.0, stops.dry * 5, stops.wet)], 0.95).estimate
+    assert exact.value == pytest.approx(few.value)
+    assert exact.dry_scatter
     if name == "stopping_distance_extension":
         # Of eight values the smallest and the largest: 1 - 2 / 2^8 is 99.2 %, the next ones have 93 %.
         assert (exact.low, exact.high) == pytest.approx((exact.smallest, exact.largest))

@@ -88,6 +88,7 @@ def _recorded(
         stops += [_as_recorded(stop, file, inputs) for file in named]
         files += named
     _require_distinct_stops(planned, stops)
+    _require_distinct_recordings(planned, files)
     return replace(planned, stops=tuple(stops)), files
 
 
@@ -115,6 +116,14 @@ def _require_distinct_stops(planned: series.Series, stops: Sequence[series.Plann
         if stop.case.id in seen:
             raise InvalidInputError(f"{planned.path}: a second recorded stop {stop.case.id!r}")
         seen.add(stop.case.id)
+
+
+def _require_distinct_recordings(planned: series.Series, files: Sequence[RecordedFile]) -> None:
+    """Raise InvalidInputError for a copy of a recording: one stop counted twice would feign certainty."""
+    first: dict[str, Path] = {}
+    for file in files:
+        if (path := first.setdefault(file.digest, file.path)) != file.path:
+            raise InvalidInputError(f"{planned.path}: {file.path} is a copy of {path}: one stop counts once")
 
 
 def case_of_stop(

@@ -31,7 +31,7 @@ def make_series(**changes):
 
     Its K_wet is 0.870; the criterion `k-wet` wants 0.80.
     """
-    dry = _case("acceptance.dry", (_stop(0, 460.0), _stop(1, 460.0)), "dry")
+    dry = _case("acceptance.dry", (_stop(0, 459.99), _stop(1, 460.01)), "dry")
     valid = [_stop(seed, distance) for seed, distance in enumerate((500.0, 510.0, 520.0, 530.0, 540.0))]
     wet = _case("acceptance.wet", (*valid, _stop(5, 2000.0, "invalid")), "wet")
     figures = [stop.figures for stop in series.observed_stops([wet], 3.0)][:5]

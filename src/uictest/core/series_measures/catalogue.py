@@ -26,17 +26,21 @@ _DECELERATION_DISTANCE = of_stop("deceleration_distance_m")
 
 
 def increase(ratio: Estimate) -> Estimate:
-    """Return by how much (%) a figure exceeds that of the dry stops, of their ratio."""
-    return ratio.mapped(lambda value: 100.0 * (value - 1.0))
+    """Return by how much (%) a distance exceeds that of the dry stops, of their ratio."""
+    return _of_distances(ratio).mapped(lambda value: 100.0 * (value - 1.0))
 
 
 def k_wet(ratio: Estimate) -> Estimate:
-    """Return 100/(100 + increase in %); without an interval where that of the ratio reaches zero.
+    """Return 100/(100 + increase in %), of the ratio of distances."""
+    return _of_distances(ratio).mapped(lambda value: 1.0 / value if value > 0.0 else math.inf)
+
+
+def _of_distances(ratio: Estimate) -> Estimate:
+    """Return a ratio of distances without an interval that reaches zero.
 
     No distance is zero: so wide an interval says nothing, and its K_wet would run through infinity.
     """
-    known = ratio if not ratio.low <= 0.0 else replace(ratio, low=math.nan, high=math.nan)
-    return known.mapped(lambda value: 1.0 / value if value > 0.0 else math.inf)
+    return ratio if not ratio.low <= 0.0 else replace(ratio, low=math.nan, high=math.nan)
 
 
 def adhesion_utilisation(stop: CountedStop) -> float:

@@ -28,8 +28,8 @@ class Estimate:
         smallest, largest: of the stops, the spread.
         covered: for the largest (smallest) of the stops: share of all such stops that, with `confidence`,
             keep on its good side; over dry stops on that of `high` (`low`). NaN otherwise.
-        dry_stops: over the mean of how many the value is; 0 where it does not refer to them. One shows no
-            scatter: there is neither an interval nor a cover then.
+        dry_stops: over the mean of how many the value is; 0 where it does not refer to them.
+        dry_scatter: whether these show how they scatter; there is neither an interval nor a cover otherwise.
 
     """
 
@@ -43,6 +43,7 @@ class Estimate:
     largest: float
     covered: float = math.nan
     dry_stops: int = 0
+    dry_scatter: bool = True
 
     def mapped(self, function: Callable[[float], float]) -> Estimate:
         """Return the estimate of a monotone function of the value."""
@@ -53,6 +54,8 @@ class Estimate:
         return replace(self, value=value, low=low, high=high, smallest=smallest, largest=largest)
 
 
+_FEWEST_EQUAL = 5
+"""Dry stops from which equal ones are known to scatter by nothing; a few may be equal by rounding; chosen."""
 Statistic = Callable[[Sequence[float], float], Estimate]
 """Makes an estimate of the values of stops (at least one, all finite) and a confidence."""
 
@@ -132,10 +135,12 @@ def over_dry(estimate: Estimate, dry: Sequence[float]) -> Estimate:
 
     The interval is that of :func:`uictest.core.statistics.ratio_interval`. Of the largest (smallest) value
     it is the value over both ends of that of the mean, and the covered share holds for `high` (`low`); what
-    may fail is halved between both (Bonferroni).
+    may fail is halved between both (Bonferroni). Dry stops that show no scatter make neither.
     """
     mean = mean_of(dry, estimate.confidence)
     ratio = replace(estimate.mapped(lambda value: value / mean.value), dry_stops=len(dry))
+    if len(dry) < _FEWEST_EQUAL and min(dry) == max(dry):
+        return replace(ratio, low=math.nan, high=math.nan, covered=math.nan, dry_scatter=False)
     if estimate.method not in ("largest", "smallest"):
         ends, half_width = (estimate.low, estimate.high), mean.high - mean.value
         low, high = statistics.ratio_interval(estimate.value, ends, mean.value, half_width)

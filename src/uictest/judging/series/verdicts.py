@@ -94,7 +94,8 @@ def _confident(
     """Return whether the verdict is the same wherever in their intervals the values of all speeds lie.
 
     One speed that misses for certain makes a miss certain. None: for lack of an interval nobody knows. The
-    interval of the largest or smallest value is of the dry stops alone: it makes no pass certain.
+    interval of the largest or smallest value is of the dry stops alone: it makes no pass certain. Nor is one
+    over dry stops that show no scatter.
     """
     hold = [
         bounds.hold_throughout(each.low, each.high)
@@ -103,7 +104,7 @@ def _confident(
     ]
     if status == "fail" and False in hold:
         return True
-    if status == "pass" and None in hold:
+    if status == "pass" and (None in hold or not all(each.dry_scatter for each in estimates)):
         return False
     extreme = any(each.method in ("largest", "smallest") for each in estimates)
     if len(hold) < len(estimates) or (status == "pass" and extreme):

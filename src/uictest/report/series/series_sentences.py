@@ -42,6 +42,7 @@ _INTERVALS: Final[dict[Method, str]] = {
     "mean": "by Student's t",
     "share": "by Clopper and Pearson",
 }
+_OVER_DRY: Final[dict[Method, str]] = {"median": "by MOVER-R", "mean": "by Fieller's theorem"}
 _SIDES: Final[dict[Method, str]] = {"largest": "below", "smallest": "above"}
 _REASONS_SHOWN: Final = 3
 
@@ -99,7 +100,8 @@ def estimate_words(estimate: Estimate) -> str:
         limit = "it" if math.isnan(end) else short(end)
         covered = f"at least {percent(estimate.covered)} of such stops lie {_SIDES[estimate.method]} {limit}"
         return f"{made}; {covered} ({at} confidence)"
-    return f"{made}, {at} interval {interval(estimate)} {_INTERVALS[estimate.method]}"
+    by = (_OVER_DRY if estimate.dry_stops else _INTERVALS)[estimate.method]
+    return f"{made}, {at} interval {interval(estimate)} {by}"
 
 
 def missing_interval(estimate: Estimate) -> str:
@@ -107,10 +109,13 @@ def missing_interval(estimate: Estimate) -> str:
     at = percent(estimate.confidence)
     if interval(estimate) or math.isfinite(estimate.covered):
         return ""
-    if estimate.dry_stops == 1:
-        return f"no {at} interval: one dry stop shows no scatter, two are needed"
-    scattered = ", or too scattered," if estimate.dry_stops else ""
-    return f"too few{scattered} for a {at} interval"
+    needed = statistics.draws_needed(0.5, estimate.confidence, "both") if estimate.method == "median" else 2
+    if estimate.stops < needed and estimate.method not in _SIDES:
+        return f"too few for a {at} interval: {needed} are needed"
+    if not estimate.dry_scatter:
+        equal = "one dry stop shows" if estimate.dry_stops == 1 else "equal dry stops show"
+        return f"no {at} interval: {equal} no scatter"
+    return f"they scatter too much for a {at} interval"
 
 
 def confidence_words(each: SeriesVerdict, confidence: float) -> str:
@@ -139,6 +144,8 @@ def limit_inside(each: SeriesVerdict, within: str) -> str:
         for name, bound in bounds.items()
         if bound is not None and estimate is not None and estimate.low <= bound <= estimate.high
     ]
+    if estimate is not None and not estimate.dry_scatter:
+        return missing_interval(estimate)
     if not inside:
         return "a limit lies inside the interval at another speed or rail"
     return "; ".join([*inside, *_settled_by(each)])
