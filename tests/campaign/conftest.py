@@ -11,12 +11,10 @@ def make_case():
     """A case as far as a campaign looks at it."""
 
     def make(case_id, *tags, file="a.yaml", expect="pass"):
-        controller = SimpleNamespace(program=None)
         named = {"requirements": (), "test_case": None, "criteria": (), "repeat": 1}
         rig = SimpleNamespace(compensation_model=SimpleNamespace(to_identify=False))
-        scenario = SimpleNamespace(tags=tags, expect=expect, controller=controller, rig=rig, **named)
-        return SimpleNamespace(
-            id=case_id, scenario=scenario, path=Path("scenarios", file), parameters={}, train=None
-        )
+        scenario = SimpleNamespace(tags=tags, expect=expect, rig=rig, **named)
+        place = {"path": Path("scenarios", file), "train": None, "is_from_outside": False}
+        return SimpleNamespace(id=case_id, scenario=scenario, parameters={}, **place)
 
     return make

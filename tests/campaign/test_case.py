@@ -68,7 +68,7 @@ def test_a_stop_is_simulated_again_only_for_the_recording_of_a_missed_case(
 def test_a_stop_with_a_controller_from_outside_is_never_repeated(make_case, make_rig, outcome, recording):
     """It may answer differently another time, and the recording would be of another stop."""
     rig, case = make_rig(outcome), make_case("dry")
-    case.scenario.controller.program = object()
+    case.is_from_outside = True
     examined = run_stop(Stop(case), RecordingRequest("failed", every=0.02)).case_run
     assert (rig.asked, examined.recording) == ([0.02], recording)
 

@@ -266,9 +266,12 @@ def test_a_train_of_one_car_has_the_bits_of_a_single_stop_in_lanes(trains):
 
 
 def test_inputs_of_trains_are_only_read(trains):
-    before = [[array.tobytes() for array in inputs] for inputs in trains.inputs]
+    def content():
+        return [[array.tobytes() for array in inputs[:5]] for inputs in trains.inputs]
+
+    before = content()
     trains.in_lanes(ALL_TRAINS)
-    assert [[array.tobytes() for array in inputs] for inputs in trains.inputs] == before
+    assert content() == before
 
 
 def test_the_compiler_is_loaded_only_for_trains():
