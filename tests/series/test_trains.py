@@ -3,12 +3,14 @@
 import pytest
 
 from uictest import rig
+from uictest.analysis.firmness import Effort
 from uictest.judging import series as judging
 from uictest.judging.evaluation import result_document, to_json
 from uictest.plans import series
 from uictest.plans.scenario import ScenarioErrors
 from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
 from uictest.runs.batch import run_series
+from uictest.runs.firmness import FirmnessRun
 
 PAIR = "dry: dry.yaml\nwet: wet.yaml\n"
 SCENARIO = """
@@ -180,15 +182,17 @@ def test_all_stops_are_of_trains_of_one_length(of_trains):
     ]
 
 
-@pytest.mark.parametrize(
-    ("more", "text", "key", "message"),
-    [
-        ("vehicle: crh380a", "cars: all\n", "cars", "the stops are of cars alone"),
-        (TRAIN, "firm: true\n", "firm", "how firm verdicts are is not known of trains"),
-    ],
-)
-def test_what_does_not_go_with_trains_or_without(of_trains, more, text, key, message):
-    assert refusal(of_trains, more, text) == [(key, message)]
+def test_cars_are_only_of_trains(of_trains):
+    assert refusal(of_trains, "vehicle: crh380a", "cars: all\n") == [("cars", "the stops are of cars alone")]
+
+
+def test_how_firm_verdicts_are_is_said_of_the_car_that_is_judged(of_trains):
+    """By the stops of its car: the other one is held by brakes twice as strong."""
+    strong = "train: [{}, {brake: {command: 50 %}}]\nrig: {topology: four-caliper}"
+    planned = of_trains(strong, "cars: all\nrepeat: 1\n")
+    run = FirmnessRun(2, effort=Effort(blocks=2, block=2, seeds=1, seeds_at_ends=1))
+    for each in planned:
+        assert run.of_series(each).nominal == judged(each).outcome
 
 
 def test_recordings_are_of_one_car(of_trains, write):

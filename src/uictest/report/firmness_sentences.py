@@ -182,8 +182,11 @@ class _Row(NamedTuple):
     turned: str
 
 
-def firmness_table(firmness: Firmness) -> Table:
-    """Return the numbers, those that turn a verdict first, then by how much they change a margin."""
+def firmness_table(firmness: Firmness, car: str = "") -> Table:
+    """Return the numbers, those that turn a verdict first, then by how much they change a margin.
+
+    Its title names the `car` where there are several.
+    """
     turned = {each.key: "yes" for verdict in firmness.criteria for each in verdict.turned_by}
     rows = [
         _Row(number, _most_changed(number, firmness.criteria), turned.get(number.key, ""))
@@ -191,7 +194,8 @@ def firmness_table(firmness: Firmness) -> Table:
         if firmness.criteria
     ]
     rows.sort(key=lambda row: (not row.turned, -_change(row)))
-    return Table(_COLUMNS, rows, "What the numbers do to the margins", most=_MOST_NUMBERS, more=_MORE)
+    title = f"What the numbers do to the margins{car and f' of {car}'}"
+    return Table(_COLUMNS, rows, title, most=_MOST_NUMBERS, more=_MORE)
 
 
 _MORE: Final = "more in firmness.csv"

@@ -40,7 +40,6 @@ class FirmnessRun:
         run_train: simulates trains with such controllers.
         effort: how many stops.
         calibration: stops by which the numbers are known, with the outcomes that these expect.
-
     """
 
     jobs: int
@@ -51,6 +50,7 @@ class FirmnessRun:
     calibration: Sequence[scenario.Case] = ()
     trains: dict[str, chunked.VariedTrain] = field(default_factory=dict)
     """The train that cases were cars of last, by its id."""
+    keeps: bool = True  # the stops of that; those of a series would fill the memory
 
     def of_case(self, case: scenario.Case) -> Firmness:
         """Return how firm the verdicts of a case are; of a repeated one, those of its stops one by one."""
@@ -79,7 +79,7 @@ class FirmnessRun:
 
     def of_series(self, planned: series_plans.Series) -> Firmness:
         """Return how firm the verdicts of a series are; a number that several of its cases have is one."""
-        cases = [_VariedStops.of(case, self) for case in planned.cases]
+        cases = [_VariedStops.of(case, replace(self, keeps=False, trains={})) for case in planned.cases]
         numbers = {identity: number for case in cases for identity, number in case.numbers.items()}
 
         def judge(columns: Sequence[Column], seeds: Sequence[int]) -> list[Drawn]:
@@ -232,7 +232,7 @@ def _varied_train(case: scenario.Case, run: FirmnessRun) -> chunked.VariedTrain:
     if known is None or known.case.train is None or known.case.train.scenarios != cars:
         run.trains.clear()
         changed = replace(case, scenario=cars[place.number - 1], train=place)
-        run.trains[place.train] = chunked.VariedTrain(changed, run.jobs, run.run_train)
+        run.trains[place.train] = chunked.VariedTrain(changed, run.jobs, run.run_train, run.keeps)
     return run.trains[place.train]
 
 
@@ -276,7 +276,7 @@ def stops_of_pair(first: scenario.Case, second: scenario.Case, settings: campaig
 
 def stops_of_series(planned: series_plans.Series, settings: campaign.RunSettings) -> int:
     """Return how many stops are run for a series before turning values are searched."""
-    numbers = {_identity(each) for case in planned.cases for each in sweeps.ranged_numbers(case.scenario)}
+    numbers = {identity for case in planned.cases for car in case.cars for identity in _numbers_of(car)}
     stops = EFFORT.stops(len(numbers)) * sum(case.scenario.repeat for case in planned.cases)
     return stops + _calibrating_stops(settings)
 

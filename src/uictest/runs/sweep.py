@@ -44,11 +44,6 @@ def run_sweep(request: SweepRequest, observer: Observer) -> FinishedSweep | None
     is raised: InvalidInputError where the folder is in use or holds the chunks of other inputs, OSError,
     KeyboardInterrupt, MaxfailReached.
     """
-    if request.firm and (train := request.selection.plan.base.train) is not None:
-        raise InvalidInputError(
-            f"{train.train} is a train: a sweep says of cars alone how firm the nominal case is; leave out"
-            " --firm, or run the scenario with it"
-        )
     with (
         _locked(request.folder, shared=request.shard.count > 1 and not request.restart),
         rig.Workers() as workers,
@@ -184,13 +179,32 @@ def with_nominal_stops(request: SweepRequest, result: report.SweepResult) -> rep
     return replace(result, k_dry=k_dry, notes=(*result.notes, *notes))
 
 
-def _nominal_with_firmness(request: SweepRequest, observer: Observer) -> evaluation.CaseResult:
-    """Return the result of the case that is varied, with how firm it is. Raises KeyboardInterrupt."""
-    cases = [request.selection.plan.base]
+def _nominal_with_firmness(request: SweepRequest, observer: Observer) -> tuple[evaluation.CaseResult, ...]:
+    """Return the result of the case that is varied, of a train those of all cars, with how firm each is.
+
+    Raises KeyboardInterrupt.
+    """
+    cases = _nominal_cases(request.selection.plan.base)
     settings = _settings(request, cases, campaign.RecordingRequest("none"))
     settings = replace(settings, firm=True, calibration=request.calibration)
-    [result] = simulate_cases(cases, settings, observer, unit="stops").whole()
-    return result
+    return tuple(simulate_cases(cases, settings, observer, unit="stops").whole())
+
+
+def _nominal_cases(base: scenario.Case) -> list[scenario.Case]:
+    """Return the case that is varied, of a train those of all cars."""
+    train = base.train
+    if train is None:
+        return [base]
+    return [
+        replace(
+            base,
+            id=f"{train.train}[{scenario.CAR}={number}]",
+            scenario=own,
+            parameters={scenario.CAR: str(number)},
+            train=replace(train, number=number),
+        )
+        for number, own in enumerate(train.scenarios, start=1)
+    ]
 
 
 def _nominal_stops(request: SweepRequest) -> Sequence[evaluation.CaseResult]:

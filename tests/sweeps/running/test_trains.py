@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from uictest import rig
+from uictest.analysis.firmness import Effort
 from uictest.plans import scenario
 from uictest.plans.scenario import ScenarioErrors
 from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
 from uictest.running.chunked import CaseSelection, chunk_runner, select_cases
-from uictest.runs import InvalidInputError, Observer, SweepRequest, run_sweep
+from uictest.runs import Observer, SweepRequest, firmness, run_sweep
 
 from ..conftest import rows
 
@@ -109,10 +110,22 @@ def test_what_a_sweep_of_trains_cannot_is_refused_at_its_key(loaded, text, messa
         loaded(text)
 
 
-def test_a_sweep_of_trains_is_not_asked_how_firm_it_is(loaded, tmp_path):
-    request = SweepRequest(CaseSelection(loaded()), {}, tmp_path / "study", jobs=1, firm=True)
-    with pytest.raises(InvalidInputError, match=r"study is a train: .* leave out --firm"):
-        run_sweep(request, Observer())
+def test_a_sweep_says_of_every_car_of_the_nominal_train_how_firm_it_is(load, tmp_path, monkeypatch):
+    monkeypatch.setattr(firmness, "EFFORT", Effort(blocks=2, block=2, seeds=1, seeds_at_ends=1))
+    train = TRAIN.replace("uictest-rig", "uictest-stop").replace("expect: skipped\n", "")
+    plan = load("matrix: {rail.friction: [0.04]}\n", stop=train)
+    request = SweepRequest(CaseSelection(plan), {}, tmp_path / "study", jobs=2, firm=True)
+    finished = run_sweep(request, Observer())
+    assert [each.id for each in finished.result.nominal] == [f"study[car={car}]" for car in (1, 2, 3)]
+    assert {each.firmness.draws for each in finished.result.nominal} == {4}
+    path = tmp_path / "study.yaml"
+    path.write_text(train)
+    cases = run_cases(scenario.load([path]), RunSettings(recording=RecordingRequest("none"))).whole()
+    read_back = finished.content.result.nominal
+    assert [known(each.measures) for each in read_back] == [known(each.measures) for each in cases]
+    assert "How firm study[car=3] is" in (request.folder / "index.html").read_text("utf-8")
+    lines = (request.folder / "firmness.csv").read_text("utf-8").splitlines()
+    assert {line.split(",")[0] for line in lines[1:]} == {each.id for each in finished.result.nominal}
 
 
 def test_a_key_that_every_car_has_of_its_own_reaches_none(load):

@@ -133,7 +133,7 @@ def read_stops(
     if not diagnostics:
         diagnostics.extend(_of_other_length(listed))
     if not diagnostics:
-        diagnostics.extend(_not_for_trains(tree, file, cars_of(listed)))
+        diagnostics.extend(_only_of_trains(tree, file, cars_of(listed)))
     if diagnostics:
         raise ScenarioErrors(in_reading_order(list(dict.fromkeys(diagnostics))))
     return listed
@@ -161,11 +161,8 @@ def _kind(case: Case) -> str:
     return "a car alone" if case.train is None else f"of a train of {len(case.train.scenarios)}"
 
 
-def _not_for_trains(tree: Map, file: SeriesFile, cars: int) -> Iterator[Diagnostic]:
-    """Yield `cars: all` where there is no train, and `firm` where there is one."""
+def _only_of_trains(tree: Map, file: SeriesFile, cars: int) -> Iterator[Diagnostic]:
+    """Yield `cars: all` where there is no train."""
     if file.cars == "all" and not cars:
         hint = "leave it out, or name scenarios with `train`"
         yield diagnose(tree.entries["cars"].node.place, "the stops are of cars alone", "cars", hint)
-    if file.firm and cars:
-        message = "how firm verdicts are is not known of trains"
-        yield diagnose(tree.entries["firm"].node.place, message, "firm", "leave it out")

@@ -188,7 +188,8 @@ class SweepResult:
         logarithmic: those of them that were spaced or drawn logarithmically.
         requirements: ids of those that the varied case or its criteria verify.
         test_case: its id in a test management tool, or empty.
-        nominal: the case that is varied, with how firm its verdicts are; None where nobody asked.
+        nominal: the case that is varied, or all cars of the train, with how firm the verdicts are; none where
+            nobody asked.
         worst: the cases most worth looking at, those not met first.
         subjects: descriptions of these cases, by id.
         sensitivities: Sobol indices.
@@ -226,7 +227,7 @@ class SweepResult:
     k_dry: tuple[KDry, ...] = ()
     domain_of_validity: SweepDomain | None = None
     survey: SurveyStep | None = None
-    nominal: WrittenCaseResult | None = None
+    nominal: tuple[WrittenCaseResult, ...] = ()
     notes: tuple[str, ...]
 
     def subject(self, case_id: str) -> CaseDescription:
@@ -242,7 +243,8 @@ def sweep_document(result: SweepResult) -> dict[str, Any]:
     form: dict[str, Any] = evaluation.to_json_form(_RESULT, result)
     names = list(form)
     place = names.index("worst")
-    parts = evaluation.parts_document([result.base, *(case.parts for case in result.worst)])
+    of_cases = (case.parts for case in (*result.worst, *result.nominal))
+    parts = evaluation.parts_document([result.base, *of_cases])
     head, tail = ({name: form[name] for name in some} for some in (names[:place], names[place:]))
     return {**envelope.head(envelope.RESULT, "sweep"), **head, "parts": parts, **tail}
 

@@ -188,12 +188,15 @@ _SWEPT: Final[tuple[Column[_Swept], ...]] = (
 )
 
 
-def _firmness_sections(nominal: evaluation.CaseResult) -> Iterator[Table | Lines]:
-    """Yield how firm the verdicts of the nominal case are, and the numbers by what they do to them."""
+def _firmness_sections(nominal: Sequence[evaluation.CaseResult]) -> Iterator[Table | Lines]:
+    """Yield how firm the verdicts of the nominal cases are, and the numbers by what they do to them."""
     title = "Firm or not firm: the nominal case"
-    yield Lines([f"{printable(nominal.id)}: {line}" for line in firmness_sentences(nominal)], title)
-    if nominal.firmness is not None:
-        yield firmness_table(nominal.firmness)
+    yield Lines(
+        [f"{printable(each.id)}: {line}" for each in nominal for line in firmness_sentences(each)], title
+    )
+    for each in nominal:
+        if each.firmness is not None:
+            yield firmness_table(each.firmness, "" if each.train is None else each.train.label)
 
 
 def numbers_of_sweep(result: SweepResult) -> Iterator[Table | Lines]:
@@ -205,7 +208,7 @@ def numbers_of_sweep(result: SweepResult) -> Iterator[Table | Lines]:
         yield Lines(left_out)
     if result.frontier is not None:
         yield from _frontier_sections(result.frontier)
-    if result.nominal is not None:
+    if result.nominal:
         yield from _firmness_sections(result.nominal)
 
 

@@ -97,9 +97,10 @@ def frontier_rows(frontier: Frontier, prefix: str = "") -> Iterator[dict[str, Ce
 
 
 def firmness_of_nominal(result: SweepResult) -> Iterator[dict[str, Cell]]:
-    """Yield a row for each ranged number and criterion of the nominal case; nothing where nobody asked."""
-    if result.nominal is not None and result.nominal.firmness is not None:
-        yield from firmness_rows(result.nominal.id, result.nominal.firmness)
+    """Yield a row for each ranged number and criterion of the nominal cases; nothing where nobody asked."""
+    for nominal in result.nominal:
+        if nominal.firmness is not None:
+            yield from firmness_rows(nominal.id, nominal.firmness)
 
 
 def map_csv(sweep_map: SweepMap) -> str:

@@ -97,6 +97,7 @@ class VariedTrain:
         case: any of its cars.
         jobs: number of threads.
         run_train: simulates a train with controllers from outside.
+        keeps: whether it keeps what stops come to; of a series they would fill the memory.
 
     """
 
@@ -104,6 +105,7 @@ class VariedTrain:
     case: Case
     jobs: int = 1
     run_train: rig.RunTrain | None = None
+    keeps: bool = True
     _known: dict[tuple[str, ...], list[CaseResult]] = field(default_factory=dict)
 
     def results(
@@ -126,7 +128,10 @@ class VariedTrain:
             for block, of_block in zip(blocks, done, strict=True):
                 self._known.update(zip((rows[place] for place in block), of_block, strict=True))
                 advance(len(block))
-        return [self._known[row] for row in rows]
+        results = [self._known[row] for row in rows]
+        if not self.keeps:
+            self._known.clear()
+        return results
 
     def _run(self, settings: Sequence[Mapping[str, Column]], places: Sequence[int]) -> list[list[CaseResult]]:
         trains = [self._scenarios(settings, place) for place in places]
