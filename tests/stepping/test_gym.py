@@ -8,7 +8,7 @@ import pytest
 gymnasium = pytest.importorskip("gymnasium", reason="the extra gym is not installed")
 
 import uictest.gym  # noqa: E402
-from uictest.api.stepping import RigState  # noqa: E402
+from uictest.api import RigState  # noqa: E402
 
 
 def made(path, **options):

@@ -91,7 +91,7 @@ def test_the_state_is_what_a_recording_shows_of_each_wheelset(write_scenario):
         np.testing.assert_array_equal([getattr(state, name) for state in states], recorded, name)
 
 
-@pytest.mark.parametrize("record", [0, -1, math.inf, math.nan])
+@pytest.mark.parametrize("record", [0, -1, math.inf, math.nan, "100"])
 def test_a_rate_that_is_no_number_of_samples_per_second_is_refused(write_scenario, record):
     with pytest.raises(ValueError, match="expected samples per second or None"):
         uictest.Rig(write_scenario(), record=record)
@@ -162,7 +162,7 @@ def test_commands_that_no_valve_has_leave_the_stop_where_it_is(write_scenario, c
     assert rig.step().cycle == 1
 
 
-@pytest.mark.parametrize("seed", [-1, 2**32, 1.5])
+@pytest.mark.parametrize("seed", [-1, 2**32, 1.5, "1", True])
 def test_a_seed_out_of_range_is_refused(write_scenario, seed):
     with pytest.raises(ValueError, match="expected a whole number from 0 to 4294967295"):
         uictest.Rig(write_scenario()).reset(seed)
@@ -209,8 +209,29 @@ def test_what_belongs_to_no_contract_is_refused(write_scenario):
     old.reset()
     with pytest.raises(ValueError, match="sand_request belongs to contract version 2"):
         old.step(sand_request=[0, 0, 0, 0])
-    with pytest.raises(ValueError, match="contract is 3, expected 1 or 2"):
-        uictest.Rig(write_scenario(), contract=3)
+    for contract in (3, 1.0, True):
+        with pytest.raises(ValueError, match=f"contract is {contract}, expected 1 or 2"):
+            uictest.Rig(write_scenario(), contract=contract)
+
+
+def test_a_part_that_waits_for_requests_needs_version_2(write_scenario):
+    sander = "sanders: [{wheelset: 3, density: 7.5 g/m, when: requested}]\n"
+    outside = 'controller: {connect: "tcp://127.0.0.1:1"}\n'
+    path = write_scenario(sander + outside)
+    for rig in (uictest.Rig(path), uictest.TrainRig(path)):
+        with pytest.raises(ValueError, match=r"can ask for no sander.*: create the rig with contract=2"):
+            rig.reset()
+    uictest.Rig(path, contract=2).reset()
+
+
+def test_result_and_recording_state_a_seed_that_is_not_the_scenarios(write_scenario):
+    rig = uictest.Rig(write_scenario("simulation: {maximum_duration: 20 s}\n"), record=10)
+    for seed, stated in ((5, "5"), (None, None)):
+        rig.reset(seed)
+        while not rig.stopped:
+            rig.step()
+        assert rig.result().parameters.get("seed") == stated
+        assert rig.recording().metadata.get("seed") == stated
 
 
 def test_a_request_of_version_2_brings_the_track_brake_where_the_scenario_says_so(write_scenario):

@@ -97,6 +97,8 @@ def test_the_seed_decides_the_noise_which_differs_from_car_to_car(write_train):
 @pytest.mark.parametrize(
     ("outputs", "message"),
     [
+        (FILL, "^outputs is Outputs, expected a list, one for each car$"),
+        (None, "^outputs is NoneType, expected a list"),
         ([FILL, FILL], "^2 outputs, expected one for each of 3 cars$"),
         ([FILL, Outputs((0, 0, 0), (0,) * 4), FILL], "^car 2: hold has 3 values, expected 4"),
         ([FILL, FILL, Outputs((0,) * 4, (0, 1, 0, 0))], r"^car 3: vent\[1\] is 1 and hold\[1\] is 0"),
@@ -137,6 +139,8 @@ def test_one_of_several_trains_is_chosen_by_its_id(write_train):
 def test_a_car_of_a_train_is_referred_to_the_rig_of_trains(write_train):
     with pytest.raises(ValueError, match=r"car 2 of 3: step its train with uictest.TrainRig$"):
         uictest.Rig(write_train(), "train[car=2]")
+    with pytest.raises(ValueError, match=r"car 1 of 3: step its train with uictest.TrainRig$"):
+        uictest.Rig(write_train())
 
 
 def test_calls_out_of_order_are_refused(write_train):

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 
-from uictest.api.stepping import RigState, SteppedRig, loaded, reject_failure, state_of, write_commands
+from uictest.api.stepped_rig import RigState, SteppedRig, loaded, reject_failure, state_of, write_commands
 from uictest.controllers import Inputs, Outputs, read_inputs
 from uictest.core.recording import Recording
 from uictest.judging import evaluation
@@ -19,7 +18,6 @@ from uictest.rig import (
     coupling_of,
     noise_key_text,
     peaks_beside,
-    recording_of_stop,
 )
 
 
@@ -91,6 +89,8 @@ class TrainRig(SteppedRig[SteppedTrain]):
             ValueError: commands that no valve can carry out, the message names the car; no car moves.
         """
         stop = self._running()
+        if not isinstance(outputs, Sequence):
+            raise ValueError(f"outputs is {type(outputs).__name__}, expected a list, one for each car")
         if len(outputs) != len(self.cases):
             raise ValueError(f"{len(outputs)} outputs, expected one for each of {len(self.cases)} cars")
         for number, (record, own) in enumerate(zip(stop.outputs, outputs, strict=True), start=1):
@@ -121,11 +121,11 @@ class TrainRig(SteppedRig[SteppedTrain]):
             strict=True,
         )
         return tuple(
-            replace(
+            self._stated(
                 evaluation.evaluate_simulated(
                     car, finished.measures, finished.wheelset_measures, couplers=couplers
                 ),
-                noise_key=noise_key,
+                noise_key,
             )
             for car, finished, couplers, noise_key in each_car
         )
@@ -133,7 +133,7 @@ class TrainRig(SteppedRig[SteppedTrain]):
     def recording(self) -> tuple[Recording, ...]:
         """Return the recording of each car; RuntimeError before the end of the stop or without `record`."""
         return tuple(
-            recording_of_stop(car, replace(finished, contract=self._contract), from_outside=True)
+            self._recording(car, finished)
             for car, finished in zip(self.cases, self._recorded().finished(), strict=True)
         )
 

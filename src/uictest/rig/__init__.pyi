@@ -51,6 +51,7 @@ from .external.drives import (
     drive as drive,
 )
 from .external.in_process import (
+    check_requests as check_requests,
     empty_exchange as empty_exchange,
     run_in_process as run_in_process,
     run_train_in_process as run_train_in_process,
@@ -73,7 +74,12 @@ from .simulation import (
     simulate_cars as simulate_cars,
     simulate_trains as simulate_trains,
 )
-from .single_stop import StopInputs as StopInputs, noise_key_text as noise_key_text, noise_keys as noise_keys
+from .single_stop import (
+    FinishedStop as FinishedStop,
+    StopInputs as StopInputs,
+    noise_key_text as noise_key_text,
+    noise_keys as noise_keys,
+)
 from .train_inputs import (
     Coupling as Coupling,
     assemble_train as assemble_train,

@@ -62,7 +62,7 @@ def opened(
         try:
             instance.reset()
             exchange["calling"] = NOT_CALLED
-            _check_requests(instance.contract, parameters)
+            check_requests(instance.contract, parameters)
             parameters["controller_step"] = instance.step_address
             parameters["controller_handle"] = instance.handle
             parameters["controller_contract"] = instance.contract
@@ -77,7 +77,7 @@ def opened(
         exchange["calling"] = NOT_CALLED
 
 
-def _check_requests(contract: int, parameters: Any) -> None:
+def check_requests(contract: int, parameters: Any) -> None:
     """Raise ControllerError where a part waits for a request that a controller of version 1 cannot make."""
     parts = {"track brake": parameters["track_brake_requested"], "sander": parameters["sanders_on_request"]}
     waiting = [name for name, requested in parts.items() if np.any(requested)]
