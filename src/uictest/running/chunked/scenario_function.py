@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any, Final
 
 from numpy.typing import NDArray
@@ -165,9 +165,13 @@ class ScenarioFunction:
 
 def related_keys(swept: Iterable[str], read: Iterable[str]) -> tuple[str, ...]:
     """Return the swept keys at, below or above one that is read."""
-    read = tuple(read)
-    return tuple(key for key in swept if any(_related(key, other) for other in read))
+    read = frozenset(read)
+    above = {key for other in read for key in _prefixes(other)}
+    return tuple(key for key in swept if key in above or not read.isdisjoint(_prefixes(key)))
 
 
-def _related(one: str, other: str) -> bool:
-    return one == other or one.startswith(f"{other}.") or other.startswith(f"{one}.")
+@cache
+def _prefixes(key: str) -> tuple[str, ...]:
+    """Return the keys of the sections that a key lies in, and the key itself."""
+    words = key.split(".")
+    return tuple(".".join(words[:depth]) for depth in range(1, len(words) + 1))
