@@ -110,7 +110,9 @@ def test_a_controller_from_outside_is_told_by_its_program():
     part = EffectivePart("controller", "controller", "Wsp", None, tuple(parameters))
     told = "version 1.2.0, python wsp.py, SHA-256 abababababab"
     assert part_sentences({"controller": part}) == {"controller": f"Wsp, {told}, with gain 2"}
-    assert changed_parameters({"controller": part}) == [f"controller Wsp ({told})"]
+    assert changed_parameters({"controller": part}) == [f"controller Wsp ({told}, with gain 2)"]
+    varied = ["controller.parameters.gain"]
+    assert changed_parameters({"controller": part}, varied) == [f"controller Wsp ({told})"]
     at_socket = dataclasses.replace(
         part, name="tcp://rig:1", parameters=(Parameter("controller.connect", "tcp://rig:1", "", "", "user"),)
     )

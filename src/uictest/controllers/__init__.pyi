@@ -45,6 +45,7 @@ from .declared import (
 from .interface import (
     CLOSING as CLOSING,
     EXCHANGE as EXCHANGE,
+    EXPLAINING as EXPLAINING,
     FORBIDDEN_COMMAND as FORBIDDEN_COMMAND,
     GUARD as GUARD,
     INPUTS as INPUTS,

@@ -169,6 +169,7 @@ NOT_CALLED: Final = 0
 STEPPING: Final = 1
 OPENING: Final = 2
 CLOSING: Final = 3
+EXPLAINING: Final = 4
 
 NO_FAILURE: Final = 0
 STEP_FAILED: Final = 1

@@ -148,10 +148,14 @@ def _own_root(part: evaluation.EffectivePart, told: str) -> str:
     return f"own part based on {part.based_on}" if part.based_on else "own part"
 
 
-def _given(part: evaluation.EffectivePart) -> str:
-    """Return the parameters that a controller from outside is given, except the changed ones."""
+def _given(part: evaluation.EffectivePart, varied: Collection[str] = ()) -> str:
+    """Return the parameters that a controller from outside is given, except changed and varied ones."""
     above = f"{part.key}.parameters."
-    given = [each for each in part.parameters if each.key.startswith(above) and not each.differs]
+    given = [
+        each
+        for each in part.parameters
+        if each.key.startswith(above) and not each.differs and each.key not in varied
+    ]
     if not given or evaluation.program_of(part) is None:
         return ""
     return "with " + "; ".join(f"{each.key.removeprefix(above)} {each.written}" for each in given)
@@ -160,7 +164,7 @@ def _given(part: evaluation.EffectivePart) -> str:
 def _differences(part: evaluation.EffectivePart, varied: Collection[str], told: str) -> Iterator[str]:
     # A profile has no key; every verdict shows its limits.
     if part.key and part.key not in varied and (own := _own_root(part, told)):
-        yield f"{part.key} {part.name} ({own})"
+        yield f"{part.key} {part.name} ({', '.join(filter(None, (own, _given(part, varied))))})"
     elif part.kind == "controller" and part.key not in varied and part.based_on != controllers.DEFAULT:
         yield f"{part.key} {part.name} (default: {controllers.DEFAULT})"
     yield from _changes(part, "", varied)

@@ -62,7 +62,7 @@ def test_every_report_names_the_program_and_its_version_though_it_tells_it_only_
     assert f"part controller: Wsp, {told}, with gain 2" in answer.out
     folder = Path("out/latest")
     for name in ("summary.csv", "summary.md"):
-        assert f"controller Wsp ({told})" in (folder / name).read_text("utf-8")
+        assert f"controller Wsp ({told}, with gain 2)" in (folder / name).read_text("utf-8")
     page = (folder / "index.html").read_text("utf-8")
     assert page.count(told) == 3  # in the row of the case, above its plots, and among its parts
     assert digest in page

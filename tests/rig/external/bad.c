@@ -44,6 +44,9 @@ int32_t uictest_reset(void *handle) { return strcmp(((Controller *)handle)->faul
 int32_t uictest_step(void *handle, const uictest_inputs *inputs, uictest_outputs *outputs)
 {
     Controller *controller = handle;
+    /* What the rig notes on the controller before: guard, calling, failure, failed_wheelset, cycles. */
+    if (strcmp(controller->fault, "others-guard") == 0)
+        memset((char *)inputs - 40, 1, 8);
     if (inputs->cycle != controller->at)
         return 0;
     if (strcmp(controller->fault, "crash") == 0)
@@ -53,7 +56,7 @@ int32_t uictest_step(void *handle, const uictest_inputs *inputs, uictest_outputs
             sleep(1);
     if (strcmp(controller->fault, "exit") == 0)
         _exit(3);
-    if (strcmp(controller->fault, "step") == 0)
+    if (strncmp(controller->fault, "step", 4) == 0)
         return -1;
     if (strcmp(controller->fault, "forbidden") == 0)
         outputs->vent[1] = 1;
@@ -61,6 +64,14 @@ int32_t uictest_step(void *handle, const uictest_inputs *inputs, uictest_outputs
         outputs->hold[3] = 7;
     if (strcmp(controller->fault, "beyond") == 0)
         memset(outputs, 0, sizeof *outputs + 1);
+    if (strcmp(controller->fault, "others-failure") == 0)
+        memset((char *)inputs - 24, 1, 8);
+    if (strcmp(controller->fault, "others-wheelset") == 0)
+        memcpy((char *)inputs - 24, (int64_t[]){2, 4}, 16);
+    if (strcmp(controller->fault, "others-calling") == 0) {
+        memset((char *)inputs - 32, 1, 8);
+        abort();
+    }
     return 0;
 }
 
@@ -71,4 +82,15 @@ void uictest_destroy(void *handle)
     free(handle);
 }
 
-const char *uictest_last_error(void *handle) { (void)handle; return no_reason; }
+const char *uictest_last_error(void *handle)
+{
+    const char *fault = handle ? ((Controller *)handle)->fault : "";
+    if (strcmp(fault, "step-abort") == 0)
+        abort();
+    if (strcmp(fault, "step-pointer") == 0)
+        return (const char *)1;
+    if (strcmp(fault, "step-hang") == 0)
+        for (;;)
+            sleep(1);
+    return no_reason;
+}

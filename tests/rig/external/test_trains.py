@@ -17,6 +17,7 @@ from uictest.rig import (
     run_train_in_process,
     simulate_cars,
 )
+from uictest.rig.external import worker
 from uictest.rig.external.workers import Workers
 from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
 
@@ -119,13 +120,30 @@ def test_the_stop_of_each_car_has_a_name_of_its_own_that_every_car_decides(train
         (in_c("beyond"), r"car 3 \(libbad\.so\): the controller wrote beyond its outputs \(cycle 30\)"),
         (in_c("reset"), r"car 3 \(libbad\.so\): uictest_reset returned 7: told to"),
         (in_c("destroy"), r"car 3 \(libbad\.so\): destroy crashed with SIGABRT"),
+        (in_c("step-abort"), r"car 3 \(libbad\.so\): last_error crashed with SIGABRT \(cycle 30\)"),
+        (in_c("step-pointer"), r"car 3 \(libbad\.so\): last_error crashed with SIGSEGV \(cycle 30\)"),
+        (
+            in_c("step-hang", "2 s"),
+            r"car 3 \(libbad\.so\): last_error did not return within 2 s \(cycle 30\)",
+        ),
+        (in_c("others-calling"), r"car 3 \(libbad\.so\): crashed with SIGABRT \(cycle 30\)"),
     ],
 )
-def test_a_fault_names_the_car_the_program_and_the_cycle(workers, train_of, library, car, told):
+def test_a_fault_names_the_car_the_program_and_the_cycle(workers, train_of, library, car, told, monkeypatch):
+    monkeypatch.setattr(worker, "OPENING_LIMIT", 2.0 if "step-hang" in car else worker.OPENING_LIMIT)
     library()
     sound = in_c() if "libbad" in car else python()
     with pytest.raises(ControllerError, match=f"^{told}"):
         workers.run_train(train_of(BUILT_IN, sound, car, sound))
+
+
+@pytest.mark.parametrize("place", ["failure", "wheelset", "guard"])
+def test_no_car_is_blamed_for_what_another_wrote_over(workers, train_of, library, place):
+    """Car 3 writes over what the rig notes on car 2."""
+    library()
+    told = r"^some controller of the process wrote beyond its outputs$"
+    with pytest.raises(ControllerError, match=told):
+        workers.run_train(train_of(BUILT_IN, in_c(), in_c(f"others-{place}")))
 
 
 def test_the_leading_one_of_two_cars_that_fail_at_once_is_told(train_of, library):

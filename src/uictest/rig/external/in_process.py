@@ -11,7 +11,9 @@ import numpy as np
 from uictest.controllers import (
     CLOSING,
     EXCHANGE,
+    EXPLAINING,
     FORBIDDEN_COMMAND,
+    GUARD,
     NO_FAILURE,
     NO_MAGNET_STATE,
     NO_REDUCTION,
@@ -40,6 +42,10 @@ _FAILURES: Final = {
     NO_REDUCTION: "the reduction of the dynamic brake of wheelset {wheelset} is {reduction}, expected 0 to 1",
     NO_REQUEST: "a request is neither 0 nor 1: sand at wheelset {wheelset} {sand}, track brake {track_brake}",
 }
+
+
+class DamagedExchangeError(ControllerError):
+    """A library wrote over the exchange of a controller, maybe of another: nobody is to blame for certain."""
 
 
 def empty_exchange() -> Any:
@@ -89,13 +95,19 @@ def check_requests(contract: int, parameters: Any) -> None:
 
 
 def raise_failure(exchange: Any, instance: ControllerInstance) -> None:
-    """Raise ControllerError if the controller failed, with the reason and the cycle."""
-    failure = int(exchange["failure"])
+    """Raise ControllerError if the controller failed, with the reason and the cycle.
+
+    Raises:
+        DamagedExchangeError: when what the rig noted on the controller is not what it left there.
+    """
+    failure, place = int(exchange["failure"]), int(exchange["failed_wheelset"])
+    if _is_damaged(exchange, failure, place):
+        exchange["failure"] = WROTE_BEYOND
+        raise DamagedExchangeError("some controller of the process wrote beyond its outputs")
     if failure == NO_FAILURE:
         return
-    place = int(exchange["failed_wheelset"])
     reason = _FAILURES[failure].format(
-        error=instance.last_error() or "no reason given",
+        error=_explanation(exchange, instance) if failure == STEP_FAILED else "",
         wheelset=place + 1,
         hold=exchange["hold"][place],
         vent=exchange["vent"][place],
@@ -104,6 +116,20 @@ def raise_failure(exchange: Any, instance: ControllerInstance) -> None:
         track_brake=exchange["track_brake_request"],
     )
     raise ControllerError(f"{reason} (cycle {exchange['cycle']})")
+
+
+def _is_damaged(exchange: Any, failure: int, place: int) -> bool:
+    if failure == NO_FAILURE:  # then the guard is whole: a broken one is a failure when its step returns
+        return place != 0 or bool(exchange["cycles"] and exchange["guard"] != GUARD)
+    return failure not in _FAILURES or not 0 <= place < len(exchange["hold"])
+
+
+def _explanation(exchange: Any, instance: ControllerInstance) -> str:
+    """Ask why a step failed; whoever watches sees which controller is asked."""
+    exchange["calling"] = EXPLAINING
+    error = instance.last_error()
+    exchange["calling"] = NOT_CALLED
+    return error or "no reason given"
 
 
 def run_in_process(inputs: StopInputs, steps_per_sample: int = 0, exchange: Any = None) -> FinishedStop:
@@ -170,6 +196,8 @@ def of_car(car: int, program: ControllerProgram) -> Iterator[None]:
     """Let the error of a controller name its car, which is counted from 0, and its program."""
     try:
         yield
+    except DamagedExchangeError:
+        raise
     except ControllerError as error:
         name = program.location if program.kind == "connect" else Path(program.location).name
         raise ControllerError(f"car {car + 1} ({name}): {error}") from error

@@ -19,6 +19,7 @@ import numpy as np
 from uictest.controllers import (
     CLOSING,
     EXCHANGE,
+    EXPLAINING,
     NOT_CALLED,
     OPENING,
     STEPPING,
@@ -63,6 +64,7 @@ _NAMES: Final = {
     STEPPING: "step",
     OPENING: "loading, create or reset",
     CLOSING: "destroy",
+    EXPLAINING: "last_error",
     NOT_CALLED: "what runs outside of its calls (a destructor, a thread)",
 }
 
@@ -127,6 +129,8 @@ class Worker:
 
     def _answer(self, request: Message, programs: Any, read: Callable[[Message], Read]) -> Read:
         """Return what is read in the answer. Raises ControllerError; a damaged child is not used again."""
+        # Only those in use: a library may write over any.
+        self._exchanges = np.frombuffer(self._memory, EXCHANGE, len(programs))
         try:
             answer = self._asked(request, [program.time_limit for program in programs])
             error = answer.head.get("error", "")
@@ -176,13 +180,18 @@ class Worker:
 
     def _state(self) -> tuple[int, int, int]:
         """Return which stop's controller is asked at present, for what, and how many steps were begun."""
-        calling = self._exchanges["calling"]
+        calling = self._calling()
         place = int(calling.argmax())
         return place, int(calling[place]), int(self._exchanges["cycles"].sum())
 
+    def _calling(self) -> Any:
+        """Return what each controller is asked at present; what a library wrote over it is no call."""
+        calling = self._exchanges["calling"]
+        return np.where(np.isin(calling, list(_NAMES)), calling, NOT_CALLED)
+
     def _lost(self, what: str) -> LostChildError:
         """Return the error of the stop whose controller has not returned."""
-        calling = np.flatnonzero(self._exchanges["calling"])
+        calling = np.flatnonzero(self._calling())
         place = int(calling[0]) if calling.size else None
         exchange = self._exchanges[place or 0]
         cycle = f"cycle {exchange['cycle']}" if exchange["cycles"] else "before the first cycle"
@@ -196,7 +205,7 @@ class Worker:
         except subprocess.TimeoutExpired:
             return "closed what its answers go through"
         crash = f"crashed with {signal.Signals(-code).name}" if code < 0 else ""
-        within = f"{_NAMES[calling]} " if calling in (OPENING, CLOSING) else ""
+        within = "" if calling in (STEPPING, NOT_CALLED) else f"{_NAMES[calling]} "
         return within + (crash or f"ended its process with exit code {code}")
 
 
