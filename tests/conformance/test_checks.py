@@ -109,6 +109,26 @@ SHARED = """\
 """
 
 
+@pytest.mark.usefixtures("here")
+def test_memory_that_a_reset_empties_is_found_where_two_controllers_work_in_turn(examine):
+    """As in a block of a sweep or in the cars of a train."""
+    examination = examine("    def reset(self)", EMPTIED)
+    assert "same-beside-another" in missed(examination)
+    assert "same-after-reset" not in missed(examination)
+
+
+EMPTIED = """\
+    @property
+    def reference_speed(self):
+        return MyWsp.estimate
+
+    @reference_speed.setter
+    def reference_speed(self, value):
+        MyWsp.estimate = value
+
+    def reset(self)"""
+
+
 def test_only_fields_of_answers_are_compared():
     """A controller in C that assigns the whole structure leaves anything behind them."""
     one, other = np.zeros((2, 5), OUTPUTS)

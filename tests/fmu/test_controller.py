@@ -14,6 +14,8 @@ from uictest.api import fmu
 from uictest.controllers import ControllerError
 from uictest.plans import templates
 from uictest.plans.scenario import load, load_controller
+from uictest.selftest import conformance
+from uictest.selftest.conformance.bench import Bench
 
 from ..stop_bits import stop_bits
 from .conftest import Instance
@@ -180,6 +182,9 @@ def test_an_fmu_that_can_be_instantiated_once_serves_one_car(folder, exported, v
         figures(folder, f"{{fmu: {path.name}}}")
     alone = recorded(folder, f"{{fmu: {path.name}}}")
     assert alone["speed"] == recorded(folder, "slip-band")["speed"]
+    with Bench(conformance.subject_of("once", load_controller(str(path)))) as bench:
+        answered = [len(driven.outputs) > 0 for driven in bench.anything().drives]
+    assert answered == [True, True, True, False]
 
 
 @VERSIONS

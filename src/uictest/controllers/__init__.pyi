@@ -3,6 +3,7 @@ from .adapters.instance import (
     CalledInstance as CalledInstance,
     ControllerError as ControllerError,
     ControllerInstance as ControllerInstance,
+    OnlyOneError as OnlyOneError,
     ResponseTimes as ResponseTimes,
     read_inputs as read_inputs,
     stated_declarations as stated_declarations,

@@ -33,6 +33,10 @@ class ControllerError(Exception):
         super().__init__(message[:LONGEST_MESSAGE] + more)
 
 
+class OnlyOneError(ControllerError):
+    """A controller cannot be loaded because one of its kind is open, and a process can have only one."""
+
+
 @dataclass(frozen=True, slots=True)
 class ResponseTimes:
     """How a controller answered in a stop that was paced by the clock.

@@ -1,7 +1,8 @@
 """A controller from outside driven through given cycles in this process, without the rig."""
 
 import ctypes
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from time import perf_counter
 from typing import Any, Final, Literal, NamedTuple
 
@@ -23,6 +24,7 @@ from uictest.controllers import (
     Config,
     ControllerInstance,
     ControllerProgram,
+    OnlyOneError,
     open_controller,
 )
 from uictest.rig.external.in_process import raise_failure
@@ -36,8 +38,9 @@ VENTING_TIME: Final = 0.6
 DYNAMIC_RESPONSE: Final = 0.3
 """Time constant of a motor that follows what is asked of it, s; chosen, that of `brake.dynamic`."""
 
-Beginning = Literal["create", "reset"]
-"""How a drive begins: with a new controller, or with the one of the drive before."""
+Beginning = Literal["create", "reset", "beside"]
+"""How a drive begins: with a new controller, with the one of the drive before, or with a new one beside
+another that is shown the same inputs, last first, each before the controller is shown its own."""
 
 
 class DriveRequest(NamedTuple):
@@ -82,32 +85,89 @@ class Drives(NamedTuple):
 
 
 def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
-    """Drive a controller in this process. Raises ControllerError where it fails."""
-    instance: ControllerInstance | None = None
-    drives = []
-    try:
+    """Drive a controller in this process. Raises ControllerError where it fails.
+
+    A drive beside another controller has no answers where only one can be open in a process.
+    """
+    drives: list[Driven] = []
+    with ExitStack() as controllers:
+        instance: ControllerInstance | None = None
         for beginning in request.beginnings:
-            if beginning == "create":
-                closed, instance = instance, None
-                _close(closed, exchange)
-                exchange["calling"] = OPENING
-                instance = open_controller(request.program, request.config)
+            if beginning != "reset":
+                controllers.close()
+                instance = controllers.enter_context(_opened(request, exchange))
             if instance is None:
                 raise ValueError("the first drive begins with a new controller")
-            exchange["calling"] = OPENING
-            instance.reset()
-            exchange["calling"] = NOT_CALLED
-            drives.append(drive(instance, request.inputs, request.config.cycle_time, exchange))
+            with _called(exchange, OPENING):
+                instance.reset()
+            if beginning == "beside":
+                drives.append(_drive_beside(instance, request, exchange))
+            else:
+                drives.append(drive(instance, request.inputs, request.config.cycle_time, exchange))
         if instance is None:
             return Drives("", ())
         return Drives(instance.version, tuple(drives), instance.declares, instance.contract)
+
+
+@contextmanager
+def _opened(request: DriveRequest, exchange: Any) -> Iterator[ControllerInstance]:
+    with _called(exchange, OPENING):
+        instance = open_controller(request.program, request.config)
+    try:
+        yield instance
     finally:
-        _close(instance, exchange)
+        with _called(exchange, CLOSING):
+            instance.close()
+
+
+@contextmanager
+def _called(exchange: Any, calling: int) -> Iterator[None]:
+    """Say in the exchange what a controller is called for."""
+    exchange["calling"] = calling
+    try:
+        yield
+    finally:
+        exchange["calling"] = NOT_CALLED
 
 
 def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float, exchange: Any) -> Driven:
     """Drive a controller that has been reset. Raises ControllerError where it fails."""
-    seconds, answers = np.zeros(len(inputs)), bytearray()
+    return _driven(_answers(instance, inputs, cycle_time, exchange))
+
+
+def _drive_beside(instance: ControllerInstance, request: DriveRequest, exchange: Any) -> Driven:
+    """Drive a controller that has been reset while another one is driven."""
+    inputs, cycle_time = request.inputs, request.config.cycle_time
+    with ExitStack() as others:
+        try:
+            other = others.enter_context(_opened(request, exchange))
+        except OnlyOneError:
+            return _driven(())
+        with _called(exchange, OPENING):
+            other.reset()
+        both = zip(
+            _answers(other, inputs[::-1], cycle_time, exchange),
+            _answers(instance, inputs, cycle_time, exchange),
+            strict=True,
+        )
+        return _driven(own for _, own in both)
+
+
+def _driven(answers: Iterable[tuple[bytes, float]]) -> Driven:
+    outputs, seconds = bytearray(), []
+    for answer, duration in answers:
+        outputs += answer
+        seconds.append(duration)
+    return Driven(np.frombuffer(outputs, OUTPUTS), np.array(seconds, float))
+
+
+def _answers(
+    instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float, exchange: Any
+) -> Iterator[tuple[bytes, float]]:
+    """Yield what a controller answers in each cycle, as bytes, and how long that took.
+
+    Between two cycles the exchange may serve another controller. Raises ControllerError.
+    """
     address = exchange.__array_interface__["data"][0]
     memory: Any = (ctypes.c_char * EXCHANGE.itemsize).from_address(address)
     names = "cylinder_pressure", "hold", "vent", "dynamic_reduction", "sand_request", "dynamic_brake"
@@ -131,7 +191,7 @@ def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float,
         exchange["calling"] = STEPPING
         started = perf_counter()
         status = call_step(instance.step_address, instance.handle, address)
-        seconds[cycle] = perf_counter() - started
+        seconds = perf_counter() - started
         exchange["calling"] = NOT_CALLED
         beyond = exchange["guard"] != GUARD
         if beyond or (
@@ -141,19 +201,12 @@ def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float,
         elif status != 0:
             exchange["failure"] = STEP_FAILED
         raise_failure(exchange, instance)
-        answers += memory[OUTPUTS_AT : OUTPUTS_AT + OUTPUTS.itemsize]
+        answer = memory[OUTPUTS_AT : OUTPUTS_AT + OUTPUTS.itemsize]
         full, magnets = max(demanded), zip(hold.tolist(), vent.tolist(), strict=True)
         newest = [
             _pressure_after(*each, full, cycle_time) for each in zip(newest, demanded, magnets, strict=True)
         ]
-    return Driven(np.frombuffer(answers, OUTPUTS), seconds)
-
-
-def _close(instance: ControllerInstance | None, exchange: Any) -> None:
-    if instance is not None:
-        exchange["calling"] = CLOSING
-        instance.close()
-        exchange["calling"] = NOT_CALLED
+        yield answer, seconds
 
 
 def _pressure_after(

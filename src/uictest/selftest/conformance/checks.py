@@ -7,7 +7,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from uictest.controllers import ControllerError
-from uictest.selftest.conformance.bench import Answers, Bench, Subject
+from uictest.selftest.conformance.bench import REPEATED, Answers, Bench, Subject
 from uictest.selftest.conformance.situations import ROLLS_AGAIN, SLIDE_BEGINS, WHEELSETS
 from uictest.selftest.findings import Examination, Finding, Status
 
@@ -65,10 +65,17 @@ def _illegal_in_version_2(outputs: Any) -> Any:
 
 
 def _same_after_reset(bench: Bench) -> Observation:
-    first, after_reset, second = bench.anything().drives
+    first, after_reset, second, *_ = bench.anything().drives
     different = [_different(first.outputs, other.outputs) for other in (after_reset, second)]
     words = f"after reset {different[0]} cycles differ, with a second controller {different[1]}"
     return Observation(sum(different), words)
+
+
+def _same_beside_another(bench: Bench) -> Observation:
+    first, *_, beside = drives = bench.anything().drives
+    if len(drives) < len(REPEATED) or not len(beside.outputs):
+        return Observation(None, "only one can be asked at a time")
+    return Observation(_different(first.outputs, beside.outputs), "answered in turn with a second controller")
 
 
 def _different(one: Any, other: Any) -> int:
@@ -219,6 +226,7 @@ def _listed(times: list[float]) -> str:
 CHECKS: Final = (
     Check("legal-commands", "Only commands that a valve has.", 0, "1", _legal_commands),
     Check("same-after-reset", "The same answers after reset.", 0, "cycles", _same_after_reset),
+    Check("same-beside-another", "The same answers beside another.", 0, "cycles", _same_beside_another),
     Check("keeps-brake", "Brake force is kept on a good rail.", 0, "cycles", _keeps_brake),
     Check("vents-sliding", "A sliding wheelset is vented.", 1.0, "s", _vents_sliding),
     Check("spares-rolling", "The others are not vented.", 0, "cycles", _spares_rolling),

@@ -24,7 +24,7 @@ from uictest.controllers.adapters.fmu.names import (
     grouped,
 )
 from uictest.controllers.adapters.fmu.slave import Slave, load_slave
-from uictest.controllers.adapters.instance import CalledInstance, ControllerError
+from uictest.controllers.adapters.instance import CalledInstance, ControllerError, OnlyOneError
 from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import WHEELSETS, Config, Inputs, Outputs
 
@@ -83,7 +83,7 @@ class _Slaves:
         path = Path(program.location)
         others = self.in_use
         if others and others[0].description.coSimulation.canBeInstantiatedOnlyOncePerProcess:
-            raise ControllerError(
+            raise OnlyOneError(
                 f"{path.name} can be instantiated only once in a process, so that only one car of a train can"
                 " have it"
             )
