@@ -185,3 +185,19 @@ def test_a_program_at_a_socket_serves_one_car(cases):
     assert len(cases(apart)) == 2
     with pytest.raises(ScenarioErrors, match=r"127\.0\.0\.1:1 is the address of car 1, too"):
         cases(twice)
+
+
+OWN = "train: [{controller: slip-band}, {controller: {extends: threshold, cycle_time: 10 ms}}]\n"
+
+
+@pytest.mark.parametrize(
+    ("more", "overrides"),
+    [("", ["controller=threshold"]), ("matrix: {controller: [threshold, slip-band]}\n", [])],
+)
+def test_a_value_that_no_car_of_the_train_has_is_an_error(cases, more, overrides):
+    """Cases of two such values would be one stop under two names."""
+    told = "controller: every car of the train has a 'controller' of its own"
+    with pytest.raises(ScenarioErrors, match=told):
+        cases(OWN + more, *overrides)
+    one = OWN.replace("{controller: slip-band}", "{expect: fail}")
+    assert {case.scenario.controller.name for case in cases(one + more, *overrides)} >= {"threshold"}

@@ -21,7 +21,7 @@ from uictest.plans.scenario.overrides import Override, apply_overrides, parse_ov
 from uictest.plans.scenario.rail_friction import changed_alone, overridden_alone
 from uictest.plans.scenario.references import Parts
 from uictest.plans.scenario.resolution import with_default_parts
-from uictest.plans.scenario.resolved_cars import resolved_cars
+from uictest.plans.scenario.resolved_cars import reaching_no_car, resolved_cars
 from uictest.plans.scenario.train import (
     is_train,
     with_default_vehicles,
@@ -194,6 +194,9 @@ class _Loader:
         """Return the case of a variant; of a train those of its cars, which name each other."""
         tree = self._varied(file.tree, variant)
         cars = resolved_cars(file.path, tree, self.parts)
+        given = {each.key: Entry(each.place, each.values[0]) for each in self.overrides}
+        given |= {setting.key: setting.value for setting in variant}
+        self.diagnostics.extend(reaching_no_car(tree, given))
         scenarios = tuple(scenario for (scenario, _), _ in cars)
         named = scenarios[0].name, variant, file.short, file.labels
         if not is_train(tree):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from uictest.plans.scenario.coupling import require_couplable
@@ -13,12 +13,15 @@ from uictest.plans.scenario.train import car_trees, is_train
 from uictest.plans.scenario.yaml import (
     Diagnostic,
     Document,
+    Entry,
     Map,
     Node,
     Place,
     ScenarioErrors,
     Sequence,
     collecting,
+    diagnose,
+    quoted,
     visible,
     whole_file,
 )
@@ -48,6 +51,25 @@ def resolved_cars(path: Path, tree: Map, parts: Parts) -> list[ResolvedCar]:
         entries = _entry_of_position(tree)
         raise ScenarioErrors(_named(each, entries) for each in diagnostics)
     return cars
+
+
+def reaching_no_car(tree: Map, given: Mapping[str, Entry]) -> Iterator[Diagnostic]:
+    """Yield what is given to a whole train by dotted key and no car has: each has something else of its own.
+
+    Two cases that differ in such a key alone would be the same stop under two names.
+    """
+    train = tree.get("train")
+    entries = [item for item in train.items if isinstance(item, Map)] if isinstance(train, Sequence) else []
+    for key, value in given.items():
+        head = key.partition(".")[0]
+        if not entries or not all(head in item.entries for item in entries):
+            continue
+        reached = {place for car, _ in car_trees(tree) for place in _places(car)}
+        if reached.isdisjoint(_places(value.node)):
+            message = f"every car of the train has a {quoted(head)} of its own"
+            yield diagnose(
+                value.node.place, message, key, f"name the car: train.0.{key} is that of the first"
+            )
 
 
 def own_keys(tree: Map, keys: Iterable[str]) -> list[dict[str, str]]:
