@@ -1,9 +1,8 @@
 from .adapters import open_controller as open_controller
+from .adapters.errors import ControllerError as ControllerError, OnlyOneError as OnlyOneError
 from .adapters.instance import (
     CalledInstance as CalledInstance,
-    ControllerError as ControllerError,
     ControllerInstance as ControllerInstance,
-    OnlyOneError as OnlyOneError,
     ResponseTimes as ResponseTimes,
     read_inputs as read_inputs,
     stated_declarations as stated_declarations,

@@ -81,7 +81,8 @@ UICTEST_EXPORT const char *uictest_version(void);
 /* The parameters that it knows, a JSON object: {"pause": {"default": 0.5, "unit": "s", "range": [0, 10]}}.
  * What a scenario gives besides, or beyond a range, ends the stop as an error. May be left out. */
 UICTEST_EXPORT const char *uictest_parameters(void);
-/* A controller, or NULL: uictest_last_error(NULL) says why. */
+/* A controller with memory of its own, several of which may be in use, or NULL: uictest_last_error(NULL) says
+ * why. */
 UICTEST_EXPORT void *uictest_create(const uictest_config *config);
 /* Return to the state after create. 0, or any other number: uictest_last_error says why. */
 UICTEST_EXPORT int32_t uictest_reset(void *controller);

@@ -9,7 +9,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.controllers import Config
+from uictest.controllers import Config, ControllerProgram
 from uictest.plans.scenario import Case, Coupler, Scenario, program_problems
 from uictest.rig.assembly import assemble
 from uictest.rig.model.couplers import COUPLER
@@ -86,21 +86,26 @@ def assemble_train(cases: Sequence[Case], coupling: Coupling) -> TrainInputs:
 def _configs(train: TrainInputs) -> tuple[Config | None, ...]:
     """Return what controllers from outside are given: their stop is named by all that decides the train's.
 
-    The SHA-256 is that of the bytes of all records, of all programs' parameters and of the car's place.
+    The SHA-256 is that of the bytes of all records, of the car's place, of the parameters of its program, and
+    of the whole programs of the others: as for a car alone, another version of its own has the same stop.
     """
-    records = (np.ascontiguousarray(each).tobytes() for each in train[:5])
-    given = ("" if each is None else each.parameters for each in train.programs)
-    whole = hashlib.sha256(b"".join(records) + json.dumps([*given]).encode())
+    records = b"".join(np.ascontiguousarray(each).tobytes() for each in train[:5])
+    named = [None if each is None else _named(each) for each in train.programs]
 
-    def of_car(place: int) -> str:
-        own = whole.copy()
-        own.update(place.to_bytes(4, "little"))
-        return own.hexdigest()
+    def of_car(place: int, own: ControllerProgram) -> str:
+        programs = [*named[:place], own.parameters, *named[place + 1 :]]
+        return hashlib.sha256(records + json.dumps([place, programs]).encode()).hexdigest()
 
     return tuple(
-        None if config is None else replace(config, case_sha256=of_car(place))
-        for place, config in enumerate(train.configs)
+        None if program is None or config is None else replace(config, case_sha256=of_car(place, program))
+        for place, (program, config) in enumerate(zip(train.programs, train.configs, strict=True))
     )
+
+
+def _named(program: ControllerProgram) -> list[Any]:
+    """Return what decides how a program acts; where its file lies does not."""
+    where = [] if program.sha256 else [program.location]
+    return [program.kind, program.sha256, *where, program.options, program.parameters]
 
 
 def _check(cases: Sequence[Case], inputs: Sequence[StopInputs]) -> None:

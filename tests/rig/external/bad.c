@@ -27,7 +27,12 @@ const char *uictest_parameters(void) { return STATED; }
 
 void *uictest_create(const uictest_config *config)
 {
+#ifdef SHARED
+    static Controller of_all;
+    Controller *controller = &of_all;
+#else
     Controller *controller = calloc(1, sizeof *controller);
+#endif
     const char *fault = strstr(config->parameters, "\"fault\": \"");
     const char *at = strstr(config->parameters, "\"at\": ");
     if (fault)
@@ -79,7 +84,9 @@ void uictest_destroy(void *handle)
 {
     if (strcmp(((Controller *)handle)->fault, "destroy") == 0)
         abort();
+#ifndef SHARED
     free(handle);
+#endif
 }
 
 const char *uictest_last_error(void *handle)

@@ -2,6 +2,7 @@
 
 import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -105,6 +106,23 @@ def test_the_stop_of_each_car_has_a_name_of_its_own_that_every_car_decides(train
     first, second = train_of(python(), python()), train_of(python(), "{brake: {command: 90 %}}", python())
     names = [config.case_sha256 for train in (first, second) for config in train.configs if config]
     assert len({*names}) == 4
+
+
+def test_another_program_of_another_car_is_another_stop_but_not_one_of_its_own(train_of):
+    """As for a car alone, whose stop keeps its name when its controller is changed."""
+    Path("other.py").write_text(Path("bad.py").read_text("utf-8") + "\n", "utf-8")
+    before = [config.case_sha256 for config in train_of(python(), python("raise", file="other.py")).configs]
+    shutil.copy("bad.py", "other.py")
+    after = [config.case_sha256 for config in train_of(python(), python("raise", file="other.py")).configs]
+    assert (after[0] != before[0], after[1] == before[1]) == (True, True)
+
+
+def test_cars_whose_library_has_one_state_for_all_are_an_error(workers, train_of, library):
+    library("-DSHARED")
+    told = r"^car 2 \(libbad\.so\): uictest_create returned a controller that is in use"
+    with pytest.raises(ControllerError, match=told):
+        workers.run_train(train_of(in_c(), in_c()), 0)
+    assert workers.run_train(train_of(in_c(), BUILT_IN), 0).cars[0].controller_version == "1.2"
 
 
 @pytest.mark.parametrize(

@@ -6,12 +6,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
-from uictest.controllers.adapters.instance import (
-    ControllerError,
-    ControllerInstance,
-    checked_contract,
-    reject_undeclared,
-)
+from uictest.controllers.adapters.errors import ControllerError
+from uictest.controllers.adapters.instance import ControllerInstance, checked_contract, reject_undeclared
 from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import WHEELSETS, Config
 
@@ -42,6 +38,8 @@ _FUNCTIONS: Final[dict[str, tuple[Any, tuple[Any, ...]]]] = {
 """Name behind `uictest_` -> type of the result, types of the arguments."""
 _LOADED: Final[dict[str, str]] = {}
 """Libraries that this process has loaded: path -> SHA-256."""
+_IN_USE: Final[set[int]] = set()
+"""Handles of the controllers that are open in this process."""
 
 
 class LibraryInstance(ControllerInstance):
@@ -60,6 +58,11 @@ class LibraryInstance(ControllerInstance):
         handle = library.uictest_create(ctypes.byref(given))
         if not handle:
             raise ControllerError(f"uictest_create failed: {_last_error(library, None) or 'no reason given'}")
+        if handle in _IN_USE:  # both would step one state, and mix their stops
+            raise ControllerError(
+                "uictest_create returned a controller that is in use: each needs memory of its own"
+            )
+        _IN_USE.add(handle)
         self.handle = int(handle)
         self.step_address = ctypes.cast(library.uictest_step, ctypes.c_void_p).value or 0
 
@@ -76,6 +79,7 @@ class LibraryInstance(ControllerInstance):
 
     def close(self) -> None:
         """Call `uictest_destroy`."""
+        _IN_USE.discard(self.handle)
         self._library.uictest_destroy(self.handle)
 
 

@@ -14,27 +14,14 @@ from pathlib import Path
 from struct import Struct
 from typing import Any, Final, NamedTuple
 
+from uictest.controllers.adapters.errors import ControllerError
 from uictest.controllers.declared import CONTRACTS, ControllerProgram, nothing_declared, parameter_problems
 from uictest.controllers.interface import INPUTS, OUTPUT_BYTES, OUTPUTS, WHEELSETS, Inputs, Outputs
 
 STEP: Final = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 """`uictest_step`."""
 _LARGEST_DIAGNOSIS: Final = 2**32 - 1
-LONGEST_MESSAGE: Final = 2000
-"""Characters of what is told about a failure; chosen: a reason stands in every report."""
 _PACKAGE: Final = Path(__file__).parents[2]
-
-
-class ControllerError(Exception):
-    """A controller cannot be loaded, or failed; the message says why."""
-
-    def __init__(self, message: str) -> None:
-        more = " ..." if len(message) > LONGEST_MESSAGE else ""
-        super().__init__(message[:LONGEST_MESSAGE] + more)
-
-
-class OnlyOneError(ControllerError):
-    """A controller cannot be loaded because one of its kind is open, and a process can have only one."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,12 +10,8 @@ from threading import Lock
 from types import ModuleType
 from typing import Any, Final
 
-from uictest.controllers.adapters.instance import (
-    CalledInstance,
-    ControllerError,
-    checked_contract,
-    reason_of,
-)
+from uictest.controllers.adapters.errors import ControllerError
+from uictest.controllers.adapters.instance import CalledInstance, checked_contract, reason_of
 from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import Config, Inputs, Outputs
 

@@ -12,8 +12,8 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
+from uictest.controllers.adapters.errors import ControllerError
 from uictest.controllers.adapters.instance import (
-    ControllerError,
     ControllerInstance,
     checked_contract,
     reason_of,

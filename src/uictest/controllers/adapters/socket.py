@@ -25,12 +25,8 @@ from contextlib import suppress
 from time import monotonic, sleep
 from typing import Final
 
-from uictest.controllers.adapters.instance import (
-    CallbackInstance,
-    ControllerError,
-    ResponseTimes,
-    checked_contract,
-)
+from uictest.controllers.adapters.errors import ControllerError
+from uictest.controllers.adapters.instance import CallbackInstance, ResponseTimes, checked_contract
 from uictest.controllers.adapters.turns import Turn
 from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import INPUT_BYTES, OUTPUT_BYTES, WHEELSETS, Config

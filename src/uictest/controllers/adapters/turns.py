@@ -6,7 +6,7 @@ from threading import Lock
 from time import monotonic, sleep
 from typing import Final
 
-from uictest.controllers.adapters.instance import ControllerError
+from uictest.controllers.adapters.errors import ControllerError
 
 STARTING: Final = 5.0
 """Longest time in which a program starts to listen, s; chosen: an interpreter takes about one."""

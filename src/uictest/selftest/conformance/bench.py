@@ -114,7 +114,7 @@ def _blank(record: Any) -> Any:
     return SimpleNamespace(**dict.fromkeys(fields_of(record), 0))
 
 
-REPEATED: tuple[rig.Beginning, ...] = ("create", "reset", "create", "beside")
+REPEATED: tuple[rig.Beginning, ...] = ("create", "reset", "create")
 
 
 class Answers:
@@ -200,12 +200,12 @@ class Bench:
         )
 
     def anything(self) -> Answers:
-        """Answers to random inputs: of a new controller, after a reset, of a second one, of one beside
-        another. A program at a socket need not serve two at once.
-        """
-        program = self.subject.program
-        at_socket = program is not None and program.kind == "connect"
-        return self._once("anything", situations.anything, REPEATED[:3] if at_socket else REPEATED)
+        """Answers to random inputs: of a new controller, after a reset, and of a second one."""
+        return self._once("anything", situations.anything, REPEATED)
+
+    def beside_another(self) -> Answers:
+        """Answers to random inputs: of a controller alone, and of one beside another."""
+        return self._once("beside another", situations.anything, ("create", "beside"))
 
     def every_situation(self) -> list[Answers]:
         """Answers in all situations."""

@@ -1,15 +1,13 @@
-"""What every WSP should keep: the checks, and a controller examined by them."""
+"""What every WSP should keep: the checks."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from uictest.controllers import ControllerError
-from uictest.selftest.conformance.bench import REPEATED, Answers, Bench, Subject
+from uictest.selftest.conformance.bench import Answers, Bench
 from uictest.selftest.conformance.situations import ROLLS_AGAIN, SLIDE_BEGINS, WHEELSETS
-from uictest.selftest.findings import Examination, Finding, Status
 
 
 class Observation(NamedTuple):
@@ -65,17 +63,20 @@ def _illegal_in_version_2(outputs: Any) -> Any:
 
 
 def _same_after_reset(bench: Bench) -> Observation:
-    first, after_reset, second, *_ = bench.anything().drives
+    first, after_reset, second = bench.anything().drives
     different = [_different(first.outputs, other.outputs) for other in (after_reset, second)]
     words = f"after reset {different[0]} cycles differ, with a second controller {different[1]}"
     return Observation(sum(different), words)
 
 
 def _same_beside_another(bench: Bench) -> Observation:
-    first, *_, beside = drives = bench.anything().drives
-    if len(drives) < len(REPEATED) or not len(beside.outputs):
-        return Observation(None, "only one can be asked at a time")
-    return Observation(_different(first.outputs, beside.outputs), "answered in turn with a second controller")
+    program = bench.subject.program
+    if program is not None and program.kind == "connect":
+        return Observation(None, "a program at a socket need not serve two")
+    alone, beside = bench.beside_another().drives
+    if not len(beside.outputs):
+        return Observation(None, "a process can have only one")
+    return Observation(_different(alone.outputs, beside.outputs), "answered in turn with a second controller")
 
 
 def _different(one: Any, other: Any) -> int:
@@ -242,64 +243,3 @@ CHECKS: Final = (
     Check("motor-back", "A motor gets its brake back.", 3.0, "s", _motor_back, contract=2),
 )
 """In the order of the report; what only a later version of the contract has comes last."""
-
-
-class Examined(NamedTuple):
-    """What a check of a controller has found, and the situations of each check that is missed, by its id."""
-
-    examination: Examination
-    missed: Mapping[str, Mapping[str, Answers]]
-
-
-def examine(subject: Subject, checks: Sequence[Check] = CHECKS) -> Examination:
-    """Check a controller; a crash, a hang or an exception of it is a finding with the status `error`."""
-    return examined(subject, checks).examination
-
-
-def examined(subject: Subject, checks: Sequence[Check] = CHECKS) -> Examined:
-    """Check a controller and keep what it has answered where it misses a check."""
-    findings, missed = [], {}
-    with Bench(subject) as bench:
-        for check in checks:
-            if check.contract > bench.contract:
-                continue
-            bench.asked = {}
-            finding = _finding(check, bench, subject.name)
-            findings.append(finding)
-            if finding.status in ("fail", "error") and bench.asked:
-                missed[check.id] = bench.asked
-        about = {f"controller.{name}": text for name, text in subject.description.items()}
-        about["controller.version"] = bench.version
-        title = _title(subject, bench.version)
-    return Examined(Examination("controller check", title, about, tuple(findings)), missed)
-
-
-def _title(subject: Subject, version: str) -> str:
-    described = subject.description
-    told = f", version {version}" if version else ""
-    digest = f", SHA-256 {described['sha256'][:12]}" if "sha256" in described else ""
-    return f"controller {described['name']} ({described['kind']}{told}{digest})"
-
-
-def _finding(check: Check, bench: Bench, controller: str) -> Finding:
-    try:
-        value, words = check.observe(bench)
-        status = _status(check, value)
-    except ControllerError as error:
-        value, words, status = None, str(error), "error"
-    return Finding(
-        *(check.id, controller, check.requirement, status),
-        expected=check.limit,
-        found=value,
-        tolerance=None,
-        unit=check.unit,
-        reason=words,
-    )
-
-
-def _status(check: Check, value: float | None) -> Status:
-    if value is None:
-        return "skipped"
-    if value <= check.limit:
-        return "pass"
-    return "warning" if check.advisory else "fail"

@@ -9,7 +9,8 @@ import sys
 from contextlib import redirect_stdout
 from importlib.util import find_spec
 
-from uictest.controllers.adapters.instance import ControllerError, ControllerInstance
+from uictest.controllers.adapters.errors import ControllerError
+from uictest.controllers.adapters.instance import ControllerInstance
 from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import Config
 

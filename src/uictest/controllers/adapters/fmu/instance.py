@@ -14,6 +14,7 @@ from pathlib import Path
 from threading import local
 from typing import Any, Final
 
+from uictest.controllers.adapters.errors import ControllerError, OnlyOneError
 from uictest.controllers.adapters.fmu.names import (
     BoundVariable,
     Declared,
@@ -24,7 +25,7 @@ from uictest.controllers.adapters.fmu.names import (
     grouped,
 )
 from uictest.controllers.adapters.fmu.slave import Slave, load_slave
-from uictest.controllers.adapters.instance import CalledInstance, ControllerError, OnlyOneError
+from uictest.controllers.adapters.instance import CalledInstance
 from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import WHEELSETS, Config, Inputs, Outputs
 

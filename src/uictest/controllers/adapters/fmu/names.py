@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from math import prod
 from typing import Any, Final
 
+from uictest.controllers.adapters.errors import ControllerError
 from uictest.controllers.adapters.fmu.slave import Slave
-from uictest.controllers.adapters.instance import ControllerError
 from uictest.controllers.declared import unknown_parameter
 from uictest.controllers.interface import WHEELSETS
 

@@ -22,7 +22,8 @@ from zipfile import BadZipFile, ZipFile
 import fmpy
 from fmpy import fmi1, fmi2, fmi3
 
-from uictest.controllers.adapters.instance import ControllerError, reason_of
+from uictest.controllers.adapters.errors import ControllerError
+from uictest.controllers.adapters.instance import reason_of
 from uictest.core import files
 
 _VERSIONS: Final = ("2.0", "3.0")
