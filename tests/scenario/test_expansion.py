@@ -72,6 +72,16 @@ def test_values_that_are_mappings_are_counted_or_named(loaded, head):
     assert cases[1].parameters["rail.friction"] == "{points: [{position: 0 m, friction: 0.2}]}"
 
 
+def test_the_short_key_of_one_entry_of_a_train_names_it():
+    """Every car's id has it: `controller` alone would say that of all cars."""
+    assert short_keys(["train.1.controller", "train.1.brake.command", "train.10.controller", "seed"]) == {
+        "train.1.controller": "train.1.controller",
+        "train.1.brake.command": "train.1.command",
+        "train.10.controller": "train.10.controller",
+        "seed": "seed",
+    }
+
+
 def test_short_keys_are_as_long_as_they_must_be():
     assert short_keys(["vehicle.body.mass", "vehicle.bogie.mass", "mass.x", "seed"]) == {
         "vehicle.body.mass": "body.mass",

@@ -80,7 +80,10 @@ def test_a_car_is_the_same_in_whatever_chunk(loaded):
 def test_cases_that_a_page_draws_are_cars_of_their_trains(loaded):
     first, second, other = loaded().cases(np.array([3, 4, 23]))
     assert first.train.scenarios is second.train.scenarios
-    assert (first.train.train, second.train.number) == ("study[friction=0.04,command=80,position=P]", 2)
+    assert (first.train.train, second.train.number) == (
+        "study[friction=0.04,command=80,train.1.position=P]",
+        2,
+    )
     assert [each.brake.command for each in other.train.scenarios] == [1.0, 0.5, 0.5]
     assert other.train.scenarios[1] is other.train.scenarios[2] is other.scenario
 

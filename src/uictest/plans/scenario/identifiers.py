@@ -31,6 +31,7 @@ NO_LABELS: Final[Labels] = MappingProxyType({})
 _DIGITS: Final = 8
 """Of a SHA-256 that tells two programs apart."""
 
+_ENTRY = re.compile(r"train\.\d+\.")
 _UNSAFE = re.compile(r"[^A-Za-z0-9.+_-]")
 
 
@@ -81,8 +82,23 @@ def _told_apart(program: tuple[str, str, str], programs: set[tuple[str, str, str
 
 
 def short_keys(keys: list[str]) -> dict[str, str]:
-    """The last part of every dotted key, or the shortest tail that is unique."""
-    return {key: _shortest_tail(key, [other for other in keys if other != key]) for key in keys}
+    """The last part of every dotted key, or the shortest tail that is unique.
+
+    That of one entry of `train` begins with the entry: the ids of all cars have it.
+    """
+    entries = {key: found.group() if (found := _ENTRY.match(key)) else "" for key in keys}
+    return {
+        key: entry
+        + _shortest_tail(
+            key.removeprefix(entry),
+            [
+                other.removeprefix(entry)
+                for other, of_other in entries.items()
+                if other != key and of_other == entry
+            ],
+        )
+        for key, entry in entries.items()
+    }
 
 
 def _shortest_tail(key: str, others: list[str]) -> str:
