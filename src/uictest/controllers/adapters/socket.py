@@ -135,8 +135,10 @@ class Connection:
             return self._stream.recv_into(self._memory[received:])
         except TimeoutError:
             amount = f"only {received} of {needed} bytes of the answer" if received else "no answer"
+            # One address under two names is one program: its second stop waits for the end of the first.
+            hint = "; does the program serve another stop?" if kind == HELLO and not received else ""
             limit = f"{self._time_limit:g} s"
-            raise ControllerError(f"{amount} to the {_NAMES[kind]} within {limit}") from None
+            raise ControllerError(f"{amount} to the {_NAMES[kind]} within {limit}{hint}") from None
         except OSError as error:
             raise ControllerError(f"the connection broke: {error.strerror or error}") from None
 
