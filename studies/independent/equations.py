@@ -15,7 +15,6 @@ whose friction varies, wheelsets that differ, faults, the cylinder filter of the
 
 from __future__ import annotations
 
-import math
 from types import SimpleNamespace
 from typing import Final
 
@@ -23,13 +22,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from studies.independent.car import Car
-from studies.independent.modules import ModelledAir, Openings
+from studies.independent.modules import ModelledAir, openings_of_car
 from studies.independent.orifice import Orifice
 from uictest import Case, Recording
 
 Array = NDArray[np.float64]
 
-"""Of the reference atmosphere of ISO 8778, kg/m3 and K."""
 _SLOWEST: Final = 0.01
 """Running speed below which creepage is taken at this speed, m/s: a definition of the model."""
 _WHEELSETS: Final = np.arange(4)
@@ -81,8 +79,7 @@ class Equations:
         self.car = Car(scenario.vehicle)
         self.weight_along_rail = self.car.weight * float(self.rail.gradient)
         self._read_brake()
-        self.openings = [Openings(stop, n, scenario) for n in range(1, 5)]
-        self._asked = math.nan, np.empty((3, 4))
+        self.valves = openings_of_car(stop, scenario)
         computes = scenario.rig.topology == "one-caliper"
         self.modelled_air = ModelledAir(scenario) if computes else None
 
@@ -244,7 +241,7 @@ class Equations:
 
     def _flow(self, time: float, y: Array, dy: Array) -> None:
         brake, mass, warmth = self.brake, y[PLACES["mass"]], y[PLACES["temperature"]]
-        fill, vent, acting = self._valves(time)
+        fill, vent, acting = self.valves(time)
         volume = self.volume + self.area * y[PLACES["stroke"]]
         pressure = mass * self.gas * warmth / volume
         line_mass, line_warmth = y[PLACES["line"]]
@@ -269,13 +266,6 @@ class Equations:
             modelled = self.modelled_air.rates(state, (fill, vent, acting), self.orifice)
             for name, rate in modelled.items():
                 dy[PLACES[name]] = rate
-
-    def _valves(self, time: float) -> Array:
-        """Return the openings of fill and vent and the share of the WSP's lines, of each module."""
-        # A Jacobian asks for all columns at one time.
-        if time != self._asked[0]:
-            self._asked = time, np.array([each.at(time) for each in self.openings]).T
-        return self._asked[1]
 
     def _move_pistons(self, y: Array, dy: Array, gauge: Array) -> None:
         caliper, stroke = self.caliper, y[PLACES["stroke"]]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
@@ -44,6 +45,13 @@ class Openings:
         """Return the openings of fill and vent and the share of the WSP's lines at a time."""
         fill, vent, acting = (float(np.interp(time, *each)) for each in (self.fill, self.vent, self.acting))
         return fill, vent, acting
+
+
+def openings_of_car(stop: Recording, scenario: Any) -> Callable[[float], Array]:
+    """Return what gives those of all modules at a time, shape (3, 4): fill, vent, share of the lines."""
+    valves = [Openings(stop, number, scenario) for number in range(1, 5)]
+    # A Jacobian asks for all columns at one time.
+    return lru_cache(maxsize=1)(lambda time: np.array([each.at(time) for each in valves]).T)
 
 
 def _followed(

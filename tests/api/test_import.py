@@ -17,8 +17,8 @@ def test_importing_loads_nothing_heavy():
 
 
 def test_the_public_names_are_these_and_each_has_a_docstring():
-    names = "Case CaseResult Recording Results Rig ScenarioErrors SweepResults Validation evaluate load"
-    others = "read_recording read_results run simulate sweep validate"
+    names = "Case CaseResult Recording Results Rig ScenarioErrors SweepResults TrainRig Validation evaluate"
+    others = "load read_recording read_results run simulate sweep validate"
     assert sorted(uictest.__all__) == [*names.split(), *others.split()]
     assert all(getattr(uictest, name).__doc__ for name in uictest.__all__)
 
