@@ -128,15 +128,18 @@ class SteppedRig(Generic[_Stop]):
             raise RuntimeError(f"the stop has not ended after {stop.time:g} s: call step()")
         return stop
 
+    @property
+    def _given_seed(self) -> dict[str, str]:
+        """What results and recordings state of the seed, where it is not the scenario's."""
+        return {} if self._seed is None else {"seed": str(self._seed)}
+
     def _stated(self, result: evaluation.CaseResult, noise_key: str) -> evaluation.CaseResult:
-        """Return a result that names the noise of its stop, and the seed where that is not the scenario's."""
-        of_seed = {} if self._seed is None else {"seed": str(self._seed)}
-        return replace(result, noise_key=noise_key, parameters={**result.parameters, **of_seed})
+        """Return a result that names the noise of its stop."""
+        return replace(result, noise_key=noise_key, parameters={**result.parameters, **self._given_seed})
 
     def _recording(self, case: scenario.Case, finished: FinishedStop) -> Recording:
-        of_seed = {} if self._seed is None else {"seed": str(self._seed)}
         found = recording_of_stop(case, replace(finished, contract=self._contract), from_outside=True)
-        return replace(found, metadata={**found.metadata, **of_seed})
+        return replace(found, metadata={**found.metadata, **self._given_seed})
 
     def _recorded(self) -> _Stop:
         if self._record is None:
