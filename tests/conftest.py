@@ -29,7 +29,6 @@ from uictest.selftest import dossier
 
 _LONGEST = (
     "rig/backends/test_lanes.py",
-    "api/test_page.py",
     "identification/test_cylinder.py",
     "rig/model/test_module_air.py",
     "docs/test_examples.py",
