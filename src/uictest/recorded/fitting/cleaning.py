@@ -146,11 +146,18 @@ class _Joint:
         recovered: float | None = None,
         *,
         start: tuple[float, float] | None = None,
+        near: Solution | None = None,
         noise: Sequence[float] | None,
         steps: int = _STEPS,
     ) -> Solution:
-        """Return the solution with energy or recovered friction given, or begun with at `start`."""
+        """Return the solution with energy or recovered friction given, or begun with at `start`.
+
+        The unknowns of the stops begin with those of a solution that is near.
+        """
         first, second = start or (energy or 1.0, recovered or HIGHEST)
+        begin = [v for stop in self.stops for v in stop.start]
+        if near is not None:
+            begin = near.values[: len(begin)].tolist()
         common = [np.log(first)] * (energy is None) + [second] * (recovered is None)
         lowest = [np.log(LOWEST_ENERGY)] * (energy is None) + [LOWEST] * (recovered is None)
         highest = [np.log(HIGHEST_ENERGY)] * (energy is None) + [HIGHEST] * (recovered is None)
@@ -163,7 +170,7 @@ class _Joint:
 
         return solve(
             residuals,
-            np.array([*(v for stop in self.stops for v in stop.start), *common]),
+            np.array([*begin, *common]),
             (
                 [*(v for stop in self.stops for v in stop.bounds[0]), *lowest],
                 [*(v for stop in self.stops for v in stop.bounds[1]), *highest],
@@ -177,7 +184,8 @@ class _Joint:
         """Return the solution from where different energies to begin with lead best."""
         start = [(energy, recovered) for energy in energies]
         tried = [self.solve(start=each, noise=None, steps=_FIRST_STEPS) for each in start]
-        return self.solve(start=_pair(min(tried, key=lambda each: each.misfit)), noise=None)
+        least = min(tried, key=lambda each: each.misfit)
+        return self.solve(start=_pair(least), near=least, noise=None)
 
     def frictions(self, solution: Solution) -> tuple[tuple[list[float], ...], tuple[list[float], ...]]:
         """Return the friction of the free stretches of each stop, and the half widths."""
@@ -221,7 +229,7 @@ def _is_determined(joint: _Joint, free: Solution) -> bool:
     if log_width > WIDEST or width > WIDEST * recovered:
         return False
     others = [energy / (1.0 + WIDEST), energy * (1.0 + WIDEST)]
-    costs = [joint.solve(energy=w, start=(w, recovered), noise=free.noise).cost for w in others]
+    costs = [joint.solve(energy=w, start=(w, recovered), near=free, noise=free.noise).cost for w in others]
     return min(costs) > free.cost + free.significance
 
 
@@ -237,7 +245,7 @@ def _estimate(joint: _Joint, free: Solution) -> CleaningEstimate:
 def _with_stated_friction(joint: _Joint, free: Solution, recovered: float) -> CleaningEstimate:
     """Return the energy that belongs to the recovered friction of the scenario."""
     start = (_pair(free)[0], recovered)
-    solution = joint.solve(recovered=recovered, start=start, noise=free.noise)
+    solution = joint.solve(recovered=recovered, start=start, near=free, noise=free.noise)
     energy, width = float(np.exp(solution.values[-1])), solution.half_widths[-1]
     share = joint.largest_share(solution, energy, recovered)
     nan = float("nan")
@@ -249,7 +257,8 @@ def _least_energy(joint: _Joint, bare: Solution, recovered: float) -> CleaningEs
     low, high = np.log(LOWEST_ENERGY), np.log(HIGHEST_ENERGY)
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
-        cost = joint.solve(energy=float(np.exp(middle)), recovered=recovered, noise=bare.noise).cost
+        energy = float(np.exp(middle))
+        cost = joint.solve(energy=energy, recovered=recovered, near=bare, noise=bare.noise).cost
         contradicted = cost > bare.cost + bare.significance
         low, high = (middle, high) if contradicted else (low, middle)
     energy, nan = float(np.exp(high)), float("nan")
