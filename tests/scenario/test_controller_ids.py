@@ -16,6 +16,7 @@ BOTH = "matrix: {controller: [v23/wsp.yaml, v24/wsp.yaml]}\n"
 
 def _part(write, folder, program, name="name: wsp\n", more=""):
     """Write a controller; return the digits of its program."""
+    program += "class Wsp: ...\n"
     write(f"{folder}/wsp.py", program.encode())
     write(
         f"{folder}/wsp.yaml",

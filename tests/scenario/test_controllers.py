@@ -19,6 +19,7 @@ PROGRAM = b'__version__ = "1.2.0"\nclass Wsp: ...\n'
         ("{parameters: {a: 1}}", "controller", "no controller is named", "one of python, library, fmu"),
         ("{slip_threshold: 5 km/h}", "controller", "no controller is named", "write `extends: threshold`"),
         ("{python: wsp.py}", "controller.class", "missing key 'class'", "Name of the class in that file."),
+        ("{python: wsp.py, class: Wps}", "controller.class", "wsp.py has no class 'Wps'", "mean 'Wsp'?"),
         ("{python: wsp.py, clss: Wsp}", "controller.clss", "unknown key 'clss'", "did you mean 'class'?"),
         (
             "{python: wsp.py, class: Wsp, connect: 'tcp://127.0.0.1:1'}",
@@ -59,6 +60,49 @@ def test_what_to_write_instead(refused, write, head, controller, key, message, h
     assert message in diagnostics[key].message
     assert hint in diagnostics[key].hint
     assert diagnostics[key].line == 4
+
+
+@pytest.mark.parametrize(
+    ("content", "place", "reason"),
+    [
+        ("class Wsp:\n    def step(self:\n", (2, 13), "SyntaxError: '(' was never closed"),
+        ("class Wsp:\n    a = 1\n   b = 2\n", (3, 9), "IndentationError: unindent does not match"),
+        ("class Wsp: ...\nreturn Wsp\n", (2, 1), "SyntaxError: 'return' outside function"),
+    ],
+)
+def test_a_file_that_is_no_python_is_an_error_at_its_line(refused, write, head, content, place, reason):
+    write("wsp.py", content)
+    (error,) = refused(f"{head}controller: {{python: wsp.py, class: Wsp}}\n")
+    assert (error.file, error.line, error.column) == ("wsp.py", *place)
+    assert f"cannot be imported: {reason}" in error.message
+    assert error.excerpt.splitlines()[0] == content.splitlines()[place[0] - 1]
+
+
+def test_a_class_is_looked_for_among_those_of_the_file(refused, write, head):
+    write("wsp.py", 'class Slow: ...\n@final\nclass Fast(Slow):\n    def Wsp(self): ...\ndef make(): "Wsp"\n')
+    (error,) = refused(f"{head}controller: {{python: wsp.py, class: Wsp}}\n")
+    assert (error.file, error.line, error.column) == ("stop.yaml", 4, 37)
+    assert (error.message, error.hint) == ("wsp.py has no class 'Wsp'", "accepted: Fast, Slow")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "from acme import Wsp\n",
+        "import acme as Wsp\n",
+        "from acme import *\n",
+        "Wsp = made()\n",
+        "globals()['W' + 'sp'] = type\n",
+        "def make():\n    global Wsp\n    Wsp = type\n",
+        "def __getattr__(name): ...\n",
+        "if True:\n    class Wsp: ...\n",
+        "class Wsp:\n    unknown_escape = '\\d'\n",
+        "(" + "x = 1\n" * 22_000,  # large: nothing of it but the declarations is parsed
+    ],
+)
+def test_a_class_that_only_a_run_can_tell_is_left_to_it(loaded, write, head, content):
+    write("wsp.py", content)
+    assert loaded(f"{head}controller: {{python: wsp.py, class: Wsp}}\n")
 
 
 def test_a_file_is_identified_and_not_run(loaded, write, head):

@@ -175,13 +175,19 @@ def test_declarations_that_cannot_be_read_name_the_line_of_the_program(
     assert (error.file, error.line) == ("wsp.py", 2)
 
 
-@pytest.mark.parametrize(
-    "content",
-    [b"PARAMETERS = (", b"\x00PARAMETERS", b"'''\nPARAMETERS = no example\n'''\n", b"PARAMETERS: dict\n"],
-)
+@pytest.mark.parametrize("content", [b"'''\nPARAMETERS = no example\n'''\n", b"PARAMETERS: dict\n"])
 def test_a_file_without_declarations_is_no_error_of_its_own(loaded, write, head, content):
-    write("wsp.py", content)
+    write("wsp.py", content + b"class Wsp: ...\n")
     assert loaded(f"{head}controller: {{python: wsp.py, class: Wsp}}\n")
+
+
+@pytest.mark.parametrize("content", [b"PARAMETERS = (", b"\x00PARAMETERS"])
+def test_the_declarations_of_a_file_that_is_no_python_are_no_error_of_their_own(
+    refused, write, head, content
+):
+    write("wsp.py", content)
+    (error,) = refused(f"{head}controller: {{python: wsp.py, class: Wsp}}\n")
+    assert (error.file, error.key) == ("wsp.py", "")
 
 
 def test_of_a_large_file_only_the_declarations_are_parsed(write, head, refused, monkeypatch):

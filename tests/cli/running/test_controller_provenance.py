@@ -102,7 +102,7 @@ def test_a_baseline_and_compare_say_that_it_is_of_another_build(call, stop, prog
 def test_a_recording_of_such_a_stop_can_be_judged_and_drawn(call, stop):
     """Without its controller: the recording says what it did."""
     run = call("run", stop, "--record", "all", "-o", "out")
-    (stop.parent / "wsp.py").write_text("raise SystemExit('never run')\n", "utf-8")
+    (stop.parent / "wsp.py").write_text("raise SystemExit('never run')\nclass Wsp: ...\n", "utf-8")
     recording = Path("out/latest/recordings/stop.parquet")
     judged = call("evaluate", recording, "--scenario", stop, "-o", "judged")
     assert judged.code == run.code == 0

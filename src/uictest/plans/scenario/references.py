@@ -8,8 +8,9 @@ from uictest.controllers import installed_names
 from uictest.plans import library
 from uictest.plans.scenario.declared_parameters import with_declared_parameters
 from uictest.plans.scenario.files import Files
-from uictest.plans.scenario.parts.external_controller import ExternalController
+from uictest.plans.scenario.parts.external_controller import ExternalController, PythonController
 from uictest.plans.scenario.program_files import mapping_for, program_files, version_stated_for
+from uictest.plans.scenario.python_class import require_class
 from uictest.plans.scenario.yaml import (
     LIBRARY,
     Document,
@@ -95,6 +96,8 @@ class Parts:
         version = version_stated_for(tree, programs.values())
         stated = {"version": version} if version else {}
         part = validated(model, {**stated, **plain(tree), **programs}, tree, key)
+        if isinstance(part, PythonController):
+            require_class(part, tree, self.files, key)
         if isinstance(part, ExternalController):
             part = with_declared_parameters(part, tree, self.files, key)
         return part, tuple(file.document for file in programs.values())
