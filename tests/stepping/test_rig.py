@@ -3,6 +3,7 @@
 import math
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -30,10 +31,11 @@ def test_a_stop_has_result_and_recording_of_run(write_scenario, controller_outsi
     rig = uictest.Rig(path, record=100)
     [case] = load([path])
     run = campaign.run_stop(campaign.Stop(case), campaign.RecordingRequest("all", every=0.01)).case_run
-    assert result_document([drive(rig, controller_outside(case))]) == result_document([run.result])
+    expected = replace(run.result, controller_contract=1)  # one from outside keeps one
+    assert result_document([drive(rig, controller_outside(case))]) == result_document([expected])
     recorded, of_run = rig.recording(), run.recording
     assert recorded.units == of_run.units | {"diagnosis": "1"}
-    assert recorded.metadata == of_run.metadata
+    assert recorded.metadata | {"controller": "threshold"} == of_run.metadata  # ours has no name
     for name in of_run.channels:
         np.testing.assert_array_equal(recorded[name], of_run[name])
 
@@ -198,6 +200,7 @@ def test_commands_of_version_2_reduce_the_dynamic_brake_which_does_not_drop(writ
     while not dropped.stopped:
         dropped.step(hold=[0, 0, 0, 1])
     assert dropped.recording()["dynamic_torque_1"].max() == 0.0
+    assert [each.result().controller_contract for each in (rig, dropped)] == [2, 1]
 
 
 def test_what_belongs_to_no_contract_is_refused(write_scenario):

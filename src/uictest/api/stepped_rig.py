@@ -134,8 +134,9 @@ class SteppedRig(Generic[_Stop]):
         return {} if self._seed is None else {"seed": str(self._seed)}
 
     def _stated(self, result: evaluation.CaseResult, noise_key: str) -> evaluation.CaseResult:
-        """Return a result that names the noise of its stop."""
-        return replace(result, noise_key=noise_key, parameters={**result.parameters, **self._given_seed})
+        """Return a result that names the contract and the noise of its stop."""
+        parameters = {**result.parameters, **self._given_seed}
+        return replace(result, controller_contract=self._contract, noise_key=noise_key, parameters=parameters)
 
     def _recording(self, case: scenario.Case, finished: FinishedStop) -> Recording:
         found = recording_of_stop(case, replace(finished, contract=self._contract), from_outside=True)

@@ -211,9 +211,12 @@ def _stop_of_car(
 ) -> SimulatedStop:
     """Return a stop of a car, alone or in a train; `config` is that of a controller from outside."""
     from_outside = config is not None
+    recording = recording_of_stop(case, finished, from_outside=from_outside) if recorded else None
+    if recording is not None:
+        metadata = {**recording.metadata, **_facts_of_controller(case, finished)}
+        recording = replace(recording, metadata=metadata)
     return SimulatedStop(
-        *(finished.measures, finished.wheelset_measures),
-        recording_of_stop(case, finished, from_outside=from_outside) if recorded else None,
+        *(finished.measures, finished.wheelset_measures, recording),
         finished.controller_version,
         finished.contract if from_outside else 0,
         finished.response_times,
@@ -273,3 +276,10 @@ def _facts(case: Case, finished: FinishedStop) -> dict[str, str]:
     if case.scenario.faults:
         facts["faults"] = ", ".join(fault.label for fault in case.scenario.faults)
     return facts
+
+
+def _facts_of_controller(case: Case, finished: FinishedStop) -> dict[str, str]:
+    """Return the name of the controller of a stop, and the version that one from outside has."""
+    controller = case.scenario.controller
+    version = getattr(controller, "version", None) or finished.controller_version
+    return {"controller": controller.label, **({"controller_version": version} if version else {})}

@@ -189,11 +189,15 @@ def test_a_fault_ends_its_train_and_leaves_the_others_and_no_process(cases):
     assert [result.controller_contract for result in results] == [1, 0, 0, 0, 1, 0]
 
 
-def test_recordings_have_the_channels_of_each_cars_own_controller(cases):
-    outside, built_in = simulate_cars(cases(python(), BUILT_IN), 0.01, run_train_in_process)
-    assert "diagnosis" in outside.recording.channels
-    assert "diagnosis" not in built_in.recording.channels
-    assert (outside.controller_contract, built_in.controller_contract) == (1, 0)
+def test_recordings_have_the_channels_and_the_name_of_each_cars_own_controller(cases, library):
+    library()
+    stops = simulate_cars(cases(python(), BUILT_IN, in_c()), 0.01, run_train_in_process)
+    assert ["diagnosis" in stop.recording.channels for stop in stops] == [True, False, True]
+    assert [stop.controller_contract for stop in stops] == [1, 0, 1]
+    facts = [stop.recording.metadata for stop in stops]
+    assert [each["controller"] for each in facts] == ["Bad", "threshold", "libbad"]
+    # That of the library is known once it is asked.
+    assert [each.get("controller_version") for each in facts] == ["1.2", None, "1.2"]
 
 
 def test_a_process_serves_the_trains_of_one_set_of_programs(train_of, library):
