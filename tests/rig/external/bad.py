@@ -29,8 +29,8 @@ class Bad:
             time.sleep(3600.0)
         if self.fault == "hang-later":
             # The main thread then waits for the next stop.
-            signal.signal(signal.SIGALRM, lambda number, frame: time.sleep(3600.0))
-            signal.setitimer(signal.ITIMER_REAL, 0.5)
+            signal.signal(signal.SIGALRM, lambda number, frame: hang_and_tell())
+            signal.setitimer(signal.ITIMER_REAL, 0.1)
 
     def reset(self):
         if self.fault == "reset":
@@ -50,6 +50,11 @@ class Bad:
 def spin():
     while True:
         pass
+
+
+def hang_and_tell():
+    Path("hangs.txt").touch()
+    time.sleep(3600.0)
 
 
 def hold_the_interpreter():

@@ -20,15 +20,23 @@ HERE = Path(__file__).parent
 Compile = Callable[..., Path]
 
 
+@pytest.fixture(scope="module")
+def _place(tmp_path_factory):
+    """Where the programs of a module lie: a child process serves those of one place, for all its tests."""
+    return tmp_path_factory.mktemp("programs")
+
+
 @pytest.fixture
-def folder(tmp_path, monkeypatch):
-    """The working folder, with a scenario and a controller in Python."""
-    monkeypatch.chdir(tmp_path)
-    shutil.copy(HERE / "bad.py", tmp_path)
-    (tmp_path / "stop.yaml").write_text(
+def folder(_place, monkeypatch):
+    """The working folder, with a scenario and a controller in Python and nothing else."""
+    monkeypatch.chdir(_place)
+    for left in _place.iterdir():
+        shutil.rmtree(left) if left.is_dir() else left.unlink()
+    shutil.copy(HERE / "bad.py", _place)
+    (_place / "stop.yaml").write_text(
         "schema: uictest/scenario/1\nname: stop\ninitial_speed: 40 km/h\n", "utf-8"
     )
-    return tmp_path
+    return _place
 
 
 @pytest.fixture(scope="session")

@@ -129,7 +129,7 @@ def test_cars_whose_library_has_one_state_for_all_are_an_error(workers, train_of
     ("car", "told"),
     [
         (python("crash"), r"car 3 \(bad\.py\): crashed with SIGSEGV \(cycle 30\)"),
-        (python("hang", "2 s"), r"car 3 \(bad\.py\): step did not return within 2 s \(cycle 30\)"),
+        (python("hang", "0.5 s"), r"car 3 \(bad\.py\): step did not return within 0.5 s \(cycle 30\)"),
         (python("raise"), r"car 3 \(bad\.py\): step failed: ValueError: told to \(bad\.py, line \d+\) \("),
         (python("nan"), r"car 3 \(bad\.py\): step failed: hold\[0\] is nan, expected 0 or 1 \(cycle 30\)"),
         (python("create"), r"car 3 \(bad\.py\): Bad\(config\) failed: ValueError: told to"),
@@ -141,14 +141,14 @@ def test_cars_whose_library_has_one_state_for_all_are_an_error(workers, train_of
         (in_c("step-abort"), r"car 3 \(libbad\.so\): last_error crashed with SIGABRT \(cycle 30\)"),
         (in_c("step-pointer"), r"car 3 \(libbad\.so\): last_error crashed with SIGSEGV \(cycle 30\)"),
         (
-            in_c("step-hang", "2 s"),
-            r"car 3 \(libbad\.so\): last_error did not return within 2 s \(cycle 30\)",
+            in_c("step-hang", "0.5 s"),
+            r"car 3 \(libbad\.so\): last_error did not return within 0.5 s \(cycle 30\)",
         ),
         (in_c("others-calling"), r"car 3 \(libbad\.so\): crashed with SIGABRT \(cycle 30\)"),
     ],
 )
 def test_a_fault_names_the_car_the_program_and_the_cycle(workers, train_of, library, car, told, monkeypatch):
-    monkeypatch.setattr(worker, "OPENING_LIMIT", 2.0 if "step-hang" in car else worker.OPENING_LIMIT)
+    monkeypatch.setattr(worker, "OPENING_LIMIT", 0.5 if "step-hang" in car else worker.OPENING_LIMIT)
     library()
     sound = in_c() if "libbad" in car else python()
     with pytest.raises(ControllerError, match=f"^{told}"):
