@@ -231,6 +231,7 @@ def test_the_page_of_a_sweep_says_what_is_changed_in_every_case_and_what_varies(
 
     steady = of_varied("rail.friction")
     assert f"changed in every case: {CHANGE}" in sweep_page_html(steady)
+    assert f"changed in every case of car 1: {CHANGE}" in sweep_page_html(of_varied("car"))
     swept = of_varied(SLIP.key)
     html = sweep_page_html(swept)
     assert "changed in every case" not in html

@@ -134,6 +134,7 @@ from .sweep.result import (
     SobolSensitivity as SobolSensitivity,
     SweepMap as SweepMap,
     SweepResult as SweepResult,
+    SweptController as SweptController,
     Trend as Trend,
 )
 from .sweep.summary_tables import numbers_of_sweep as numbers_of_sweep

@@ -49,10 +49,9 @@ def changed_parameters(
 ) -> list[str]:
     """Return what differs from the library in a case: `controller.slip_threshold 3 km/h (library: ...)`.
 
-    The controller under test comes first, also one of the library that is not the default.
-
-    Values of the scenario itself are compared with its defaults. The keys of `varied` are left out.
-    `told` as for :func:`part_sentence`.
+    The controller under test comes first, also one of the library that is not the default. Values of the
+    scenario itself are compared with its defaults. The keys of `varied` are left out. `told` as for
+    :func:`part_sentence`.
     """
     controller_first = sorted(parts.values(), key=lambda part: part.kind != "controller")
     return [printable(change) for part in controller_first for change in _differences(part, varied, told)]
@@ -94,12 +93,17 @@ def controllers_text(results: Iterable[evaluation.CaseResult], uictest_version: 
         name, version = controller_of(result, uictest_version)
         if not name:
             continue
-        kind = "built into" if evaluation.program_in(result.parts) is None else "version"
-        known = [f"{kind} {version}"] if version else []
-        known += [f"contract {result.controller_contract}"] if result.controller_contract else []
-        text = f"{name} ({', '.join(known)})" if known else name
+        built_in = evaluation.program_in(result.parts) is None
+        text = controller_text(name, version, result.controller_contract, built_in=built_in)
         acts[text] = acts.get(text, False) or not is_bypassed(result.parts)
     return ", ".join(text if active else f"{text}, bypassed" for text, active in acts.items())
+
+
+def controller_text(name: str, version: str, contract: int = 0, *, built_in: bool) -> str:
+    """Return the name of a controller with its version and the contract that it kept, if known."""
+    known = [f"{'built into' if built_in else 'version'} {version}"] if version else []
+    known += [f"contract {contract}"] if contract else []
+    return f"{name} ({', '.join(known)})" if known else name
 
 
 def vehicles_text(results: Iterable[evaluation.CaseResult]) -> str:

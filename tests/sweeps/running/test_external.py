@@ -5,12 +5,13 @@ import pickle
 import numpy as np
 import pytest
 
-from uictest import rig
+from uictest import __version__, rig
 from uictest.core.measures import STOP_COLUMNS
-from uictest.plans.sweeps import programs_of
+from uictest.plans.sweeps import each_controller, programs_of
+from uictest.report import SweptController
 from uictest.rig import run_in_process
 from uictest.running.campaign import RecordingRequest, Stop, map_on_threads, run_stop
-from uictest.running.chunked import chunk_runner, cluster
+from uictest.running.chunked import chunk_runner, cluster, named_controller
 from uictest.running.chunked.store import program_digest
 
 from ..conftest import rows
@@ -63,6 +64,27 @@ def test_trains_have_the_same_bits_with_controllers_of_all_kinds(load, library, 
     assert {row["outcome"] for row in built_in} == {"skipped"}
     assert with_common_noise(found, "{library") == built_in
     assert with_common_noise(found, "{python") == built_in
+
+
+def test_rows_and_result_name_the_controller_of_each_case(load, library, python_file):
+    given = f"{{library: {library}, version: '2.0'}}, {{python: {python_file}}}"
+    threshold, others = ("threshold", f"uictest {__version__}"), [("libband", "2.0"), ("SlipBand", "")]
+    alone = load(f"matrix:\n  rail.friction: [0.06, 0.08]\n  controller: [threshold, {given}]\n")
+    drawn = f"{{controller: {{choice: [threshold, {given}]}}}}"
+    chosen = load(f"sample: {{size: 1, seed: 2, parameters: {drawn}}}\n")
+    train = load(f"matrix:\n  train.1.controller: [{given}]\n{FRICTIONS}", stop=TRAIN)
+    assert names_in(rows_of(alone)) == [threshold, *others] * 2
+    assert names_in(rows_of(train)) == [each for own in others for each in (threshold, own) * 3]
+    for plan in (alone, chosen, train):
+        assert [*dict.fromkeys(map(named_controller, each_controller(plan)))] == [
+            SweptController(*threshold),
+            SweptController("libband", "2.0", "library"),
+            SweptController("SlipBand", "", "python"),
+        ]
+
+
+def names_in(found):
+    return [(row["controller"], row["controller_version"]) for row in found]
 
 
 @pytest.mark.parametrize("jobs", [1, 2])

@@ -22,7 +22,7 @@ from uictest.analysis.summaries.trends import MOST_VALUES, MapSums, TrendSums
 from uictest.analysis.summaries.worst import WorstCases, summary_files
 from uictest.judging.evaluation import EffectiveParts
 from uictest.plans.scenario import named_requirements
-from uictest.plans.sweeps import Plan, drawn_ranges, saltelli_sample
+from uictest.plans.sweeps import Plan, drawn_ranges, each_controller, saltelli_sample
 from uictest.report import (
     MET,
     MeasureHistogram,
@@ -34,7 +34,14 @@ from uictest.report import (
     domain_notes,
     survey_notes,
 )
-from uictest.running.chunked import CaseSelection, ChunkStore, repeated_cases, survey_step, text_column
+from uictest.running.chunked import (
+    CaseSelection,
+    ChunkStore,
+    named_controller,
+    repeated_cases,
+    survey_step,
+    text_column,
+)
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -228,6 +235,7 @@ def _result(
         logarithmic=logarithmic_keys(plan),
         requirements=named_requirements(plan.base.scenario),
         test_case=plan.base.scenario.test_case or "",
+        controllers=tuple(dict.fromkeys(map(named_controller, each_controller(plan)))),
         worst=(),
         subjects={},
         sensitivities=sensitivities,

@@ -20,7 +20,9 @@ from .definition import (
 )
 from .nominal import (
     CONTROLLER as CONTROLLER,
+    controllers_of as controllers_of,
     drawn_ranges as drawn_ranges,
+    each_controller as each_controller,
     nominal_plan as nominal_plan,
     programs_of as programs_of,
 )

@@ -93,13 +93,24 @@ CONTROLLER: Final = "controller"
 """Key of a scenario whose value is a controller."""
 
 
+def controllers_of(plan: Plan) -> Iterator[tuple[str, Any]]:
+    """Yield for each car the key that varies its controller, empty for none, and that of its scenario."""
+    train = plan.base.train
+    scenarios = (plan.base.scenario,) if train is None else train.scenarios
+    own_keys = plan.own_keys or [{key: key for key in plan.keys}] * len(scenarios)
+    for scenario, own in zip(scenarios, own_keys, strict=True):
+        keys = [key for key in plan.keys if own.get(key) == CONTROLLER]
+        yield keys[-1] if keys else "", scenario.controller
+
+
+def each_controller(plan: Plan) -> Iterator[Any]:
+    """Yield the controllers of all cars of all cases, some of them several times."""
+    for key, own in controllers_of(plan):
+        yield from (value.content for value in values_of(plan, key)) if key else (own,)
+
+
 def programs_of(plan: Plan) -> Iterator[ControllerProgram]:
     """Yield the program of each controller from outside, with the parameters that are written beside it."""
-    train = plan.base.train
-    keys = [key for key in plan.keys if key == CONTROLLER or key.endswith(f".{CONTROLLER}")]
-    values = [value.content for key in keys for value in values_of(plan, key)]
-    if train is not None:  # some cars may keep their own
-        values += [each.controller for each in train.scenarios]
-    for controller in values or [plan.base.scenario.controller]:
+    for controller in each_controller(plan):
         if controller.program is not None:
             yield controller.program

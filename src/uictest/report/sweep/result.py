@@ -39,6 +39,15 @@ class OutcomeCount:
 
 
 @dataclass(frozen=True, slots=True)
+class SweptController:
+    """A controller under test: name and version as `summary.csv` has them, kind empty if it is built in."""
+
+    name: str
+    version: str
+    kind: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class MissedCase:
     """A case that did not meet its expectation."""
 
@@ -188,6 +197,7 @@ class SweepResult:
         logarithmic: those of them that were spaced or drawn logarithmically.
         requirements: ids of those that the varied case or its criteria verify.
         test_case: its id in a test management tool, or empty.
+        controllers: of all cars of all cases, each once; none where an earlier version wrote the result.
         nominal: the case that is varied, or all cars of the train, with how firm the verdicts are; none where
             nobody asked.
         worst: the cases most worth looking at, those not met first.
@@ -219,6 +229,7 @@ class SweepResult:
     logarithmic: tuple[str, ...] = ()
     requirements: tuple[str, ...] = ()
     test_case: str = ""
+    controllers: tuple[SweptController, ...] = ()
     worst: tuple[WrittenCaseResult, ...]
     subjects: Mapping[str, Annotated[CaseDescription, required("title", "tags", "settings")]]
     sensitivities: tuple[SobolSensitivity, ...]

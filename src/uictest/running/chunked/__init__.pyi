@@ -27,6 +27,7 @@ from .store import (
 from .table import (
     SURVEY_TABLE as SURVEY_TABLE,
     measure_columns as measure_columns,
+    named_controller as named_controller,
     number_column as number_column,
     repeated_cases as repeated_cases,
     survey_step as survey_step,

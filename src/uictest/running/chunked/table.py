@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from types import MappingProxyType
@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from uictest import __version__
 from uictest.core.measures import MEASURES, STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.units import SIZES
 from uictest.judging.evaluation import CaseResult, narrowest_margin
 from uictest.plans import library
-from uictest.plans.sweeps import REGULAR_STEP, SURVEY_STEP, Plan, scenarios_with_each
-from uictest.report import SurveyBias, SurveyStep
+from uictest.plans.sweeps import REGULAR_STEP, SURVEY_STEP, Plan, controllers_of, scenarios_with_each
+from uictest.report import SurveyBias, SurveyStep, SweptController
 from uictest.running.chunked.case_blocks import CaseValues
 
 if TYPE_CHECKING:
@@ -28,7 +29,8 @@ _OWN: Final = ("expect", "outcome", "reason")
 _NO_WHEELSETS: Final[Sequence[Mapping[str, float]]] = ({},) * WHEELSETS
 TIME_STEP_COLUMN: Final = "time_step_ms"
 """Column of a survey: the step that the case was simulated in in the end."""
-REPEATED_TEXTS: Final = (*_OWN, "narrowest_criterion")
+_CONTROLLER: Final = ("controller", "controller_version")
+REPEATED_TEXTS: Final = (*_OWN, *_CONTROLLER, "narrowest_criterion")
 """Columns whose texts recur from case to case; to look for numbers that do takes half of writing."""
 
 
@@ -73,6 +75,7 @@ def _schema(keys: tuple[str, ...], numeric_keys: tuple[str, ...], survey: bool) 
             *((number_column(key), number) for key in numeric_keys),
             *((name, text) for name in _OWN),
             ("met", pa.bool_()),
+            *((name, text) for name in _CONTROLLER),
             *([(TIME_STEP_COLUMN, number)] if survey else []),
             ("narrowest_margin", number),
             ("narrowest_criterion", text),
@@ -97,6 +100,8 @@ def rows(
         columns[number_column(key)] = block.settings[key].numbers
     for name in (*_OWN, "met"):
         columns[name] = [getattr(each, name) for each in results]
+    names = (named_controller(each) for each in _controllers(plan, block))
+    columns |= zip(_CONTROLLER, zip(*((each.name, each.version) for each in names), strict=True), strict=True)
     margins = map(narrowest_margin, results)
     columns["narrowest_margin"], columns["narrowest_criterion"] = zip(*margins, strict=True)
     if plan.survey:
@@ -112,6 +117,21 @@ def rows(
             columns[numbered] = [of_each[place].get(name) for of_each in wheelsets]
     schema = row_schema(plan)
     return pa.table([pa.array(columns[each.name], each.type, from_pandas=True) for each in schema], schema)
+
+
+def named_controller(controller: Any) -> SweptController:
+    """Return the name and the version of a controller, as far as a run knows them before a stop."""
+    if controller.program is None:
+        return SweptController(controller.label, f"uictest {__version__}")
+    return SweptController(controller.label, controller.version or "", controller.kind)
+
+
+def _controllers(plan: Plan, block: CaseValues) -> Iterator[Any]:
+    """Yield the controller of each case."""
+    of_cars = list(controllers_of(plan))
+    for place, index in enumerate(block.indices.tolist()):
+        key, own = of_cars[index % len(of_cars)]
+        yield block.settings[key][place].content if key else own
 
 
 def surveyed_cases(table: pa.Table) -> set[int]:

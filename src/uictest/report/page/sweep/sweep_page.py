@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Final
 
+from uictest.report.escaping import printable
 from uictest.report.page.case_view import case_view, plots_json
 from uictest.report.page.overview import shown_parts
 from uictest.report.page.plot import Plot
@@ -14,6 +15,7 @@ from uictest.report.page.sweep.line_plots import cell_lines, frontier_plot, tren
 from uictest.report.page.sweep.maps import maps_of_pair
 from uictest.report.page.sweep.panels import PanelsOfPoints, panels_of_points
 from uictest.report.page.sweep.scatter import is_sampled, scatter
+from uictest.report.part_wording import controller_text
 from uictest.report.sweep.cases import ReportedColumns, SummaryRows, reported_columns
 from uictest.report.sweep.folder import SweepContent
 from uictest.report.sweep.map_cells import (
@@ -79,6 +81,10 @@ def sweep_page_html(content: SweepContent) -> str:
         content=content,
         result=result,
         tally=sweep_tally(result),
+        controllers=", ".join(
+            controller_text(printable(each.name), printable(each.version), built_in=not each.kind)
+            for each in result.controllers
+        ),
         swept={key: swept_words([count.value for count in counts]) for key, counts in result.rates.items()},
         maps=[each for each in maps if each],
         maps_left_out=maps_left_out(content),
