@@ -8,6 +8,7 @@ import pytest
 
 from uictest import rig
 from uictest.analysis.firmness import Effort
+from uictest.plans import sweeps
 from uictest.plans.scenario import load
 from uictest.plans.sweeps import ParameterValue, listed_column, ranged_numbers
 from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
@@ -109,7 +110,11 @@ def test_the_cars_of_a_train_share_their_stops(train, monkeypatch):
         ran.append(len(trains))
         return simulate(trains, noise_of, run)
 
+    def of_valves(stated):
+        return [each for each in ranged_numbers(stated) if each.key.startswith("brake.system.wsp_valve.")]
+
     monkeypatch.setattr(rig, "simulate_trains", noted)
+    monkeypatch.setattr(sweeps, "ranged_numbers", of_valves)
     first, second = train()
     of_run = FirmnessRun(2, effort=SMALL)
     one, simulated = of_run.of_case(first), sum(ran)

@@ -5,8 +5,8 @@ import pytest
 from uictest import rig
 from uictest.analysis.firmness import Effort
 from uictest.judging import series as judging
-from uictest.judging.evaluation import result_document, to_json
-from uictest.plans import series
+from uictest.judging.evaluation import relative_margin, result_document, to_json
+from uictest.plans import series, sweeps
 from uictest.plans.scenario import ScenarioErrors
 from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
 from uictest.runs.batch import run_series
@@ -186,13 +186,18 @@ def test_cars_are_only_of_trains(of_trains):
     assert refusal(of_trains, "vehicle: crh380a", "cars: all\n") == [("cars", "the stops are of cars alone")]
 
 
-def test_how_firm_verdicts_are_is_said_of_the_car_that_is_judged(of_trains):
+def test_how_firm_verdicts_are_is_said_of_the_car_that_is_judged(of_trains, monkeypatch):
     """By the stops of its car: the other one is held by brakes twice as strong."""
+    ranged = sweeps.ranged_numbers
+    monkeypatch.setattr(sweeps, "ranged_numbers", lambda stated: ranged(stated)[:1])
     strong = "train: [{}, {brake: {command: 50 %}}]\nrig: {topology: four-caliper}"
     planned = of_trains(strong, "cars: all\nrepeat: 1\n")
     run = FirmnessRun(2, effort=Effort(blocks=2, block=2, seeds=1, seeds_at_ends=1))
     for each in planned:
-        assert run.of_series(each).nominal == judged(each).outcome
+        firm, result = run.of_series(each), judged(each)
+        assert firm.nominal == result.outcome
+        verdicts = [(own.verdict.id, relative_margin(own.verdict)) for own in result.criteria]
+        assert [(own.criterion, own.margin) for own in firm.criteria] == verdicts
 
 
 def test_recordings_are_of_one_car(of_trains, write):
