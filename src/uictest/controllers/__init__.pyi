@@ -44,6 +44,7 @@ from .declared import (
 )
 from .interface import (
     CLOSING as CLOSING,
+    DAMAGED as DAMAGED,
     EXCHANGE as EXCHANGE,
     EXPLAINING as EXPLAINING,
     FORBIDDEN_COMMAND as FORBIDDEN_COMMAND,

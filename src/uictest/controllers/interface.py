@@ -171,6 +171,8 @@ OPENING: Final = 2
 CLOSING: Final = 3
 EXPLAINING: Final = 4
 
+DAMAGED: Final = -1
+"""A failure that was not this controller's: what is noted on it was written over."""
 NO_FAILURE: Final = 0
 STEP_FAILED: Final = 1
 FORBIDDEN_COMMAND: Final = 2

@@ -5,6 +5,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#ifndef RECORDS_AHEAD
+#define RECORDS_AHEAD 0
+#endif
+
 typedef struct {
     char fault[32];
     long at;
@@ -73,6 +77,8 @@ int32_t uictest_step(void *handle, const uictest_inputs *inputs, uictest_outputs
         memset((char *)inputs - 24, 1, 8);
     if (strcmp(controller->fault, "others-wheelset") == 0)
         memcpy((char *)inputs - 24, (int64_t[]){2, 4}, 16);
+    if (strcmp(controller->fault, "others-forbidden") == 0)
+        memcpy((char *)inputs - 24 + RECORDS_AHEAD, (int64_t[]){2, 1}, 16);
     if (strcmp(controller->fault, "others-calling") == 0) {
         memset((char *)inputs - 32, 1, 8);
         abort();

@@ -103,6 +103,15 @@ def test_machine_code_runs_in_lanes_with_the_bits_of_a_stop_alone(library, block
     assert copied == own
 
 
+@pytest.mark.usefixtures("folder")
+def test_no_stop_is_blamed_for_a_failure_that_another_notes_on_it(library, block_of):
+    library()
+    bad = "{{library: libbad.so, parameters: {{fault: {}, at: 7}}}}"
+    inputs = [*stops(bad.format("none"), 0.08), *stops(bad.format("others-forbidden"), 0.08)]
+    told = "controller: some controller of the process wrote beyond its outputs"
+    assert run_block(block_of(inputs)).failures == [told, ""]
+
+
 @pytest.mark.usefixtures("package", "folder")
 def test_a_controller_that_fails_ends_its_own_stop_alone(block_of, ran_in_lanes):
     inputs = [

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from uictest.controllers import ControllerError
+from uictest.controllers import EXCHANGE, ControllerError
 from uictest.judging.evaluation import json_form
 from uictest.plans.scenario import ScenarioErrors, load
 from uictest.rig import (
@@ -155,13 +155,22 @@ def test_a_fault_names_the_car_the_program_and_the_cycle(workers, train_of, libr
         workers.run_train(train_of(BUILT_IN, sound, car, sound))
 
 
-@pytest.mark.parametrize("place", ["failure", "wheelset", "guard"])
-def test_no_car_is_blamed_for_what_another_wrote_over(workers, train_of, library, place):
-    """Car 3 writes over what the rig notes on car 2."""
+@pytest.mark.parametrize("place", ["failure", "wheelset", "guard", "forbidden"])
+def test_the_car_in_whose_call_what_is_noted_on_another_changes_is_told(workers, train_of, library, place):
+    """Car 3 writes over what the rig notes on car 2, also as if that had given a forbidden command."""
     library()
-    told = r"^some controller of the process wrote beyond its outputs$"
+    cycle = 0 if place == "guard" else AT
+    told = rf"^car 3 \(libbad\.so\): the controller wrote beyond its outputs \(cycle {cycle}\)$"
     with pytest.raises(ControllerError, match=told):
         workers.run_train(train_of(BUILT_IN, in_c(), in_c(f"others-{place}")))
+
+
+@pytest.mark.parametrize("records", [1, 2], ids=["itself", "the car behind"])
+def test_a_car_is_told_that_notes_a_failure_of(workers, train_of, library, records):
+    library(f"-DRECORDS_AHEAD={records * EXCHANGE.itemsize}")
+    told = rf"^car 2 \(libbad\.so\): the controller wrote beyond its outputs \(cycle {AT}\)$"
+    with pytest.raises(ControllerError, match=told):
+        workers.run_train(train_of(BUILT_IN, in_c("others-forbidden"), in_c()))
 
 
 def test_the_leading_one_of_two_cars_that_fail_at_once_is_told(train_of, library):

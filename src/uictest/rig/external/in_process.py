@@ -10,6 +10,7 @@ import numpy as np
 
 from uictest.controllers import (
     CLOSING,
+    DAMAGED,
     EXCHANGE,
     EXPLAINING,
     FORBIDDEN_COMMAND,
@@ -118,6 +119,11 @@ def raise_failure(exchange: Any, instance: ControllerInstance) -> None:
     raise ControllerError(f"{reason} (cycle {exchange['cycle']})")
 
 
+def _is_at_fault(finished: FinishedStop, exchange: Any) -> bool:
+    """Whether a controller failed, by more than what others wrote on it."""
+    return bool(finished.car["controller_failed"] and exchange["failure"] != DAMAGED)
+
+
 def _is_damaged(exchange: Any, failure: int, place: int) -> bool:
     if failure == NO_FAILURE:  # then the guard is whole: a broken one is a failure when its step returns
         return place != 0 or bool(exchange["cycles"] and exchange["guard"] != GUARD)
@@ -180,8 +186,9 @@ def run_train_in_process(
                 context = opened(programs[car], config, inputs.parameters[car], exchange)
                 controllers[car] = stack.enter_context(context)
         stop = run_train_to_end(run_train, inputs, steps_per_sample)
-        for car, program in programs.items():
-            with of_car(car, program):
+        # What a record says of a car that has not failed, another has written, which is told first.
+        for car in sorted(programs, key=lambda car: not _is_at_fault(stop.cars[car], own_exchanges[car])):
+            with of_car(car, programs[car]):
                 raise_failure(own_exchanges[car], controllers[car])
     return stop._replace(
         cars=tuple(

@@ -14,6 +14,7 @@ import numpy as np
 
 from uictest.controllers import (
     CONTROLLERS,
+    DAMAGED,
     EXCHANGE,
     FORBIDDEN_COMMAND,
     GUARD,
@@ -47,16 +48,46 @@ def begin_external(train: TrainMemory, wheelsets: Sequence[ControlledWheelset], 
 def decide_external(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Call the controller; its failure ends the stop."""
     exchange = exchange_at(p.controller_exchange)
+    if exchange.failure != NO_FAILURE:  # not of this controller: its own would have ended the stop
+        exchange.failure = DAMAGED
+        car.controller_failed = 1
+        return
     write_inputs(exchange, car, wheelsets, p)
     exchange.calling = STEPPING
     exchange.cycles += 1
     status = call_step(p.controller_step, p.controller_handle, p.controller_exchange)
     exchange.calling = NOT_CALLED
-    if status != 0:
+    if exchange.failure != NO_FAILURE:
+        exchange.failure = WROTE_BEYOND
+    elif status != 0:
         exchange.failure = STEP_FAILED
     else:
         read_outputs(exchange, car, wheelsets, p)
     car.controller_failed = 1 if exchange.failure != NO_FAILURE else 0
+
+
+def decide_watched(j: int, cars: Sequence[Car], wheelsets: Sequence[Wheelset], parameters: Any) -> None:
+    """Let the controller of car ``j`` decide; if what is noted on another changes meanwhile, it has failed.
+
+    The notes on all of them lie in the memory of one process, where any may write.
+    """
+    intact = parameters[j].controller == FROM_OUTSIDE and _others_intact(j, cars, parameters)
+    decide(cars[j], wheelsets, parameters[j])
+    if intact and not _others_intact(j, cars, parameters):
+        exchange_at(parameters[j].controller_exchange).failure = WROTE_BEYOND
+        cars[j].controller_failed = 1
+
+
+def _others_intact(j: int, cars: Sequence[Car], parameters: Sequence[Parameters]) -> bool:
+    """Whether what is noted on the others from outside is as the rig left it, those that failed aside."""
+    intact = True
+    for k in range(len(cars)):
+        if k != j and parameters[k].controller == FROM_OUTSIDE and cars[k].controller_failed == 0:
+            notes = exchange_at(parameters[k].controller_exchange)
+            intact = intact and notes.failure == NO_FAILURE and notes.failed_wheelset == 0
+            intact = intact and notes.calling == NOT_CALLED and notes.cycles == cars[k].cycle
+            intact = intact and (notes.cycles == 0 or notes.guard == GUARD)
+    return intact
 
 
 def write_inputs(exchange: Any, car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 from uictest.controllers import NO_FAILURE
 from uictest.core.measures import StopMeasures, WheelsetMeasures
-from uictest.rig.model.controller import FROM_OUTSIDE, decide, read_outputs, write_inputs
+from uictest.rig.model.controller import FROM_OUTSIDE, decide_watched, read_outputs, write_inputs
 from uictest.rig.model.couplers import Coupler, account_for_coupler, pull_cars, release_couplers
 from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.parameters import Parameters
@@ -69,7 +69,7 @@ def run_train(
         for j in range(len(cars)):
             _begin_cycle(j, cars, wheelsets, parameters, wheelset_parameters, rail, memories)
             own = wheelsets[4 * j : 4 * j + 4]
-            decide(cars[j], own, parameters[j])
+            decide_watched(j, cars, own, parameters)
             act(cars[j], own, parameters[j], measures[j])
         rows = _step_cycle(
             *(cars, bogies, wheelsets, parameters, couplers),
