@@ -1,6 +1,7 @@
 """Controllers that miss one fact each: changes of the first controller that `uictest init` writes."""
 
 from collections.abc import Callable
+from functools import partial
 
 import pytest
 
@@ -9,6 +10,7 @@ from uictest.plans import templates
 from uictest.plans.scenario import load_controller
 from uictest.rig.external import workers
 from uictest.selftest import conformance
+from uictest.selftest.conformance import situations
 
 Examine = Callable[..., selftest.Examination]
 
@@ -20,11 +22,13 @@ def here(monkeypatch):
 
 
 @pytest.fixture
-def examine(tmp_path):
+def examine(tmp_path, monkeypatch):
     """Examine the first controller in Python with one stretch of its text replaced by another.
 
-    Its cycles take four times as long as those of the library, so that each drive has a quarter as many.
+    Its cycles take four times as long as those of the library, so that each drive has a quarter as many: as
+    many cycles has the one with random inputs.
     """
+    monkeypatch.setattr(situations, "anything", partial(situations.anything, cycles=750))
 
     def changed(before="", after="", time_limit="60 s"):
         files = templates.controller_files("python")

@@ -157,7 +157,7 @@ def test_a_controller_without_a_reference_speed_is_not_judged_by_it(examine):
 )
 def test_a_controller_that_fails_is_an_error_with_the_cycle(examine, fault, message):
     """In one situation alone: the checks that do not need it are decided all the same."""
-    sudden = f"{STEP}        if max(inputs.wheel_speed) > 69.0: {fault}\n"
+    sudden = f"{STEP}        if inputs.brake_demand < 0.2: {fault}\n"
     examination = examine(STEP, sudden, time_limit="500 ms" if "sleep" in fault else "60 s")
     assert examination.status == "error"
     by_id = {each.id: each for each in examination.findings}

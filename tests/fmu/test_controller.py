@@ -119,6 +119,7 @@ def own(exported):
         each.close()
 
 
+@cache
 def recorded(folder, controller):
     """Every channel of a stop, to the bit; one that has no rate of its own says what each cycle brought."""
     path = folder / "stop.yaml"
@@ -154,6 +155,7 @@ def test_a_stop_has_the_bits_of_the_controller_in_process(folder, exported, cont
 TRAIN = f"{STOP}until: 36 km/h\ncriteria: uictest-rig\nexpect: skipped\ntrain: [{{}}, {{}}]\ncontroller: "
 
 
+@cache
 def figures(folder, controller):
     """What both cars of a train measure, to the bit, without what is noted of reports."""
     (folder / "train.yaml").write_text(f"{TRAIN}{controller}\n")

@@ -2,11 +2,13 @@ import json
 import os
 import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 from uictest.selftest import conformance
+from uictest.selftest.conformance import situations
 
 FILLS = """\
 from uictest.controllers import Outputs
@@ -22,7 +24,11 @@ class Fills:
 
 @pytest.fixture(autouse=True)
 def longer_cycles(monkeypatch):
-    """Ask a controller from outside every 50 ms, not every 10 ms: what it answers is the same each time."""
+    """Ask a controller from outside every 50 ms, not every 10 ms: what it answers is the same each time.
+
+    Of cycles with random inputs there are as few for all.
+    """
+    monkeypatch.setattr(situations, "anything", partial(situations.anything, cycles=600))
     subject_of = conformance.subject_of
 
     def longer(name, part):

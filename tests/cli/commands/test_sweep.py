@@ -216,7 +216,7 @@ def killed_at_random(start, times):
     return killed
 
 
-@pytest.mark.parametrize("times", [3, pytest.param(20, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("times", [2, pytest.param(20, marks=pytest.mark.slow)])
 def test_killed_and_resumed_gives_the_same_bytes(call, start, study, times):
     Path(FILE).write_text(TEXT.replace("size: 32", f"size: {32 * times}"))
     assert call("sweep", study, "-o", "whole").code == 0

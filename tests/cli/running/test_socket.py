@@ -14,7 +14,7 @@ from ..conftest import HANGING
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "socket" / "wsp.py"
 
-IN_REAL_TIME = ("run", "--real-time", "--set", "initial_speed=10 km/h")
+IN_REAL_TIME = ("run", "--real-time", "--set", "initial_speed=3 km/h")
 PROGRAM = """
 import importlib.util
 import sys

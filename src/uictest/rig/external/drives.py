@@ -1,6 +1,5 @@
 """A controller from outside driven through given cycles in this process, without the rig."""
 
-import ctypes
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from time import perf_counter
@@ -37,6 +36,9 @@ VENTING_TIME: Final = 0.6
 
 DYNAMIC_RESPONSE: Final = 0.3
 """Time constant of a motor that follows what is asked of it, s; chosen, that of `brake.dynamic`."""
+
+_GUARD_AT: Final = OUTPUTS_AT + OUTPUTS.itemsize
+"""Offset of the guard in :data:`~uictest.controllers.EXCHANGE`."""
 
 Beginning = Literal["create", "reset", "beside"]
 """How a drive begins: with a new controller, with the one of the drive before, or with a new one beside
@@ -169,44 +171,52 @@ def _answers(
     Between two cycles the exchange may serve another controller. Raises ControllerError.
     """
     address = exchange.__array_interface__["data"][0]
-    memory: Any = (ctypes.c_char * EXCHANGE.itemsize).from_address(address)
-    names = "cylinder_pressure", "hold", "vent", "dynamic_reduction", "sand_request", "dynamic_brake"
-    pressure, hold, vent, reduction, sand, dynamic = (exchange[name] for name in names)
+    layout: Any = EXCHANGE
+    fields: Any = np.ctypeslib.as_ctypes_type(layout).from_address(address)
+    memory = memoryview(fields).cast("B")
+    pressure, reduction = fields.cylinder_pressure, fields.dynamic_reduction
+    dynamic, reduced = exchange["dynamic_brake"], exchange["dynamic_reduction"]
     brakes, gain = bool(inputs["dynamic_brake"].any()), min(cycle_time / DYNAMIC_RESPONSE, 1.0)
     effort = inputs["dynamic_brake"][:1].copy()
     untouched = UNTOUCHED if instance.contract == 1 else 0.0
+    blank, kept = _blank(untouched), [untouched] * len(reduction)
     newest = [0.0] * len(pressure)
     for cycle, demanded in enumerate(inputs["cylinder_pressure"].tolist()):
         memory[:OUTPUTS_AT] = inputs[cycle].tobytes()
         pressure[:] = newest
         if brakes:
-            wanted = dynamic * (1.0 - np.clip(reduction, 0.0, 1.0)) if cycle else dynamic
+            wanted = dynamic * (1.0 - np.clip(reduced, 0.0, 1.0)) if cycle else dynamic
             effort += gain * (wanted - effort)
             dynamic[:] = effort[0]
-        exchange["reference_speed"] = np.nan
-        hold[:] = vent[:] = sand[:] = exchange["diagnosis"] = exchange["track_brake_request"] = 0
-        reduction[:] = untouched
-        exchange["guard"] = GUARD
-        exchange["cycles"] += 1
-        exchange["calling"] = STEPPING
+        memory[OUTPUTS_AT:_GUARD_AT] = blank
+        fields.guard = GUARD
+        fields.cycles += 1
+        fields.calling = STEPPING
         started = perf_counter()
         status = call_step(instance.step_address, instance.handle, address)
         seconds = perf_counter() - started
-        exchange["calling"] = NOT_CALLED
-        beyond = exchange["guard"] != GUARD
+        fields.calling = NOT_CALLED
+        beyond = fields.guard != GUARD
         if beyond or (
-            untouched and (any(reduction != untouched) or any(sand) or exchange["track_brake_request"])
+            untouched and (reduction[:] != kept or any(fields.sand_request) or fields.track_brake_request)
         ):
-            exchange["failure"] = WROTE_BEYOND
+            fields.failure = WROTE_BEYOND
         elif status != 0:
-            exchange["failure"] = STEP_FAILED
+            fields.failure = STEP_FAILED
         raise_failure(exchange, instance)
-        answer = memory[OUTPUTS_AT : OUTPUTS_AT + OUTPUTS.itemsize]
-        full, magnets = max(demanded), zip(hold.tolist(), vent.tolist(), strict=True)
+        answer = bytes(memory[OUTPUTS_AT:_GUARD_AT])
+        full, magnets = max(demanded), zip(fields.hold, fields.vent, strict=True)
         newest = [
             _pressure_after(*each, full, cycle_time) for each in zip(newest, demanded, magnets, strict=True)
         ]
         yield answer, seconds
+
+
+def _blank(untouched: float) -> bytes:
+    """Return outputs as a controller finds them that asks for nothing."""
+    outputs = np.zeros(1, OUTPUTS)
+    outputs["reference_speed"], outputs["dynamic_reduction"] = np.nan, untouched
+    return outputs.tobytes()
 
 
 def _pressure_after(
