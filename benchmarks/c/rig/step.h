@@ -35,6 +35,7 @@ OURS void step(Car *car, Bogie *bogies, Wheelset *wheelsets, const Parameters *p
         step_clamping(&wheelsets[i], p);
     step_vehicle(car, bogies, wheelsets, p);
     car->steps += 1.0;
+    car->vehicle_steps += 1.0;
     car->substep += 1.0;
     car->time = car->steps * p->step;
 }

@@ -8,19 +8,18 @@ bits. All trains of a queue have as many cars and as many steps in a controller 
 from typing import Any, NamedTuple
 
 from uictest.core.lanes import align_stack, copy_from_lane, copy_to_lane, lane, vectors
-from uictest.rig.backends.lane_stops import (
+from uictest.rig.backends.lane_cycle import (
     IDLE,
     Cases,
     Lanes,
     Needs,
     RigRecords,
-    advance,
-    begin_case,
+    advance_brake,
+    advance_vehicle,
     begin_cycle,
     end_cycle,
-    finish_if_stopped,
-    set_to_start,
 )
+from uictest.rig.backends.lane_stops import begin_case, finish_if_stopped, set_to_start
 from uictest.rig.model.couplers import account_for_coupler, pull_cars, release_couplers
 from uictest.rig.model.rail import hand_rail_on
 from uictest.rig.model.sand import hand_sand_on
@@ -76,11 +75,13 @@ def run_train_queue(
 def _lanes_of(lanes: Lanes, j: int) -> Lanes:
     """Return the part of the blocks that is car ``j``."""
     rig = lanes.rig
+    kept = len(lanes.module_steps) // len(rig.car)
     return Lanes(
         RigRecords(rig.car[j : j + 1], rig.bogies[2 * j : 2 * j + 2], rig.wheelsets[4 * j : 4 * j + 4]),
         lanes.settings[j : j + 1],
         lanes.measures[j : j + 1],
         lanes.wheelset_measures[4 * j : 4 * j + 4],
+        lanes.module_steps[j * kept : (j + 1) * kept],
     )
 
 
@@ -124,13 +125,15 @@ def _start_next(
 
 def _run_cycle(lanes: Lanes, couplers: Any, trains: Trains, running: Any, memories: Any) -> None:
     """Step all lanes through a controller cycle."""
-    needs = Needs(0, False, False, False, False, False, False)
+    needs = Needs(0, False, False, False, False, False, False, False)
     for j in range(len(trains.parameters)):
         needs = _of_both(needs, begin_cycle(_lanes_of(lanes, j), _cases_of(trains, j), running, memories[j]))
         if j + 1 < len(trains.parameters):
             _hand_rail_on(_lanes_of(lanes, j), trains.parameters[j], running, memories[j], memories[j + 1])
-    for _ in range(needs.steps):
-        _advance(lanes, couplers, needs)
+    for j in range(len(trains.parameters)):
+        advance_brake(_lanes_of(lanes, j), needs)
+    for n in range(needs.steps):
+        _advance_vehicles(lanes, couplers, needs, n)
     for j in range(len(trains.parameters)):
         end_cycle(_lanes_of(lanes, j), needs)
 
@@ -144,6 +147,7 @@ def _of_both(one: Needs, other: Needs) -> Needs:
         one.leaks or other.leaks,
         one.brakes_dynamically or other.brakes_dynamically,
         one.brakes_on_track or other.brakes_on_track,
+        one.has_four_calipers or other.has_four_calipers,
     )
 
 
@@ -158,15 +162,15 @@ def _hand_rail_on(lanes: Lanes, parameters: Any, running: Any, memories: Any, be
                 hand_sand_on(last, p, memories[k], behind[k])
 
 
-def _advance(lanes: Lanes, couplers: Any, needs: Needs) -> None:
-    """Make one step; all coupler forces come from the state before any car is advanced."""
+def _advance_vehicles(lanes: Lanes, couplers: Any, needs: Needs, n: int) -> None:
+    """Make step ``n`` of a cycle; all coupler forces come from the state before any car is advanced."""
     cars, settings, between = vectors(lanes.rig.car), vectors(lanes.settings), vectors(couplers)
     for j in range(len(lanes.rig.car)):
         release_couplers(cars[j])
     for j in range(len(couplers)):
         pull_cars(between[j], cars[j], settings[j], cars[j + 1], settings[j + 1])
     for j in range(len(lanes.rig.car)):
-        advance(_lanes_of(lanes, j), needs)
+        advance_vehicle(_lanes_of(lanes, j), needs, n)
     for j in range(len(couplers)):
         account_for_coupler(between[j], cars[j], settings[j], cars[j + 1], settings[j + 1])
 

@@ -28,8 +28,14 @@ from uictest.rig.model.faults import let_air_leak
 from uictest.rig.model.module_air import follow_tanks, read_line_pressure
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import FRICTIONS, RAIL_MEMORY, ROWS
-from uictest.rig.model.state import BOGIE, CAR, WHEELSET
-from uictest.rig.model.step import step
+from uictest.rig.model.state import BOGIE, CAR, MODULE_STEP, WHEELSET
+from uictest.rig.model.step import (
+    compensate_kept,
+    step_modules,
+    step_other_calipers,
+    step_vehicle,
+    take_clamping_forces,
+)
 from uictest.rig.model.stop_measures import observe_cycle
 from uictest.rig.model.track_brake import account_for_magnets, drag_magnets
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
@@ -37,10 +43,10 @@ from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 RIG = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
 """Records of one rig and how many there are."""
 BLOCKS = (*RIG, (PARAMETERS, 1), (STOP_MEASURES, 1), (WHEELSET_MEASURES, 4))
-"""Records that each lane has."""
+"""Records that each lane has, besides what it keeps of a controller cycle."""
 _BRAKED_ADHESION, _LEAST_ADHESION = 0.12, 0.01
 """What full service uses of a better rail, and the least that a rail is taken to have; chosen."""
-_ARGUMENTS = 20
+_ARGUMENTS = 22
 """How many arguments the compiled loop over a queue has."""
 
 
@@ -84,7 +90,7 @@ def run_in_lanes(
     steps_per_cycle = parameters["steps_per_cycle"]
     for steps in np.unique(steps_per_cycle):
         queue = longest_first(parameters, rail, np.flatnonzero(steps_per_cycle == steps))
-        _run_queue(parameters, own, rail, batch, queue, width or register_width())
+        _run_queue(parameters, own, rail, batch, queue, int(steps), width or register_width())
     return batch
 
 
@@ -106,9 +112,10 @@ def _run_queue(
     rail: NDArray[np.float64],
     batch: BatchMeasures,
     queue: NDArray[np.int64],
+    steps: int,
     width: int,
 ) -> None:
-    blocks = [block(layout, width, number) for layout, number in BLOCKS]
+    blocks = blocks_of(1, steps, width)
     blank = [np.zeros(number, layout) for layout, number in RIG]
     allocated = (*blocks, *blank, *batch, queue, np.empty(width, np.int64), np.empty(width, RAIL_MEMORY))
     count, points = parameters.size, rail.shape[-1]
@@ -117,9 +124,15 @@ def _run_queue(
         address(wheelset_parameters, WHEELSET_PARAMETERS, (count, 4)),
         address(rail, "f8", (count, ROWS, points)),
         *(address(array, array.dtype, array.shape) for array in allocated),
-        *(count, points, queue.size),
+        *(count, points, queue.size, steps),
     )
     load_lanes(width)(*arguments)
+
+
+def blocks_of(cars: int, steps: int, width: int) -> list[NDArray[Any]]:
+    """Return the blocks of rigs of so many cars, whose controller cycles have so many steps."""
+    blocks = [block(layout, width, cars * number) for layout, number in BLOCKS]
+    return [*blocks, block(MODULE_STEP, width, cars * steps * 4)]
 
 
 def load_lanes(width: int | None = None) -> Callable[..., int]:
@@ -136,7 +149,8 @@ def _name(width: int) -> str:
 
 def _entries(width: int) -> Entries:
     """Return the loop over a queue of cases, as a function of addresses and of what lies there."""
-    from uictest.rig.backends.lane_stops import Cases, Lanes, RigRecords, run_queue  # loads numba
+    from uictest.rig.backends.lane_cycle import Cases, Lanes, RigRecords  # loads numba
+    from uictest.rig.backends.lane_stops import run_queue
 
     carray = compiler().carray
     run = translate(run_queue, compile_inner, lane_model())
@@ -151,6 +165,7 @@ def _entries(width: int) -> Entries:
         settings: Any,
         samples: Any,
         wheelset_samples: Any,
+        module_steps: Any,
         blank_car: Any,
         blank_bogies: Any,
         blank_wheelsets: Any,
@@ -162,6 +177,7 @@ def _entries(width: int) -> Entries:
         count: int,
         points: int,
         queued: int,
+        steps: int,
     ) -> int:
         run(
             Lanes(
@@ -169,6 +185,7 @@ def _entries(width: int) -> Entries:
                 carray(settings, 1),
                 carray(samples, 1),
                 carray(wheelset_samples, 4),
+                carray(module_steps, steps * 4),
             ),
             RigRecords(carray(blank_car, 1), carray(blank_bogies, 2), carray(blank_wheelsets, 4)),
             Cases(
@@ -184,10 +201,10 @@ def _entries(width: int) -> Entries:
         )
         return 0
 
-    blocks = (block(layout, width).dtype for layout, _ in BLOCKS)
+    blocks = (each.dtype for each in blocks_of(1, 1, width))
     records = (*(layout for layout, _ in RIG), STOP_MEASURES, WHEELSET_MEASURES)
     inputs = PARAMETERS, WHEELSET_PARAMETERS, "f8"
-    arguments = (*inputs, *blocks, *records, "i8", "i8", RAIL_MEMORY, int, int, int)
+    arguments = (*inputs, *blocks, *records, "i8", "i8", RAIL_MEMORY, int, int, int, int)
     return {_name(width): (on_addresses, arguments)}
 
 
@@ -216,7 +233,11 @@ def lane_model() -> dict[Function, Any]:
         brake_dynamically,
         drag_magnets,
         account_for_magnets,
-        step,
+        step_modules,
+        step_other_calipers,
+        compensate_kept,
+        take_clamping_forces,
+        step_vehicle,
         warm_discs,
         observe_cycle,
         release_couplers,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from uictest.core.lanes import block, register_width, translate
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.compiled import compile_inner, compiler
-from uictest.rig.backends.lanes import BLOCKS, RIG, lane_model, longest_first
+from uictest.rig.backends.lanes import RIG, blocks_of, lane_model, longest_first
 from uictest.rig.backends.machine_code import Entries, Unit, address, is_kept, native_function
 from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.parameters import PARAMETERS
@@ -19,7 +19,7 @@ from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.rig.train_measures import note_track_brakes_beside
 from uictest.rig.train_stop import TrainInputs
 
-_ARGUMENTS: Final = 24
+_ARGUMENTS: Final = 26
 """How many arguments the compiled loop over a queue of trains has."""
 
 
@@ -96,14 +96,15 @@ def _run_queue(batch: _Batch, width: int) -> None:
     """Fill the measures of a batch and the ledgers of its couplers."""
     n, trains = batch.parameters.shape
     queue = longest_first(batch.parameters[0], batch.rail, np.arange(trains))
-    blocks = [block(layout, width, n * number) for layout, number in BLOCKS]
+    steps = int(batch.parameters["steps_per_cycle"][0, 0])
+    blocks = blocks_of(n, steps, width)
     blank = [np.zeros(number, layout) for layout, number in RIG]
     allocated = (
         *(*batch, *blocks, block(COUPLER, width, n - 1), *blank),
         *(queue, np.empty(width, np.int64), np.empty((n, width), RAIL_MEMORY)),
     )
     arguments = [address(array, array.dtype, array.shape) for array in allocated]
-    load_train_lanes(width)(*arguments, n, trains, batch.rail.shape[-1], queue.size)
+    load_train_lanes(width)(*arguments, n, trains, batch.rail.shape[-1], queue.size, steps)
 
 
 def train_lanes_are_compiled() -> bool:
@@ -128,7 +129,7 @@ def _name(width: int) -> str:
 
 def _entries(width: int) -> Entries:
     """Return the loop over a queue of trains, as a function of addresses and of what lies there."""
-    from uictest.rig.backends.lane_stops import Lanes, RigRecords  # loads numba
+    from uictest.rig.backends.lane_cycle import Lanes, RigRecords  # loads numba
     from uictest.rig.backends.lane_trains import Trains, run_train_queue
 
     carray = compiler().carray
@@ -148,6 +149,7 @@ def _entries(width: int) -> Entries:
         settings: Any,
         samples: Any,
         wheelset_samples: Any,
+        module_steps: Any,
         couplers: Any,
         blank_car: Any,
         blank_bogies: Any,
@@ -159,6 +161,7 @@ def _entries(width: int) -> Entries:
         count: int,
         points: int,
         queued: int,
+        steps: int,
     ) -> int:
         run_queue(
             Lanes(
@@ -166,6 +169,7 @@ def _entries(width: int) -> Entries:
                 carray(settings, n),
                 carray(samples, n),
                 carray(wheelset_samples, 4 * n),
+                carray(module_steps, steps * 4 * n),
             ),
             carray(couplers, n - 1),
             RigRecords(carray(blank_car, 1), carray(blank_bogies, 2), carray(blank_wheelsets, 4)),
@@ -185,7 +189,7 @@ def _entries(width: int) -> Entries:
         return 0
 
     inputs = PARAMETERS, WHEELSET_PARAMETERS, "f8", "f8", COUPLER, STOP_MEASURES, WHEELSET_MEASURES
-    blocks = (block(layout, width).dtype for layout in (*(layout for layout, _ in BLOCKS), COUPLER))
+    blocks = (each.dtype for each in (*blocks_of(1, 1, width), block(COUPLER, width)))
     blank = (layout for layout, _ in RIG)
-    arguments = (*inputs, *blocks, *blank, "i8", "i8", RAIL_MEMORY, int, int, int, int)
+    arguments = (*inputs, *blocks, *blank, "i8", "i8", RAIL_MEMORY, int, int, int, int, int)
     return {_name(width): (on_addresses, arguments)}

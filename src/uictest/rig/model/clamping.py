@@ -24,9 +24,18 @@ def step_clamping(wheelset: Wheelset, p: Parameters) -> None:
     from its pressure sensor. Both have a computed force, so that it can be compared with the measured
     one.
     """
+    step_caliper(wheelset, p)
+    read_pressure(wheelset, p)
+    compensate(wheelset, p)
+    wheelset.clamping_force = select(
+        wheelset.has_caliper > 0.0, read_loadcells(wheelset, p), wheelset.computed_force
+    )
+
+
+def read_pressure(wheelset: Wheelset, p: Parameters) -> None:
+    """Read the pressure sensor of one module."""
     gauge = wheelset.pressure - p.atmospheric_pressure
-    _step_caliper(wheelset, gauge, p)
-    reading = analogue_reading(
+    wheelset.pressure_reading = analogue_reading(
         gauge,
         wheelset.pressure_gain_error,
         wheelset.pressure_offset,
@@ -42,10 +51,18 @@ def step_clamping(wheelset: Wheelset, p: Parameters) -> None:
         wheelset.pressure_error,
         p.pressure_range,
     )
-    wheelset.pressure_reading = reading
-    _step_cylinder_pressure(wheelset, reading, p)
-    _step_hysteresis(wheelset, p)
-    loadcells = analogue_reading(
+
+
+def read_loadcells(wheelset: Wheelset, p: Parameters) -> float:
+    """Clamping force in N that the loadcells of one module read."""
+    wheelset.loadcell_saturated_steps += wheelset.has_caliper * beyond_range(
+        wheelset.caliper_force,
+        wheelset.loadcell_gain_error,
+        wheelset.loadcell_offset,
+        wheelset.loadcell_error,
+        p.loadcell_range,
+    )
+    return analogue_reading(
         wheelset.caliper_force,
         wheelset.loadcell_gain_error,
         wheelset.loadcell_offset,
@@ -54,20 +71,19 @@ def step_clamping(wheelset: Wheelset, p: Parameters) -> None:
         p.loadcell_resolution,
         p.loadcell_steps,
     )
-    wheelset.loadcell_saturated_steps += wheelset.has_caliper * beyond_range(
-        wheelset.caliper_force,
-        wheelset.loadcell_gain_error,
-        wheelset.loadcell_offset,
-        wheelset.loadcell_error,
-        p.loadcell_range,
-    )
-    wheelset.clamping_force = select(wheelset.has_caliper > 0.0, loadcells, wheelset.computed_force)
 
 
-def _step_caliper(wheelset: Wheelset, gauge: float, p: Parameters) -> None:
+def compensate(wheelset: Wheelset, p: Parameters) -> None:
+    """Compute the clamping force of one module from the reading of its pressure."""
+    _step_cylinder_pressure(wheelset, wheelset.pressure_reading, p)
+    _step_hysteresis(wheelset, p)
+
+
+def step_caliper(wheelset: Wheelset, p: Parameters) -> None:
+    """Advance the caliper of one module, or the one that it would have, under the pressure of its air."""
     stroke = stroke_after(
         wheelset.stroke,
-        gauge,
+        wheelset.pressure - p.atmospheric_pressure,
         p.piston_area,
         p.preload,
         wheelset.coulomb_friction,

@@ -200,7 +200,7 @@ def step_body(car: Car, p: Parameters) -> None:
     car.resistance_loss += p.step * drag * 0.5 * (speed + car.speed)
     stops = (1.0 - car.stopped) * select(car.speed <= p.end_speed, 1.0, 0.0) > 0.0
     share = (speed - p.end_speed) / select(stops, speed - car.speed, 1.0)
-    car.stop_time = select(stops, car.time + share * p.step, car.stop_time)
+    car.stop_time = select(stops, car.vehicle_steps * p.step + share * p.step, car.stop_time)
     car.stop_position = select(
         stops, position + 0.5 * share * p.step * (speed + p.end_speed), car.stop_position
     )

@@ -26,8 +26,9 @@ class Frame(Record):
 class Car(Frame, BrakedTrain):
     """State of the car body, the air supply and the ledgers."""
 
-    steps: float  # done so far
-    substep: float  # within the controller cycle
+    steps: float  # done so far by the brake, which may be ahead within a controller cycle
+    vehicle_steps: float  # done so far by the vehicle
+    substep: float  # of the brake within the controller cycle
     cycle: int  # of the controller, begun so far
     controller_failed: int  # 1 once the controller cannot go on: the stop ends
     diagnosis: int  # bits of a controller from outside
@@ -242,9 +243,19 @@ class Wheelset(BrakedWheelset, WheelsetParameters):
     next_rail_factor: float
 
 
+class ModuleStep(Record):
+    """What is kept of one module in one step while the brake runs ahead of the vehicle."""
+
+    pressure_reading: float  # as in :class:`Wheelset`
+    pressure_ratio: float
+    clamping_force: float
+
+
 CAR = layout_of(Car, *(controller.train_memory for controller in CONTROLLERS.values()))
 """Layout of :class:`Car` and of what every controller remembers about the train."""
 BOGIE = layout_of(Bogie)
 """Layout of :class:`Bogie`."""
 WHEELSET = layout_of(Wheelset, *(controller.wheelset_memory for controller in CONTROLLERS.values()))
 """Layout of :class:`Wheelset` and of what every controller remembers about a wheelset."""
+MODULE_STEP = layout_of(ModuleStep)
+"""Layout of :class:`ModuleStep`."""

@@ -1,8 +1,20 @@
-"""One base step of the whole rig."""
+"""One base step of the whole rig: of its brake, then of its vehicle.
+
+Within a controller cycle nothing that the vehicle does acts on air, calipers or compensation, and the vehicle
+needs the clamping forces alone. So the brake may make the steps of a cycle before the vehicle makes them:
+lanes do, whose processor then finds more of what it works on in its registers and its first-level cache.
+"""
 
 from collections.abc import Sequence
 
-from uictest.rig.model.clamping import step_clamping
+from uictest.core.physics import select
+from uictest.rig.model.clamping import (
+    compensate,
+    read_loadcells,
+    read_pressure,
+    step_caliper,
+    step_clamping,
+)
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.pneumatics import step_air
 from uictest.rig.model.running_gear import (
@@ -16,7 +28,7 @@ from uictest.rig.model.running_gear import (
     step_wheelset,
 )
 from uictest.rig.model.slip_search import find_slips
-from uictest.rig.model.state import Bogie, Car, Wheelset
+from uictest.rig.model.state import Bogie, Car, ModuleStep, Wheelset
 
 
 def step(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> None:
@@ -30,13 +42,65 @@ def step(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Pa
     step_clamping(wheelsets[1], p)
     step_clamping(wheelsets[2], p)
     step_clamping(wheelsets[3], p)
-    _step_vehicle(car, bogies, wheelsets, p)
+    _count_step(car, p)
+    step_vehicle(car, bogies, wheelsets, p)
+
+
+def step_modules(car: Car, wheelsets: Sequence[Wheelset], kept: Sequence[ModuleStep], p: Parameters) -> None:
+    """Advance air and the first caliper, which every rig has; keep what the sensors read."""
+    step_air(car, wheelsets, p)
+    _step_caliper(wheelsets[0], kept[0], p)
+    _keep_reading(wheelsets[0], kept[0], p)
+    _keep_reading(wheelsets[1], kept[1], p)
+    _keep_reading(wheelsets[2], kept[2], p)
+    _keep_reading(wheelsets[3], kept[3], p)
+    wheelsets[0].compensated_pressure = wheelsets[0].pressure_reading
+    _count_step(car, p)
+
+
+def step_other_calipers(wheelsets: Sequence[Wheelset], kept: Sequence[ModuleStep], p: Parameters) -> None:
+    """Advance the calipers of the other modules; nothing reads those that a rig does not have."""
+    _step_caliper(wheelsets[1], kept[1], p)
+    _step_caliper(wheelsets[2], kept[2], p)
+    _step_caliper(wheelsets[3], kept[3], p)
+
+
+def compensate_kept(wheelset: Wheelset, kept: ModuleStep, p: Parameters) -> None:
+    """Compute the clamping force of a module from what is kept of a step, unless its loadcells read it."""
+    wheelset.pressure_reading = kept.pressure_reading
+    wheelset.pressure_ratio = kept.pressure_ratio
+    compensate(wheelset, p)
+    has_caliper = wheelset.has_caliper > 0.0
+    kept.clamping_force = select(has_caliper, kept.clamping_force, wheelset.computed_force)
+
+
+def take_clamping_forces(wheelsets: Sequence[Wheelset], kept: Sequence[ModuleStep]) -> None:
+    """Give the vehicle the clamping forces that are kept of a step."""
+    wheelsets[0].clamping_force = kept[0].clamping_force
+    wheelsets[1].clamping_force = kept[1].clamping_force
+    wheelsets[2].clamping_force = kept[2].clamping_force
+    wheelsets[3].clamping_force = kept[3].clamping_force
+
+
+def _step_caliper(wheelset: Wheelset, kept: ModuleStep, p: Parameters) -> None:
+    step_caliper(wheelset, p)
+    kept.clamping_force = read_loadcells(wheelset, p)
+
+
+def _keep_reading(wheelset: Wheelset, kept: ModuleStep, p: Parameters) -> None:
+    read_pressure(wheelset, p)
+    kept.pressure_reading = wheelset.pressure_reading
+    kept.pressure_ratio = wheelset.pressure_ratio
+
+
+def _count_step(car: Car, p: Parameters) -> None:
     car.steps += 1.0
     car.substep += 1.0
     car.time = car.steps * p.step
 
 
-def _step_vehicle(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+def step_vehicle(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Advance wheelsets, bogies and car body under the clamping forces."""
     leading = bogies[0]
     trailing = bogies[1]
     clear_forces(car)
@@ -60,3 +124,4 @@ def _step_vehicle(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelse
     account_for_brakes(wheelsets[2], trailing, torques_2, p)
     account_for_brakes(wheelsets[3], trailing, torques_3, p)
     step_body(car, p)
+    car.vehicle_steps += 1.0
