@@ -97,21 +97,20 @@ def stop(
         step: distance of a step, m.
     """
     behind = places_of_axles()
-    laid: list[list[float]] = [[] for _ in sanders]
+    nozzles = [Nozzle(sander, behind, kept, step) for sander in sanders]
     used = [0.0] * len(sanders)
     squared, time, run = speed**2, 0.0, 0.0
     while True:
         now = float(np.sqrt(squared))
         density = np.zeros(behind.size)
-        for k, sander in enumerate(sanders):
-            laid[k].append(sander.laid(now))
-            _add_sand(density, behind, laid[k], sander.axle - 1, kept, step)
+        for nozzle in nozzles:
+            nozzle.add_sand(density, now)
         carried = np.minimum(law.adhesion(density), demand / GRAVITY)
         deceleration = GRAVITY * float(carried.mean())
         left = squared - 2.0 * deceleration * step
         passed = step if left > 0.0 else squared / (2.0 * deceleration)
         if time < 30.0:
-            used = [mass + own[-1] * passed for mass, own in zip(used, laid, strict=True)]
+            used = [mass + each.laid[0] * passed for mass, each in zip(used, nozzles, strict=True)]
         run += passed
         if left <= 0.0:
             return SandedStop(run, tuple(used))
@@ -119,19 +118,28 @@ def stop(
         squared = left
 
 
-def _add_sand(
-    density: NDArray[np.float64],
-    behind: NDArray[np.float64],
-    laid: Sequence[float],
-    first: int,
-    kept: float,
-    step: float,
-) -> None:
-    """Add under each axle what is left there of what one nozzle has laid; `laid` is that of each step."""
-    steps_ago = np.round((behind[first:] - behind[first]) / step).astype(int)
-    reached = np.nonzero(steps_ago < len(laid))[0]
-    then = np.array([laid[-1 - ago] for ago in steps_ago[reached].tolist()])
-    density[first + reached] += kept**reached * then
+class Nozzle:
+    """What the nozzle of a sander has laid, latest first, and what each axle finds of it.
+
+    Args:
+        sander: whose nozzle it is.
+        behind: how far each axle runs behind the first one, m.
+        kept: kappa.
+        step: distance of a step, m.
+    """
+
+    def __init__(self, sander: Sander, behind: NDArray[np.float64], kept: float, step: float) -> None:
+        self._sander, self._first = sander, sander.axle - 1
+        later = behind[self._first :] - behind[self._first]
+        self._steps_ago = np.round(later / step).astype(int)
+        self._left = kept ** np.arange(later.size)
+        self.laid = np.zeros(self._steps_ago[-1] + 1)
+
+    def add_sand(self, density: NDArray[np.float64], speed: float) -> None:
+        """Lay the sand of a step, and add what is left of all of it under each axle."""
+        self.laid[1:] = self.laid[:-1]
+        self.laid[0] = self._sander.laid(speed)
+        density[self._first :] += self._left * self.laid[self._steps_ago]
 
 
 def bisect(function: Callable[[float], float], low: float, high: float, target: float) -> float:

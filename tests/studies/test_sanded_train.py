@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from studies.sanded_train import GRAVITY, Sander, SandLaw, _add_sand, bisect, places_of_axles, stop
+from studies.sanded_train import GRAVITY, Nozzle, Sander, SandLaw, bisect, places_of_axles, stop
 
 SPEED, DEMAND = 24.6, 0.9
 LAW = SandLaw(slope=0.03, end=0.15)
@@ -26,10 +26,17 @@ def test_a_law_starts_untreated_with_its_slope_and_ends_at_its_end():
     assert far == pytest.approx(LAW.end)
 
 
+def sanded(steps, sander, kept):
+    """Return the density that each axle meets after some steps of a metre."""
+    nozzle = Nozzle(sander, places_of_axles(), kept, 1.0)
+    for _ in range(steps):
+        density = np.zeros(16)
+        nozzle.add_sand(density, SPEED)
+    return density
+
+
 def test_each_axle_leaves_a_share_and_none_ahead_of_the_nozzle_meets_sand():
-    behind = places_of_axles()
-    density = np.zeros(16)
-    _add_sand(density, behind, [2.0] * 200, 2, 0.8, 1.0)
+    density = sanded(200, Sander(3, np.inf, 2.0), 0.8)
     assert list(density[:2]) == [0.0, 0.0]
     assert density[2:] == pytest.approx(2.0 * 0.8 ** np.arange(14))
 
@@ -37,8 +44,7 @@ def test_each_axle_leaves_a_share_and_none_ahead_of_the_nozzle_meets_sand():
 def test_sand_stays_at_its_place_until_an_axle_gets_there():
     """In the first metres only axles that have passed a nozzle's first place meet its sand."""
     behind, run = places_of_axles(), 20
-    density = np.zeros(16)
-    _add_sand(density, behind, [1.0] * run, 2, 1.0, 1.0)
+    density = sanded(run, Sander(3, np.inf, 1.0), 1.0)
     assert list(np.nonzero(density)[0]) == [j for j in range(2, 16) if round(behind[j] - behind[2]) < run]
 
 
