@@ -177,9 +177,8 @@ def _four_rounds(x: int, y: int, r0: int, r1: int, r2: int, r3: int) -> tuple[in
 
 
 def _round(x: int, y: int, rotation: int) -> tuple[int, int]:
-    x = (x + y) & _MASK
-    y = ((y << rotation) | (y >> (32 - rotation))) & _MASK
-    return x, x ^ y
+    x = x + y  # its upper bits are dropped with the next key
+    return x, (((y << rotation) | (y >> (32 - rotation))) ^ x) & _MASK
 
 
 def uniform(words: tuple[int, int]) -> float:

@@ -9,7 +9,14 @@ from typing import Any, NamedTuple
 from uictest.core.lanes import lane, vectors
 from uictest.rig.model.brake_command import follow_commands
 from uictest.rig.model.controller import decide
-from uictest.rig.model.cycle import command_valves, read_pole_wheels, read_sensors, start_cycle
+from uictest.rig.model.cycle import (
+    command_valves,
+    read_common_sensors,
+    read_line_sensor,
+    read_other_loadcells,
+    read_pole_wheels,
+    start_cycle,
+)
 from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.dynamic_brake import brake_dynamically, demand_dynamic_brake
 from uictest.rig.model.faults import (
@@ -52,9 +59,10 @@ class RigRecords(NamedTuple):
 
 
 class Needs(NamedTuple):
-    """What the steps of a controller cycle have to do for any lane: how many there are, and what else."""
+    """What a controller cycle has to do for any lane: how many steps it has, and what else."""
 
     steps: int
+    reads_pole_wheels: bool
     reads_line: bool
     follows_air: bool
     warms_discs: bool
@@ -88,7 +96,26 @@ def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Need
     """Do what comes before the steps of a controller cycle; idle lanes skip their controller."""
     rig = lanes.rig
     car, wheelsets, settings = vectors(rig.car), vectors(rig.wheelsets), vectors(lanes.settings)
+    needs = _needs_of(cases, running)
+    _update_faults(lanes, cases, running)
+    read_common_sensors(car, wheelsets, settings)
+    if needs.has_four_calipers:
+        read_other_loadcells(car, wheelsets, settings)
+    if needs.reads_line:
+        read_line_sensor(car, settings, car.cycle)
+    if needs.reads_pole_wheels:
+        read_pole_wheels(car, wheelsets, settings)
+    for k in range(running.size):
+        if running[k] != IDLE:
+            _decide(lanes, cases, running[k], memories[k], k)
+    command_valves(car, wheelsets, settings)
+    _follow_commands_of_valves(lanes, cases, running)
+    return needs
+
+
+def _needs_of(cases: Cases, running: Any) -> Needs:
     steps = 0
+    reads_pole_wheels = False
     reads_line = False
     follows_air = False
     warms_discs = False
@@ -96,35 +123,11 @@ def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Need
     brakes_dynamically = False
     brakes_on_track = False
     has_four_calipers = False
-    _update_faults(lanes, cases, running)
-    read_sensors(car, wheelsets, settings)
-    if _any_pole_wheel(cases, running):
-        read_pole_wheels(car, wheelsets, settings)
     for k in range(running.size):
-        case = running[k]
-        if case != IDLE:
-            p = cases.parameters[case]
-            if p.has_train_speed + p.has_accelerometer > 0.0:
-                read_train_sensors(lane(rig.car, k), p)
-            start_cycle(lane(rig.car, k), lane(rig.wheelsets, k), p, cases.rail[case])
-            if p.cleans_rail > 0.0:
-                clean_rail(lane(rig.car, k), lane(rig.wheelsets, k), p, memories[k])
-                if p.magnet_cleaning > 0.0:
-                    clean_by_magnets(lane(rig.car, k), lane(rig.wheelsets, k), p, memories[k])
-            if p.has_sanders > 0.0:
-                spread_sand(lane(rig.car, k), lane(rig.wheelsets, k), p, memories[k])
-            if p.fault_count > 0:
-                falsify_readings(lane(rig.car, k), lane(rig.wheelsets, k), p)
-            decide(lane(rig.car, k), lane(rig.wheelsets, k), p)
-            if p.fault_count > 0:
-                silence_controller(lane(rig.car, k), lane(rig.wheelsets, k), p)
-            if p.command_count > 1:
-                follow_commands(lane(rig.car, k), lane(lanes.measures, k), p)
-            if p.drag_duration > 0.0:
-                hold_speed(lane(rig.car, k), p)
-            if p.has_track_brake > 0.0:
-                command_track_brake(lane(rig.car, k), p)
+        if running[k] != IDLE:
+            p = cases.parameters[running[k]]
             steps = p.steps_per_cycle
+            reads_pole_wheels = reads_pole_wheels or p.uses_pole_wheels > 0.0
             reads_line = reads_line or p.uses_module_air > 0.0
             follows_air = follows_air or (p.uses_module_air > 0.0 and p.calipers < 4)
             warms_discs = warms_discs or p.models_disc_temperature > 0.0
@@ -132,10 +135,9 @@ def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Need
             brakes_dynamically = brakes_dynamically or p.has_dynamic_brake > 0.0
             brakes_on_track = brakes_on_track or p.has_track_brake > 0.0
             has_four_calipers = has_four_calipers or p.calipers > 1
-    command_valves(car, wheelsets, settings)
-    _follow_commands_of_valves(lanes, cases, running)
     return Needs(
         steps,
+        reads_pole_wheels,
         reads_line,
         follows_air,
         warms_discs,
@@ -144,6 +146,31 @@ def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Need
         brakes_on_track,
         has_four_calipers,
     )
+
+
+def _decide(lanes: Lanes, cases: Cases, case: int, memory: Any, k: int) -> None:
+    """Look up the friction that lane ``k`` meets and let its controller and driver decide."""
+    p, car, wheelsets = cases.parameters[case], lane(lanes.rig.car, k), lane(lanes.rig.wheelsets, k)
+    if p.has_train_speed + p.has_accelerometer > 0.0:
+        read_train_sensors(car, p)
+    start_cycle(car, wheelsets, p, cases.rail[case])
+    if p.cleans_rail > 0.0:
+        clean_rail(car, wheelsets, p, memory)
+        if p.magnet_cleaning > 0.0:
+            clean_by_magnets(car, wheelsets, p, memory)
+    if p.has_sanders > 0.0:
+        spread_sand(car, wheelsets, p, memory)
+    if p.fault_count > 0:
+        falsify_readings(car, wheelsets, p)
+    decide(car, wheelsets, p)
+    if p.fault_count > 0:
+        silence_controller(car, wheelsets, p)
+    if p.command_count > 1:
+        follow_commands(car, lane(lanes.measures, k), p)
+    if p.drag_duration > 0.0:
+        hold_speed(car, p)
+    if p.has_track_brake > 0.0:
+        command_track_brake(car, p)
 
 
 def advance_brake(lanes: Lanes, needs: Needs) -> None:
@@ -219,12 +246,3 @@ def _follow_commands_of_valves(lanes: Lanes, cases: Cases, running: Any) -> None
                 command_sanders(car, wheelsets, p)
             if p.fault_count > 0:
                 limit_valves(car, wheelsets, p)
-
-
-def _any_pole_wheel(cases: Cases, running: Any) -> bool:
-    """Whether the case of any lane has a sensor that the pole wheels are read for."""
-    found = False
-    for k in range(running.size):
-        if running[k] != IDLE:
-            found = found or cases.parameters[running[k]].uses_pole_wheels > 0.0
-    return found

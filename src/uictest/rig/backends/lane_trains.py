@@ -125,7 +125,7 @@ def _start_next(
 
 def _run_cycle(lanes: Lanes, couplers: Any, trains: Trains, running: Any, memories: Any) -> None:
     """Step all lanes through a controller cycle."""
-    needs = Needs(0, False, False, False, False, False, False, False)
+    needs = Needs(0, False, False, False, False, False, False, False, False)
     for j in range(len(trains.parameters)):
         needs = _of_both(needs, begin_cycle(_lanes_of(lanes, j), _cases_of(trains, j), running, memories[j]))
         if j + 1 < len(trains.parameters):
@@ -141,6 +141,7 @@ def _run_cycle(lanes: Lanes, couplers: Any, trains: Trains, running: Any, memori
 def _of_both(one: Needs, other: Needs) -> Needs:
     return Needs(
         other.steps,
+        one.reads_pole_wheels or other.reads_pole_wheels,
         one.reads_line or other.reads_line,
         one.follows_air or other.follows_air,
         one.warms_discs or other.warms_discs,

@@ -21,7 +21,13 @@ from uictest.rig.backends.compiled import (
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.couplers import account_for_coupler, pull_cars, release_couplers
-from uictest.rig.model.cycle import command_valves, read_pole_wheels, read_sensors
+from uictest.rig.model.cycle import (
+    command_valves,
+    read_common_sensors,
+    read_line_sensor,
+    read_other_loadcells,
+    read_pole_wheels,
+)
 from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.dynamic_brake import brake_dynamically
 from uictest.rig.model.faults import let_air_leak
@@ -224,7 +230,9 @@ def lane_model() -> dict[Function, Any]:
         floor: vector_functions.floor,
     }
     without_branches: tuple[Function, ...] = (
-        read_sensors,
+        read_common_sensors,
+        read_other_loadcells,
+        read_line_sensor,
         read_pole_wheels,
         command_valves,
         read_line_pressure,

@@ -48,12 +48,26 @@ _PER_RADIAN = 0.5 / math.pi
 
 
 def read_sensors(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    """Read the sensors of all wheelsets for cycle ``car.cycle``."""
+    """Read all sensors for cycle ``car.cycle``."""
+    read_common_sensors(car, wheelsets, p)
+    read_other_loadcells(car, wheelsets, p)
+    read_line_sensor(car, p, car.cycle)
+
+
+def read_common_sensors(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Read the sensors that every rig has: of speeds and pressures, and the first loadcells."""
     read_module_sensors(wheelsets[0], p, car.cycle, 0)
     read_module_sensors(wheelsets[1], p, car.cycle, 1)
     read_module_sensors(wheelsets[2], p, car.cycle, 2)
     read_module_sensors(wheelsets[3], p, car.cycle, 3)
-    read_line_sensor(car, p, car.cycle)
+    _read_loadcells(wheelsets[0], p, car.cycle, 0)
+
+
+def read_other_loadcells(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Draw the momentary errors of the loadcells of the other modules."""
+    _read_loadcells(wheelsets[1], p, car.cycle, 1)
+    _read_loadcells(wheelsets[2], p, car.cycle, 2)
+    _read_loadcells(wheelsets[3], p, car.cycle, 3)
 
 
 def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: Any) -> None:
@@ -86,10 +100,9 @@ def command_valves(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> No
 
 
 def read_module_sensors(wheelset: Wheelset, p: Parameters, cycle: int, number: int) -> None:
-    """Read the speed sensor and draw the momentary errors of the pressure sensor and the loadcells."""
+    """Read the speed sensor and draw the momentary error of the pressure sensor."""
     channel = number * CHANNELS
     wheelset.pressure_error = wheelset.pressure_noise * sensor_noise(p, cycle, channel + _PRESSURE)
-    wheelset.loadcell_error = wheelset.loadcell_noise * sensor_noise(p, cycle, channel + _LOADCELL)
     wheelset.measured_speed = speed_reading(
         wheelset.rotation * wheelset.configured_radius,
         wheelset.tooth_pitch,
@@ -98,6 +111,11 @@ def read_module_sensors(wheelset: Wheelset, p: Parameters, cycle: int, number: i
         wheelset.slowest_measured_speed,
         wheelset.speed_noise * sensor_noise(p, cycle, channel + SPEED) + wheelset.speed_gain_error,
     )
+
+
+def _read_loadcells(wheelset: Wheelset, p: Parameters, cycle: int, number: int) -> None:
+    channel = number * CHANNELS + _LOADCELL
+    wheelset.loadcell_error = wheelset.loadcell_noise * sensor_noise(p, cycle, channel)
 
 
 def read_line_sensor(car: Car, p: Parameters, cycle: int) -> None:
