@@ -12,6 +12,7 @@ from uictest.rig.identification import UnsuitableRecordError
 RECIPE = """schema: uictest/bench/1
 name: cycling
 stop:
+  simulation: {time_step: 1 ms}
   rig:
     sensors:
       extends: standard
@@ -94,7 +95,7 @@ def test_the_numbers_do_not_depend_on_those_of_the_compensation(test, record, re
 
 def test_sensors_with_noise_change_little(tmp_path):
     recipe = tmp_path / "noisy.yaml"
-    recipe.write_text(RECIPE[: RECIPE.index("stop:")] + RECIPE[RECIPE.index("inputs:") :], "utf-8")
+    recipe.write_text(RECIPE[: RECIPE.index("  rig:")] + RECIPE[RECIPE.index("inputs:") :], "utf-8")
     noisy = load_bench(recipe)
     result = identify_air(channels(run_test(noisy)), noisy.case)
     assert result.caliper_heat_conductance == pytest.approx(11.8, rel=0.2)

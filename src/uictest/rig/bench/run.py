@@ -11,7 +11,7 @@ import uictest
 from uictest.core.lanes import translate
 from uictest.core.recording import ORIGIN, Recording
 from uictest.plans.scenario import Case, rig_as_built
-from uictest.rig.assembly import assemble
+from uictest.rig.assembly import ASSIGNMENTS, assemble, assigned
 from uictest.rig.backends.compiled import compile_inner, compiled_operations, compiler
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.bench.inputs import BenchInput, bench_input
@@ -136,6 +136,9 @@ def run_test(test: BenchTest) -> Recording:
     return Recording(recording.channels, recording.units, facts)
 
 
+_AIR = "rig.compensation_model.air"
+_OF_AIR = tuple(each for each in ASSIGNMENTS if any(_AIR.startswith(key) for key in each.keys))
+"""What sets the parameters that the unknowns decide."""
 _WALK = "uictest_modelled_pressure"
 _WALK_ARGUMENTS = (CAR, WHEELSET, PARAMETERS, WHEELSET_PARAMETERS, "f8", "f8", "i8", "f8", int)
 
@@ -154,6 +157,9 @@ class ModelledPressure:
         self._commands = np.ascontiguousarray(channels["command"], "i8")
         simulation = case.scenario.simulation.model_copy(update={"time_step": step})
         self._case = _with(case, simulation=simulation)
+        of_rig = assemble(self._case)
+        self._parameters = np.array([of_rig.parameters])
+        self._of_wheelset = of_rig.wheelset_parameters[:1]
 
     def __call__(self, unknowns: Samples) -> Samples:
         """Return gauge pressures, Pa, at the record's instants.
@@ -162,15 +168,16 @@ class ModelledPressure:
             unknowns: heat conductances of tank and caliper, W/K; swept volume as a share of a tank's;
                 opening pressure, and closing less opening pressure, gauge Pa.
         """
-        inputs = assemble(_with_unknowns(self._case, unknowns))
+        for name, value in assigned(_OF_AIR, _with_unknowns(self._case, unknowns).scenario).items():
+            self._parameters[name] = value
         computed = np.empty(self._tank.size)
         follow = native_function(_WALK_UNIT, _WALK, len(_WALK_ARGUMENTS))
         car, wheelset, rows = np.zeros(1, CAR), np.zeros(1, WHEELSET), computed.shape
         follow(
             address(car, CAR, (1,)),
             address(wheelset, WHEELSET, (1,)),
-            address(inputs.parameters, PARAMETERS),
-            address(inputs.wheelset_parameters[0], WHEELSET_PARAMETERS),
+            address(self._parameters, PARAMETERS, (1,)),
+            address(self._of_wheelset, WHEELSET_PARAMETERS, (1,)),
             address(self._tank, "f8", rows),
             address(self._line, "f8", rows),
             address(self._commands, "i8", rows),
