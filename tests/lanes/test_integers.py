@@ -13,6 +13,7 @@ WIDTH = 8
 PAIR = np.dtype((np.record, [("a", "i8"), ("b", "i8"), ("result", "i8"), ("number", "f8")]))
 numbers = st.lists(st.integers(-(2**63), 2**63 - 1), min_size=WIDTH, max_size=WIDTH)
 
+# In lanes and in numpy.
 OPERATIONS = {
     "add": lambda a, b: a + b,
     "multiply": lambda a, b: a * b,
@@ -21,61 +22,47 @@ OPERATIONS = {
     "xor": lambda a, b: a ^ b,
     "left": lambda a, b: a << 13,
     "right": lambda a, b: b >> 13,
-    "number on the left": lambda a, b: 0x1BD11BDA ^ a,
-    "number on the right": lambda a, b: b + 5,
+    "number_on_the_left": lambda a, b: 0x1BD11BDA ^ a,
+    "number_on_the_right": lambda a, b: b + 5,
 }
 CHOICES = {
     "less": (lambda a, b: select(a < b, a, b), lambda a, b: np.where(a < b, a, b)),
-    "less than a number": (lambda a, b: select(b < 3, a, 0), lambda a, b: np.where(b < 3, a, 0)),
+    "less_than_a_number": (lambda a, b: select(b < 3, a, 0), lambda a, b: np.where(b < 3, a, 0)),
     "equal": (
         lambda a, b: select(a & 1 == b & 1, 7, a + 1),
         lambda a, b: np.where(a & 1 == b & 1, 7, a + 1),
     ),
 }
+FUNCTIONS = {name: (function, function) for name, function in OPERATIONS.items()} | CHOICES
 
 
-def applied(function):
-    """Compile ``function(a, b)`` of whole numbers in lanes and call it on numbers."""
-    compiled = numba.njit(function)
+@pytest.fixture(name="applied", scope="module")
+def _applied():
+    """Compile all functions in lanes together, and return what calls them on numbers."""
+    layout = np.dtype(
+        (np.record, [(name, "i8") for name in ("a", "b", *(f"of_{name}" for name in FUNCTIONS))])
+    )
+    inner = {f"own_{name}": lanes.compile_inner(in_lanes) for name, (in_lanes, _) in FUNCTIONS.items()}
+    lines = [f"    record.of_{name} = own_{name}(record.a, record.b)" for name in FUNCTIONS]
+    source = "\n".join(["def apply(block):", "    record = vectors(block)", *lines])
+    exec(source, names := {"vectors": vectors, **inner})
+    apply = numba.njit(names["apply"])
 
-    @numba.njit
-    def apply(block):
-        record = vectors(block)
-        record.result = compiled(record.a, record.b)
-
-    def call(a, b):
-        block = lanes.block(PAIR, WIDTH)
+    def applied(a, b):
+        block = lanes.block(layout, WIDTH)
         block["a"], block["b"] = a, b
         apply(block)
-        return np.array(block["result"][0])
+        return {name: block[f"of_{name}"][0] for name in FUNCTIONS}
 
-    return call
-
-
-@pytest.fixture(scope="module", params=OPERATIONS)
-def operation(request):
-    function = OPERATIONS[request.param]
-    return applied(function), function
+    return applied
 
 
 @given(a=numbers, b=numbers)
 @settings(deadline=None)
-def test_operations_are_those_of_numpy(operation, a, b):
-    in_lanes, in_numpy = operation
-    np.testing.assert_array_equal(in_lanes(a, b), in_numpy(np.array(a), np.array(b)))
-
-
-@pytest.fixture(scope="module", params=CHOICES)
-def choice(request):
-    in_lanes, in_numpy = CHOICES[request.param]
-    return applied(in_lanes), in_numpy
-
-
-@given(a=numbers, b=numbers)
-@settings(deadline=None)
-def test_choices_are_those_of_numpy(choice, a, b):
-    in_lanes, in_numpy = choice
-    np.testing.assert_array_equal(in_lanes(a, b), in_numpy(np.array(a), np.array(b)))
+def test_operations_and_choices_are_those_of_numpy(applied, a, b):
+    in_lanes = applied(a, b)
+    for name, (_, in_numpy) in FUNCTIONS.items():
+        np.testing.assert_array_equal(in_lanes[name], in_numpy(np.array(a), np.array(b)), name)
 
 
 def test_a_counter_counts_in_every_lane():

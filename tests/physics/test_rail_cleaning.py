@@ -17,7 +17,7 @@ def test_the_share_solves_its_differential_equation(share, loss_per_metre, dista
     expected = solve_ivp(
         lambda x, c: (1.0 - np.exp(-loss_per_metre / energy) - c) / reach,
         *((0.0, distance), [share]),
-        method="Radau",
+        method="LSODA",
         rtol=1e-9,
         atol=1e-12,
     ).y[0, -1]

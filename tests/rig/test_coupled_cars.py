@@ -1,5 +1,7 @@
 """Several cars, coupled, on one rail."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -14,6 +16,8 @@ from uictest.rig.model.train import run_train
 from uictest.rig.single_stop import run_to_end
 from uictest.rig.train_inputs import Coupling, assemble_train
 from uictest.rig.train_stop import run_train_to_end
+
+from .plain_numbers import on_numbers
 
 COUPLED = Coupling(distance=26.4)
 LOOSE = Coupling(distance=26.4, stiffness=0.0, damping=0.0)
@@ -114,7 +118,7 @@ def test_every_car_runs_on_the_rail_that_those_before_it_have_cleaned(rig):
 def test_plain_code_gives_the_bits_of_compiled_code(rig):
     cases = [rig.case(*CLEANED, *SHORT), rig.case(*CLEANED, *SHORT, "brake.command=80 %")]
     plain = translate(run_train, lambda function: function, with_controllers(CHOICES, lambda each: each, {}))
-    stepped = run_train_to_end(plain, assemble_train(cases, COUPLED))
+    stepped = run_train_to_end(partial(on_numbers, plain), assemble_train(cases, COUPLED))
     for one, other in zip(run_coupled(cases, COUPLED).cars, stepped.cars, strict=True):
         assert bits(one) == bits(other)
 

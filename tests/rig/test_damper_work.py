@@ -32,15 +32,16 @@ def sliding_train(rig):
 
 def states_of(train, steps_per_cycle, steps):
     """Step a train and return the records of its parts after every step, each of shape (steps, n)."""
-    states = []
+    parts = [train.memory[part] for part in PARTS]
+    states = [np.empty((steps, *part.shape), part.dtype) for part in parts]
     for number in range(steps):
         if number % steps_per_cycle == 0:
-            vents = train.memory["modules"]["slide"] > SLIDES
-        for outputs, own in zip(train.outputs, vents, strict=True):
-            outputs["hold"] = outputs["vent"] = own
+            for outputs, slide in zip(train.outputs, train.memory["modules"]["slide"], strict=True):
+                outputs["hold"] = outputs["vent"] = slide > SLIDES
         train.step()
-        states.append([train.memory[part].copy() for part in PARTS])
-    return [np.array(each) for each in zip(*states, strict=True)]
+        for kept, part in zip(states, parts, strict=True):
+            kept[number] = part
+    return states
 
 
 def rates_of(car, bogies, wheelsets, p):

@@ -1,6 +1,7 @@
 """Plain Python and compiled code give the same bits."""
 
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache, partial
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -24,6 +25,7 @@ from uictest.rig.model.stop import run_stop
 from uictest.rig.single_stop import empty_trace
 
 from ...conftest import fma_as_written
+from ..plain_numbers import on_numbers
 
 QUICK_BRAKE = {"dead_time": 0.0, "filling_rate": 20.0, "fill_conductance": 5e-7, "moving_speed": 0.5}
 FAULTS = (
@@ -160,41 +162,10 @@ def everything(function, inputs, every):
     }
 
 
-def quickly(*arguments):
-    """Run the stop in plain Python, on plain numbers: in an eighth of the time."""
-    stop = translate(run_stop, lambda copy: copy, with_controllers(CHOICES, lambda copy: copy, {}))
-    records = [each for each in arguments if getattr(each, "dtype", None) is not None and each.dtype.names]
-    plain = {id(each): _numbers(each) for each in records}
-    *_, trace, _ = arguments
-    plain[id(trace)] = samples = type(trace)(*map(_blank_samples, trace))
-    stop(*(plain.get(id(each), each) for each in arguments))
-    for record in records:
-        _write_back(plain[id(record)], record)
-    for table, own in zip(trace, samples, strict=True):
-        for name in table.dtype.names:
-            table[name] = np.reshape([getattr(each, name, 0.0) for each in own.flat], table.shape)
-
-
-def _blank_samples(table):
-    """Rows for samples that are written once each."""
-    rows = np.empty(table.shape, object)
-    rows.flat = [SimpleNamespace() for _ in range(table.size)]
-    return rows
-
-
-def _numbers(record):
-    if record.shape:
-        return [_numbers(each) for each in record]
-    return SimpleNamespace(**{name: record[name].tolist() for name in record.dtype.names})
-
-
-def _write_back(numbers, record):
-    if record.shape:
-        for place, each in enumerate(numbers):
-            _write_back(each, record[place])
-    else:
-        for name in record.dtype.names:
-            record[name] = getattr(numbers, name)
+@cache
+def stop_on_numbers():
+    """Return the stop in plain Python, on plain numbers."""
+    return partial(on_numbers, plain_stop())
 
 
 def fields_that_differ(layout, one, other):
@@ -210,7 +181,7 @@ def test_plain_and_compiled_code_give_the_same_bits(rig, setting):
         fields = {**fields, "cycles": 200}
     inputs = rig.inputs(*overrides, **fields)
     as_it_is = setting == "standstill on a dry rail"
-    plain = everything(plain_stop() if as_it_is else quickly, inputs, 1)
+    plain = everything(plain_stop() if as_it_is else stop_on_numbers(), inputs, 1)
     compiled = everything(compiled_stop(), inputs, 1)
     for name, layout in (
         ("car", CAR),

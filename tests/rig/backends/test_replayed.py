@@ -26,7 +26,7 @@ def slipping():
     (case,) = load([path], overrides=["brake.pad=disc-pad"])
     measures = case.scenario.measures
     definition = {name: float(getattr(measures, name)) for name in fields_of(MeasureDefinition)}
-    return simulate(case, record_every=0.01).recording, SimpleNamespace(**definition)
+    return simulate(case, record_every=0.02).recording, SimpleNamespace(**definition)
 
 
 def _replay(recording, definition, *, with_faults):
@@ -44,7 +44,7 @@ def test_compiled_code_and_plain_python_note_the_same_bits(slipping, gap, with_f
     recording, definition = slipping
     if gap:
         channel = recording[gap].copy()
-        channel[500:700] = np.nan
+        channel[250:350] = np.nan
         recording = replace(recording, channels={**recording.channels, gap: channel})
     compiled, plain = (_replay(recording, definition, with_faults=with_faults) for _ in range(2))
     noted = noted_numbers(compiled, CELLS)
@@ -57,8 +57,8 @@ def test_compiled_code_and_plain_python_note_the_same_bits(slipping, gap, with_f
 def test_samples_from_the_end_on_are_not_fed(slipping):
     recording, definition = slipping
     time = recording["time"]
-    plain, compiled = (replace(_replay(recording, definition, with_faults=True), end=time[800]) for _ in "ab")
-    assert list(plain.pass_samples()) == time[1:800].tolist()
+    plain, compiled = (replace(_replay(recording, definition, with_faults=True), end=time[400]) for _ in "ab")
+    assert list(plain.pass_samples()) == time[1:400].tolist()
     pass_samples(compiled)
     assert repr(compiled.train) == repr(plain.train)
     assert repr(compiled.wheelsets) == repr(plain.wheelsets)
