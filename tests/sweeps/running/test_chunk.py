@@ -51,19 +51,26 @@ def test_chunks_that_share_a_queue_give_the_bytes_of_each_alone(load, made_up):
 @pytest.mark.parametrize(
     ("chunks", "jobs", "sizes"),
     [
-        (33, 2, [5, 4, 4, 4, 4, 4, 4, 4]),
-        (19, 2, [3, 2, 3, 2, 2, 3, 2, 2]),
-        (3, 2, [1, 1, 1]),
-        (33, 1, [7, 7, 6, 7, 6]),
+        (33, 2, [8, 7, 5, 4, 3, 2, 2, 1, 1]),
+        (19, 2, [5, 4, 3, 2, 2, 2, 1]),
+        (3, 2, [2, 1]),
+        (33, 1, [8, 8, 8, 8, 1]),
+        (9, 4, [2, 2, 2, 1, 1, 1]),
     ],
 )
-def test_queues_are_alike_hold_every_chunk_once_and_the_last_is_no_longer_than_the_first(chunks, jobs, sizes):
+def test_queues_hold_every_chunk_once_and_become_shorter_for_threads_to_end_together(chunks, jobs, sizes):
     queues = queues_of(range(chunks), jobs, 31)
     assert [chunk for queue in queues for chunk in queue] == list(range(chunks))
     assert [len(queue) for queue in queues] == sizes
 
 
-@pytest.mark.parametrize(("jobs", "queues"), [(1, [8, 8, 8, 8]), (2, [4] * 8), (100, [1] * 32)])
+def test_queues_of_long_chunks_are_chunks():
+    assert queues_of(range(70), 2, 1024) == [range(n, n + 1) for n in range(70)]
+
+
+@pytest.mark.parametrize(
+    ("jobs", "queues"), [(1, [8, 8, 8, 8]), (2, [8, 6, 5, 4, 3, 2, 2, 1, 1]), (100, [1] * 32)]
+)
 def test_threads_take_queues_of_chunks_that_come_out_in_order(load, made_up, jobs, queues):
     plan = load("sample: {size: 1000, parameters: {brake.command: {uniform: [60 %, 100 %]}}}\n")
     selection, runner = CaseSelection(plan), made_up(plan)

@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from collections import namedtuple
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, groupby, pairwise
+from itertools import chain, groupby
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -43,8 +43,8 @@ WriteChunk = Callable[[int, bytes], None]
 """Takes the number of a finished chunk and its results."""
 _QUEUED = 256
 """Cases that are simulated in one queue, where they are many: at its end lanes idle; chosen."""
-_TURNS = 4
-"""Queues of a thread at least, so that threads end at nearly the same time; chosen."""
+_LEAST_QUEUED = 64
+"""Cases in one queue, where there are so many for each thread; chosen."""
 _QUEUES_AHEAD = 2
 """Queues that wait or are ready beyond those in progress: bounds memory."""
 
@@ -249,14 +249,20 @@ def run_on_threads(
 
 
 def queues_of(numbers: Sequence[int], jobs: int, chunk_size: int) -> list[Sequence[int]]:
-    """Return the chunks that are simulated in one queue each; queues differ by one chunk at most.
+    """Return the chunks that are simulated in one queue each.
 
-    The longer ones come first: at the end of the last one all other threads wait.
+    Where several threads take them, a queue holds half of a thread's share of what is left: few lanes idle at
+    the ends of the first, and few threads wait for the end of the last.
     """
-    most = max(_QUEUED // chunk_size, 1)
-    count = max(-(-len(numbers) // most), min(_TURNS * jobs, len(numbers)))
-    ends = [-(-len(numbers) * place // count) for place in range(count + 1)]
-    return [numbers[begin:end] for begin, end in pairwise(ends)]
+    most, least = (max(cases // chunk_size, 1) for cases in (_QUEUED, _LEAST_QUEUED))
+    queues: list[Sequence[int]] = []
+    left = numbers
+    while left:
+        half, share = -(-len(left) // (2 * jobs)), -(-len(left) // jobs)
+        size = min(most, max(half, min(least, share))) if jobs > 1 else most
+        queues.append(left[:size])
+        left = left[size:]
+    return queues
 
 
 def parquet_bytes(table: pa.Table) -> bytes:
