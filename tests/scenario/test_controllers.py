@@ -41,6 +41,10 @@ PROGRAM = b'__version__ = "1.2.0"\nclass Wsp: ...\n'
             *("controller.time_limit", "has no unit", "`5 s` or `5 ms`"),
         ),
         (
+            "{python: wsp.py, class: Wsp, parameters: [1, 2]}",
+            *("controller.parameters", "expected a mapping, found a list", "Handed to the controller"),
+        ),
+        (
             "{python: wsp.py, class: Wsp, parameters: {a: }}",
             *("controller.parameters.a", "expected a number", "leave the parameter out"),
         ),

@@ -77,6 +77,7 @@ class TestEveryKind:
             (error,) = refused(f"{head}controller: {{{controller}, parameters: {{upper_slide: {given}}}}}\n")
             assert error.key == "controller.parameters.upper_slide"
             assert "out of range" in error.message or "expected a number" in error.message
+            assert error.hint == ("accepted: 0 to 1" if "out of" in error.message else "write a bare number")
 
     def test_values_within_it_are_accepted(self, loaded, head, controller):
         given = "{upper_slide: 1, cycles: 4, mode: slow}"
@@ -188,6 +189,7 @@ def test_the_declarations_of_a_file_that_is_no_python_are_no_error_of_their_own(
     write("wsp.py", content)
     (error,) = refused(f"{head}controller: {{python: wsp.py, class: Wsp}}\n")
     assert (error.file, error.key) == ("wsp.py", "")
+    assert bool(error.excerpt) == (b"\0" not in content)
 
 
 def test_of_a_large_file_only_the_declarations_are_parsed(write, head, refused, monkeypatch):

@@ -72,7 +72,7 @@ def _problems_of_value(name: str, declared: Declaration, value: Any) -> Iterator
     expected = None if declared.default is None else _kind(declared.default)
     if expected is not None and _kind(value) != expected:
         written = value if isinstance(value, str) else json.dumps(value)
-        hint = f"write a bare number in{unit}" if unit and expected == "a number" else ""
+        hint = f"write a bare number{unit and ' in'}{unit}" if expected == "a number" else ""
         yield Problem(name, f"expected {expected}, found {_kind(value)} ({written})", hint)
     elif declared.range is not None:
         low, high = declared.range

@@ -59,7 +59,8 @@ def _compiled(path: Path, content: bytes) -> CodeType | None:
     except (RecursionError, MemoryError):
         return None
     except (SyntaxError, ValueError) as error:
-        document = Document(display_name(path), path.parent, content.decode("utf-8", "replace"))
+        text = "" if b"\0" in content else content.decode("utf-8", "replace")
+        document = Document(display_name(path), path.parent, text)
         line, column = (max(getattr(error, name, None) or 1, 1) for name in ("lineno", "offset"))
         reason = visible(getattr(error, "msg", str(error)))
         message = f"cannot be imported: {type(error).__name__}: {reason}"

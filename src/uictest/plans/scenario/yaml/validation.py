@@ -97,6 +97,9 @@ def _sections(model: Any) -> Iterator[tuple[str, Any]]:
 
 def hint_for_mapping(model: Any, key: Key, name: str, node: Node) -> str:
     """What to write where ``node`` stands in place of the mapping ``name``: a key that takes the value."""
+    named = [*fields_named(model, key[:-1], str(key[-1]))] if key else []
+    if named and not any(models_in(field.annotation) for field in named):
+        return named[0].description or ""  # its keys are free
     value = as_written(node)
     if value and len(value) <= EXAMPLE_LENGTH:
         for each in models_at(model, key):
