@@ -1,7 +1,11 @@
+from functools import partial
 from pathlib import Path
 
+from uictest.selftest.conformance import situations
 
-def test_a_first_controller_is_checked_with_the_command_that_is_shown(call):
+
+def test_a_first_controller_is_checked_with_the_command_that_is_shown(call, monkeypatch):
+    monkeypatch.setattr(situations, "anything", partial(situations.anything, cycles=300))
     answer = call("init", "controller", "--python", "wsp", code=0)
     [command] = [line.split() for line in answer.err.splitlines() if "controller check" in line]
     assert call(*command[1:]).code == 0
