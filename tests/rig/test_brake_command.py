@@ -45,7 +45,8 @@ def test_every_command_begins_a_ramp_after_its_dead_time_at_the_rate_of_its_posi
 
 
 def test_a_released_brake_falls_in_its_release_time(rig):
-    stop = rig.columns(RELEASED, "brake.system.positions.R.release_time=2 s", every=1)
+    release = "brake.system.positions.R.release_time=2 s"
+    stop = rig.columns(RELEASED, release, "simulation.maximum_duration=15 s", every=1)
     begins = 6.0 + position(rig).dead_time
     fallen = np.interp(begins + 1.0, stop["time"], stop["demanded_pressure"])
     assert fallen == pytest.approx(0.5 * position(rig).maximum_pressure, rel=0.01)

@@ -16,8 +16,10 @@ from uictest.rig.bench.inputs import (
 )
 from uictest.rig.bench.recipe import load_bench, recipe_path
 from uictest.rig.bench.run import run_bench
-from uictest.rig.bench.step import BENCH_CHANNELS, run_bench_test
+from uictest.rig.bench.step import BENCH_CHANNELS, BenchRig, run_bench_test
 from uictest.rig.simulation import simulate
+
+from ..plain_numbers import on_numbers
 
 
 @pytest.fixture(scope="module")
@@ -39,9 +41,18 @@ def pulled(case, clock):
     return run_bench(case, joined_inputs([full, cycle]))
 
 
+def run_on_numbers(rig, demanded_pressures, valve_commands, trace):
+    """Run the bench in plain Python."""
+
+    def run(trace, *of_rig):
+        run_bench_test(BenchRig(*of_rig), demanded_pressures.tolist(), valve_commands.tolist(), trace)
+
+    on_numbers(run, trace, *rig)
+
+
 def test_plain_and_compiled_bench_give_the_same_bits(case, clock):
     applied = triangular_input([1.5e5], 0.0, 1.5e6, clock)
-    plain, compiled = run_bench(case, applied, run_bench_test), run_bench(case, applied)
+    plain, compiled = run_bench(case, applied, run_on_numbers), run_bench(case, applied)
     assert compiled["clamping_force_1"][-1] < 0.9 * compiled["clamping_force_1"].max()
     for name, _ in BENCH_CHANNELS:
         assert np.array_equal(plain[name], compiled[name]), name
