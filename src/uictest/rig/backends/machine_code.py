@@ -139,10 +139,15 @@ def address(values: Any, layout: Any, shape: tuple[int, ...] = ()) -> int:
         raise TypeError(
             f"expected {shape} contiguous {np.dtype(layout)}, found {values.shape} {values.dtype}"
         )
-    if isinstance(values, np.ndarray):
-        return int(values.ctypes.data)
-    # A single record has no other way to tell; it lists all its fields first, some tenths of a millisecond.
-    return int(values.__array_interface__["data"][0])
+    return start_of(values)
+
+
+def start_of(record: Any) -> int:
+    """Return where a record or an array begins.
+
+    Its `__array_interface__` would say it, too, but lists all fields first, for some tenths of a millisecond.
+    """
+    return int(np.frombuffer(record, np.uint8).ctypes.data)
 
 
 def _object_code(unit: Unit, entry: str, target: Target) -> bytes:

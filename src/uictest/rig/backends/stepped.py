@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from uictest.controllers import EXCHANGE, INPUTS, OUTPUTS, OUTPUTS_AT
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.machine_code import Target, address, native_function, object_code
+from uictest.rig.backends.machine_code import Target, address, native_function, object_code, start_of
 from uictest.rig.backends.scalar import SCALAR, STEP, STEP_ARGUMENTS
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import RAIL_MEMORY, ROWS
@@ -132,7 +132,7 @@ def within_exchanges(memory: NDArray[Any], cars: int) -> tuple[list[Any], list[A
 
 def addresses_within(memory: Any) -> tuple[int, ...]:
     """Return the addresses of the parts of a record, in their order."""
-    start = int(memory.__array_interface__["data"][0])
+    start = start_of(memory)
     return tuple(start + memory.dtype.fields[name][1] for name in memory.dtype.names)
 
 
