@@ -125,22 +125,18 @@ C_FMA.restype = ctypes.c_double
 AS_WRITTEN = fma.__code__
 
 
-_entry = C_FMA
-
-
-def _called_fast(a, b, c):
-    """Call it through compiled code from the first call on: for each one ctypes takes six times as long."""
+def _called_first(a, b, c):
+    """Let compiled code call it from the second call on: for each one ctypes takes six times as long."""
     compiled = import_module("numba").njit("f8(f8, f8, f8)")(lambda a, b, c: C_FMA(a, b, c))
-    globals()["_entry"] = compiled.overloads[compiled.signatures[0]].entry_point
-    _called_fast.__code__ = (lambda a, b, c: _entry(a, b, c)).__code__
-    return _entry(a, b, c)
+    vars(arithmetic)["_c_fma"] = compiled.overloads[compiled.signatures[0]].entry_point
+    return C_FMA(a, b, c)
 
 
 @pytest.fixture(autouse=True, scope="session")
 def _c_fma():
     """Let plain Python call the C library's operation, where compiled code does not take ours."""
     if lanes.fuses():
-        vars(arithmetic)["_c_fma"] = _called_fast
+        vars(arithmetic)["_c_fma"] = _called_first
         fma.__code__ = (lambda a, b, c: _c_fma(a, b, c)).__code__
     yield
     fma.__code__ = AS_WRITTEN
