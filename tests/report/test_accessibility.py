@@ -19,12 +19,28 @@ from .sweep_rows import DRAWN, drawn_rows, sweep_result, write_rows
 
 _CHECK = """
 const done = arguments[arguments.length - 1];
+const sizes = ['scrollWidth', 'clientWidth', 'scrollHeight', 'clientHeight'].map(
+  (name) => [name, Object.getOwnPropertyDescriptor(Element.prototype, name)]);
+for (const [name, own] of sizes) {
+  const known = new WeakMap();
+  Object.defineProperty(Element.prototype, name, {...own, get() {
+    if (!known.has(this)) known.set(this, own.get.call(this));
+    return known.get(this);
+  }});
+}
+const end = (found) => {
+  for (const [name, own] of sizes) Object.defineProperty(Element.prototype, name, own);
+  done(found);
+};
 axe.run({exclude: [['svg.main-svg']]}, {resultTypes: ['violations'], preload: false}).then(
-  ({violations}) => done(
+  ({violations}) => end(
     violations.flatMap(({id, nodes}) => nodes.map((node) => `${id}: ${node.target.join(' ')}`))),
-  (error) => done([String(error)]));
+  (error) => end([String(error)]));
 """
-"""What a canvas shows is no text of ours; its values are read at the cursor and from the tables."""
+"""What a canvas shows is no text of ours; its values are read at the cursor and from the tables.
+
+The page stands still meanwhile: the size of an element is measured once, not for each text inside.
+"""
 
 _ALL_PLOTTED = """
 const missing = document.querySelector('details.stop .plots:not([data-ready])');
