@@ -27,7 +27,8 @@ REPOSITORY = Path(__file__).parents[2]
 SLOW_STUDIES = ("compensation-domain", "field-against-rig")
 WORDS = r"""(?:[^|;&<>$`*'"]|"[^"$`\\\\]*"|'[^']*')*"""
 CALL = re.compile(
-    rf"""(?P<call>(?:uictest|python)\ {WORDS}?)(?P<lost>\ 2?>/dev/null)?(?:\ \|\ (?P<filter>[^;<>]+))?""",
+    rf"""(?P<call>(?:uictest|python)\ {WORDS}?)(?P<lost>\ (?:2?>/dev/null|2>&1))?
+    (?:\ \|\ (?P<filter>[^;<>]+))?""",
     re.VERBOSE,
 )
 """A call of the program, or of a script of the page, with what becomes of its output."""
@@ -159,7 +160,7 @@ def called(call, folder, on_terminal):
         contextlib.chdir(folder),
         patch.dict(os.environ, environment(), clear=True),
         contextlib.redirect_stdout(io.StringIO() if lost == ">/dev/null" else out),
-        contextlib.redirect_stderr(io.StringIO() if lost == "2>/dev/null" else shown),
+        contextlib.redirect_stderr({"2>/dev/null": io.StringIO(), "2>&1": out}.get(lost, shown)),
     ):
         program, *arguments = shlex.split(call["call"])
         code = 0
