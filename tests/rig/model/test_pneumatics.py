@@ -114,7 +114,7 @@ def test_the_balls_keep_the_air_nearer_to_the_temperature_of_the_wall(charged):
 
 def test_vented_tanks_fall_to_the_atmosphere(braked):
     set_valves(braked, fill=0.0, vent=1.0)
-    blow(braked, 20_000)
+    blow(braked, 10_000)
     assert braked.wheelsets[1].pressure == pytest.approx(braked.p.atmospheric_pressure, rel=1e-3)
 
 
