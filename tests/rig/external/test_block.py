@@ -140,9 +140,15 @@ def test_a_controller_that_fails_ends_its_own_stop_alone(block_of, ran_in_lanes)
 
 
 @pytest.mark.usefixtures("package", "folder")
-def test_a_block_in_a_child_process_has_the_bits_of_one_here(block_of):
-    inputs = copies(0.06, 0.09)
+def test_a_block_in_a_child_process_has_the_bits_of_one_here(library, block_of):
+    """Of a library, whose stops run in lanes, and of a class, whose stops run one by one."""
+    library()
+    inputs = [
+        stop
+        for kind in ("library: libbad.so", "registered: acme-class")
+        for stop in stops(f"{{{kind}, parameters: {{fault: none, at: 0}}}}", 0.06, 0.09)
+    ]
     with Workers() as workers:
         there = workers.run_block(block_of(inputs))
-    assert there.failures == ["", ""]
+    assert there.failures == [""] * 4
     assert bits(there) == bits(run_block(block_of(inputs)))
