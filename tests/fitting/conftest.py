@@ -29,16 +29,19 @@ def _with_sensor_noise(recording, dice):
 
 @pytest.fixture(scope="session")
 def recorded_stop():
-    """Simulate a stop from a speed in km/h on a friction, and record it with the sensor noise of a seed."""
+    """Simulate a stop from a speed in km/h on a friction, and record it with the sensor noise of a seed.
 
-    def make(speed, friction, seed=0, without=(), **facts):
+    A sample `every` so many seconds.
+    """
+
+    def make(speed, friction, seed=0, without=(), every=0.01, **facts):
         wsp = facts.get("wsp", "active")
         case = stated_case(
             "stop",
             speed / 3.6,
             ["rail.condition=wet", f"rail.friction={friction}", f"rig.wsp={wsp}", *facts.get("settings", ())],
         )
-        recording = simulate(case, record_every=0.01).recording
+        recording = simulate(case, record_every=every).recording
         channels = _with_sensor_noise(recording, np.random.default_rng(seed))
         kept = {name: c for name, c in channels.items() if not name.startswith(without or ("-",))}
         return case, prepare(kept, recording.metadata, Preparation())

@@ -38,7 +38,7 @@ def fitted(stop, library):
 
     @cache
     def fit(friction, topology):
-        recorded = stop(80.0, friction, 1, cleaning(8000.0, 0.22), rig=f"rig.topology={topology}")
+        recorded = stop(80.0, friction, 1, cleaning(8000.0, 0.22), rig=f"rig.topology={topology}", every=0.02)
         return fit_cleaning([recorded], library)
 
     return fit
@@ -86,7 +86,7 @@ def test_the_cleanest_rail_under_a_wheelset_is_as_clean_as_the_rig_made_it(recor
 
 
 def test_without_forces_the_noise_of_the_train_speed_is_too_much(stop, library):
-    recorded = stop(120.0, 0.05, 1, cleaning(5000.0, 0.3), without=("clamping_force",))
+    recorded = stop(120.0, 0.05, 1, cleaning(5000.0, 0.3), without=("clamping_force",), every=0.02)
     fit = fit_cleaning([recorded], library)
     assert fit.estimate.standing == "not told apart"
     assert fit.stops[0].friction[0].value == pytest.approx(0.05, rel=0.1)
@@ -95,7 +95,7 @@ def test_without_forces_the_noise_of_the_train_speed_is_too_much(stop, library):
 def test_two_stops_tell_what_neither_does_alone(stop, library):
     """While hardly any of the rail is clean only (mur - mu0) / Wc shows; of two mu0 that is enough."""
     numbers = cleaning(45e3, 0.28)
-    both = [stop(80.0, 0.07, 1, numbers), stop(80.0, 0.12, 2, numbers)]
+    both = [stop(80.0, 0.07, 1, numbers, every=0.02), stop(80.0, 0.12, 2, numbers, every=0.02)]
     for each in both:
         alone = fit_cleaning([each], library)
         assert alone.estimate.standing == "not told apart"

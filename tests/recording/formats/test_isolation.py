@@ -9,7 +9,13 @@ import sys
 
 import pytest
 
-from uictest.core.recording.formats import ReadingInterruptedError, UnreadableError, isolation, read_contents
+from uictest.core.recording.formats import (
+    ReadingInterruptedError,
+    UnreadableError,
+    isolation,
+    read_contents,
+    reader,
+)
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="limits and signals are POSIX")
 
@@ -32,12 +38,29 @@ def files_up_to(size):
     return limit
 
 
+def reading_here_up_to(size):
+    """Read in this process, under the limit of one whose start takes longer than all it reads."""
+
+    def read(name, path, dialect, folder, seconds):
+        soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+        try:
+            return reader.read_into(folder, name, path, dialect)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+    return read
+
+
 @pytest.mark.parametrize("size", [0, 300, 1700])
 @pytest.mark.parametrize("name", ["mdf", "csv", "parquet"])
 def test_a_full_temporary_folder_is_named(written, tmp_path, monkeypatch, name, size):
     path = written(name)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    reading_under(monkeypatch, files_up_to(size))
+    if name == "mdf":
+        reading_under(monkeypatch, files_up_to(size))
+    else:
+        monkeypatch.setattr(isolation, "_read_in_process", reading_here_up_to(size))
     with pytest.raises(ReadingInterruptedError) as caught:
         read_contents(path)
     assert caught.value.filename == str(tmp_path)
