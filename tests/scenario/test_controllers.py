@@ -30,6 +30,7 @@ PROGRAM = b'__version__ = "1.2.0"\nclass Wsp: ...\n'
             *("controller.python", "by 'algorithm' and by 'python'", "does not extend one that is built in"),
         ),
         ("{python: wps.py, class: Wsp}", "controller.python", "no such file: 'wps.py'", "'wsp.py'?"),
+        ("{python: folders.py, class: Wsp}", "controller.python", "no such file", "mend the path"),
         ("{library: libabc.so}", "controller.library", "no such file: 'libabc.so'", "build it first"),
         ("{fmu: /tmp/wsp.fmu}", "controller.fmu", "is an absolute path", "write it relative"),
         ("{fmu: ../wsp.fmu}", "controller.fmu", "leads out of", "--trust"),
@@ -60,6 +61,7 @@ PROGRAM = b'__version__ = "1.2.0"\nclass Wsp: ...\n'
 )
 def test_what_to_write_instead(refused, write, head, controller, key, message, hint):
     write("wsp.py", PROGRAM)
+    Path("folder").mkdir()  # a folder is no file to name
     diagnostics = {each.key: each for each in refused(f"{head}controller: {controller}\n")}
     assert message in diagnostics[key].message
     assert hint in diagnostics[key].hint

@@ -187,6 +187,14 @@ def test_a_program_at_a_socket_serves_one_car(cases):
         cases(twice)
 
 
+def test_beside_a_program_at_a_socket_no_folder_is_asked_for(tmp_path, cases):
+    (tmp_path / "wsp.py").write_text("class W: ...\n", "utf-8")
+    both = [OUTSIDE % "wsp.py", "{controller: {connect: 'tcp://127.0.0.1:1'}}"]
+    for cars in (both, both[::-1]):
+        with pytest.raises(ScenarioErrors, match="where a car has a program at a socket"):
+            cases(f"train: [{', '.join(cars)}]\n")
+
+
 OWN = "train: [{controller: slip-band}, {controller: {extends: threshold, cycle_time: 10 ms}}]\n"
 
 

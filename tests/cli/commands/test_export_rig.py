@@ -91,6 +91,13 @@ def test_an_invalid_file_exits_4(call, scenario, built):
     call("export-rig", scenario("stop", "brake: {command: 200 %}\n"), code=4, says="scenarios/stop.yaml:4:")
 
 
+def test_a_train_is_refused_whichever_car_is_chosen(call, scenario):
+    path = scenario("stop", "train: [{count: 2}]\n")
+    for chosen in ((), ("--case", "stop[car=1]")):
+        answer = call("export-rig", path, *chosen, code=4)
+        assert "stop[car=1] is car 1 of 2: here a car runs alone" in answer.err
+
+
 def test_the_program_writes_an_fmu(call, scenario):
     try:
         fmu.usable_compiler()

@@ -71,7 +71,7 @@ def export_rig(
 
 
 def _only(cases: Sequence[scenario.Case]) -> scenario.Case:
-    if len(cases) > 1:
+    if len(cases) > 1 and not all(case.train for case in cases):  # no car of a train can be chosen
         raise runs.InvalidInputError(
             f"{len(cases)} cases; an FMU holds one: choose it with --case ID\n{case_lines(cases)}"
         )

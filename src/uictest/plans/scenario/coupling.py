@@ -76,7 +76,13 @@ def program_problems(programs: Sequence[ControllerProgram | None]) -> Iterator[t
         if program.surroundings != before:
             others = f"that of car {leader + 1} from {before}"
             message = f"its controller is loaded from {program.surroundings}, {others}"
-            yield place, TrainProblem(message, "put the files of all controllers of a train into one folder")
+            at_sockets = "connect" in (program.kind, getattr(programs[leader], "kind", ""))
+            hint = (
+                "where a car has a program at a socket, so have all others, or a built-in controller"
+                if at_sockets
+                else "put the files of all controllers of a train into one folder"
+            )
+            yield place, TrainProblem(message, hint)
         if program.kind == "connect" and addresses.setdefault(program.location, place) != place:
             message = f"{program.location} is the address of car {addresses[program.location] + 1}, too"
             hint = "a program serves one car: give each car an address of its own"

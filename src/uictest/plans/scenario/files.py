@@ -133,7 +133,7 @@ def trust_hint(path: Path) -> str:
 def nearest_file(path: Path, otherwise: str) -> str:
     """The hint for a file that is missing: one beside it with nearly its name, or what else to do."""
     try:
-        guess = nearest(path.name, (each.name for each in path.parent.iterdir()))
+        guess = nearest(path.name, (each.name for each in path.parent.iterdir() if each.is_file()))
     except (OSError, ValueError):
         return otherwise
     return f"did you mean {quoted(guess)}?" if guess else otherwise
