@@ -5,10 +5,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.core import lanes
 from uictest.core.lanes import translate
 from uictest.plans.scenario import Scenario
 from uictest.rig.assembly import ASSIGNMENTS, assigned
-from uictest.rig.backends.compiled import compile_inner, compiled_operations, compiler
+from uictest.rig.backends.compiled import compile_inner, compiled_operations
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import MET_RAIL, RAIL_MEMORY, RECORDED_MOTION, follow_record
@@ -83,7 +84,7 @@ class RecordedRail:
 
 def _entries() -> Entries:
     """Return the walk over the rail as a function of addresses and their length."""
-    carray = compiler().carray
+    carray = lanes.carray
     entry = translate(follow_record, compile_inner, compiled_operations())
 
     def on_addresses(car: Any, wheelsets: Any, p: Any, memory: Any, motion: Any, met: Any, rows: int) -> int:

@@ -3,10 +3,11 @@
 from contextlib import contextmanager
 
 import pytest
+from llvmlite import binding
 
 from uictest.core import user_cache
 from uictest.rig.backends import machine_code
-from uictest.rig.backends.machine_code import Unit, is_kept, native_function
+from uictest.rig.backends.machine_code import Unit, host, is_kept, native_function, object_file
 
 NAME, OTHER, UNIT = "uictest_test", "uictest_other", "uictest_tests"
 
@@ -46,6 +47,30 @@ def _entries():
 def _kept(cache, kind=NAME):
     (path,) = cache.glob(f"{kind}-*")
     return path
+
+
+CALL = """
+declare i64 @missing(i64)
+@elsewhere = external global i64
+define i64 @uictest_test(i64 %number) {
+    %part = call i64 @missing(i64 %number)
+    store i64 %part, ptr @elsewhere
+    ret i64 %part
+}
+"""
+
+
+def test_code_that_needs_anything_from_outside_is_refused():
+    bitcode = binding.parse_assembly(CALL).as_bitcode()
+    with pytest.raises(RuntimeError, match=r"uictest_test needs what is not in it: elsewhere, missing$"):
+        object_file(bitcode, NAME, host())
+
+
+def test_what_would_raise_an_error_needs_nothing_from_outside(cache):
+    """Numba checks the index of a tuple and would tell Python."""
+    entries = {"uictest_chosen": (lambda number: (5, 6, 7)[number], (int,))}
+    unit = Unit("uictest_choice", {"uictest_chosen": "a choice"}, lambda: entries)
+    assert [native_function(unit, "uictest_chosen", 1)(number) for number in range(3)] == [5, 6, 7]
 
 
 def test_code_is_compiled_once(cache, begin, monkeypatch):

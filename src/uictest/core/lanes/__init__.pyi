@@ -2,6 +2,7 @@ from .block import block as block, fuses as fuses, register_width as register_wi
 from .functions import (
     align_stack as align_stack,
     call as call,
+    carray as carray,
     floor as floor,
     fma as fma,
     maximum as maximum,

@@ -6,20 +6,19 @@ They are annotated here, since numba's own annotations are incomplete.
 from collections.abc import Callable
 from typing import Any
 
-from numba import cfunc, njit
-from numba.core import cgutils, compiler_machinery, imputils, typed_passes, untyped_passes
-from numba.core.codegen import JITCodeLibrary
+from numba import njit
+from numba.core import cgutils, compiler_machinery, imputils, lowering, typed_passes, untyped_passes
+from numba.core.codegen import CodeLibrary, JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.core.typing import templates
 from numba.extending import intrinsic
+from numba.np import arrayobj
 
 CompiledDefinition = Callable[..., Any]
 Decorator = Callable[[CompiledDefinition], CompiledDefinition]
 
 compiled: Callable[..., Any] = njit
 """Compile a function when it is first called, for the types of its arguments."""
-compiled_entry: Callable[..., Any] = cfunc
-"""Compile a function for a signature, as C calls it."""
 in_compiled_code: Decorator = intrinsic
 """Make a definition a function of compiled code; from the types of arguments it gives signature and code."""
 typing_of: Callable[[Any], Callable[[type], type]] = templates.infer_global
@@ -36,15 +35,26 @@ signature: Callable[..., Any] = templates.signature
 """Signature of a function: type of the result, types of the arguments."""
 member_of_record: Callable[..., Any] = cgutils.get_record_member
 """Address of a field of an ordinary record."""
+_array_in_order: Any = arrayobj.get_cfarray_intrinsic
+array_at_address: Any = _array_in_order("C", None)
+"""Function of compiled code: of a pointer and a shape, the array there."""
 local_variable: Callable[..., Any] = cgutils.alloca_once
 """Address of a variable on the stack of the function being compiled."""
 Library: Any = JITCodeLibrary
 """Code of one compiled function and of all that is linked into it."""
+empty_library: Any = CodeLibrary.__init__
+"""Begin a library without any code."""
 Pipeline: Any = Compiler
 """Steps from a Python function to its code."""
 PassManager: Any = compiler_machinery.PassManager
 """Some of these steps in an order."""
-PASSES: Any = (
+EmittedFunction: Any = lowering.Lower
+"""Emits the code of one function."""
+Emission: Any = typed_passes.NativeLowering
+"""The step that emits code."""
+step_of_compiler: Callable[..., Any] = compiler_machinery.register_pass
+"""Make a class a step."""
+STEPS_BEFORE_CODE: Any = (
     untyped_passes.TranslateByteCode,
     untyped_passes.FixupArgs,
     untyped_passes.IRProcessing,
@@ -53,7 +63,7 @@ PASSES: Any = (
     typed_passes.PreLowerStripPhis,
     typed_passes.IRLegalization,
     typed_passes.AnnotateTypes,
-    typed_passes.NativeLowering,
-    typed_passes.NoPythonBackend,
 )
-"""The steps without which no function is compiled, in their order."""
+"""The steps without which no function is compiled, in their order, up to that which emits code."""
+LAST_STEP: Any = typed_passes.NoPythonBackend
+"""The step that returns the result."""

@@ -8,20 +8,32 @@ functions of numbers and records need none of that.
 import gc
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from itertools import count
 from types import SimpleNamespace
 from typing import Any
 
-from llvmlite import binding
+from llvmlite import binding, ir
 
-from uictest.core.lanes.compiler import PASSES, Library, PassManager, Pipeline, compiled, compiled_entry
+from uictest.core.lanes.compiler import (
+    LAST_STEP,
+    STEPS_BEFORE_CODE,
+    Library,
+    PassManager,
+    Pipeline,
+    compiled,
+    empty_library,
+    signature,
+)
+from uictest.core.lanes.resolved import Resolved, ResolvedEmission
 from uictest.core.lanes.types import type_of_argument
 
 Function = Callable[..., Any]
-_NOTHING_COUNTED = """
-define void @NRT_incref(ptr %memory) alwaysinline { ret void }
-define void @NRT_decref(ptr %memory) alwaysinline { ret void }
-"""
-"""In place of numba's counting of references: memory is handed in by the caller, who owns it."""
+_METADATA: tuple[list[Any], dict[Any, Any]] = [], {}
+"""Nodes of metadata of all code, which are numbered in it together."""
+_OF_ONE_MODULE = '@".const.'
+"""How names of constants begin that another module may have for other constants."""
+_numbers = count()
+"""Of the libraries of this process."""
 _progress = SimpleNamespace(awaited=0, compiled=0, advance=lambda done: None)
 """How many functions wait to be compiled, how many are, and who is told."""
 
@@ -53,26 +65,39 @@ def bitcode(
         advance: is told the share of the work that is done, as far as it can be foreseen.
         options: those of `numba.cfunc`.
     """
-    linked = binding.parse_assembly(_NOTHING_COUNTED)
     with _without_collection(), _watched(advance):
-        for name, (function, arguments) in entries.items():
-            module = _compiled_entry(name, function, arguments, options)
-            linked.triple, linked.data_layout = module.triple, module.data_layout
-            linked.link_in(module)
+        linked = _module_of([_entry(name, *each, options) for name, each in entries.items()])
     for number, each in enumerate((*linked.functions, *linked.global_variables)):
-        if not each.is_declaration and each.name not in entries:
+        if each.name in entries:
+            each.linkage = "external"
+        elif not each.is_declaration:
             # Numba's own names also count what was compiled before.
             each.linkage, each.name = "internal", f"inner.{number}"
     return bytes(linked.as_bitcode())
 
 
-def _compiled_entry(name: str, function: Function, arguments: tuple[Any, ...], options: Any) -> Any:
-    kinds = [type_of_argument(each) for each in arguments]
-    entry = compiled_entry(type_of_argument(int)(*kinds), pipeline_class=_LinkedOnly, **options)(function)
-    module = entry._library._get_module_for_linking()
-    wrapper = module.get_function(entry.native_name)
-    wrapper.name, wrapper.linkage = name, "external"
-    return module
+def _entry(name: str, function: Function, arguments: tuple[Any, ...], options: Any) -> Any:
+    """Return the code of a function of C that calls a compiled one, and dies where that would raise."""
+    inner = compile_inner(function, **options)
+    inner.compile(signature(type_of_argument(int), *(type_of_argument(each) for each in arguments)))
+    (result,) = inner.overloads.values()
+    context, kinds, library = result.target_context, result.signature.args, result.library
+    code = _LinkedCode(context.codegen(), name)
+    code.add_linking_library(library)
+    module = code.create_ir_module(name)
+    types = [context.get_value_type(kind) for kind in kinds]
+    entry = ir.Function(module, ir.FunctionType(ir.IntType(64), types), name)
+    builder = ir.IRBuilder(entry.append_basic_block())
+    called = context.declare_function(module, result.fndesc)
+    status, value = context.call_conv.call_function(
+        builder, called, result.signature.return_type, kinds, entry.args
+    )
+    with builder.if_then(status.is_error, likely=False):
+        builder.call(module.declare_intrinsic("llvm.trap", (), ir.FunctionType(ir.VoidType(), ())), ())
+        builder.unreachable()
+    builder.ret(value)
+    code.add_ir_module(module)
+    return code
 
 
 @contextmanager
@@ -98,10 +123,28 @@ def _without_collection() -> Iterator[None]:
 
 
 class _LinkedCode(Library):  # type: ignore[misc]
-    """Code as it was written; whoever calls it from outside links it."""
+    """Code as text, as it was written; whoever calls it from outside links it."""
 
-    def _optimize_functions(self, module: Any) -> None:
-        module.data_layout = self._codegen._data_layout
+    def __init__(self, codegen: Any, name: str) -> None:
+        empty_library(self, codegen, name)
+        self._linking_libraries: list[Any] = []
+        self._constants = f"{_OF_ONE_MODULE}{next(_numbers)}."
+        self.declared: dict[str, str] = {}
+        self.defined: dict[str, str] = {}
+
+    def create_ir_module(self, name: str) -> Any:
+        """Return a module to write code in."""
+        return _empty_module(self._codegen, name)
+
+    def add_ir_module(self, module: Any) -> None:
+        """Add code as it was written."""
+        for each in module.global_values:
+            is_defined = each.blocks if isinstance(each, ir.Function) else each.initializer
+            if is_defined:
+                each.linkage = each.linkage or "linkonce_odr"
+            name = each.get_reference().replace(_OF_ONE_MODULE, self._constants)
+            texts = self.defined if is_defined else self.declared
+            texts[name] = str(each).replace(_OF_ONE_MODULE, self._constants)
 
     def finalize(self) -> None:
         """Link nothing and optimise nothing."""
@@ -113,15 +156,7 @@ class _LinkedCode(Library):  # type: ignore[misc]
 
     def _get_module_for_linking(self) -> Any:
         """Return the code with that of everything that it calls."""
-        module = self._own_module().clone()
-        for library in _called_by(self):
-            inner = isinstance(library, _LinkedCode)
-            called = library._own_module() if inner else library._get_module_for_linking()
-            module.link_in(called, preserve=True)
-        return module
-
-    def _own_module(self) -> Any:
-        return super()._get_module_for_linking()
+        return _module_of([self])
 
     @property
     def codegen(self) -> Any:
@@ -129,10 +164,34 @@ class _LinkedCode(Library):  # type: ignore[misc]
         return SimpleNamespace(set_env=lambda name, environment: None)
 
 
-def _called_by(library: Any) -> list[Any]:
-    """Return the libraries of everything that code calls, each once."""
+def _empty_module(codegen: Any, name: str) -> Any:
+    module = codegen._create_empty_module(name)
+    module.metadata, module._metadatacache = _METADATA
+    return module
+
+
+def _module_of(libraries: list[Any]) -> Any:
+    """Return libraries and everything that they call as one module of LLVM."""
+    called = _called_by(libraries)
+    written = [each for each in called if isinstance(each, _LinkedCode)]
+    texts: dict[str, str] = {}
+    for library in written:
+        texts.update(library.declared)
+    for library in written:
+        texts.update(library.defined)
+    frame = str(_empty_module(written[0]._codegen, "linked"))
+    module = binding.parse_assembly("\n".join([frame, *texts.values()]))
+    for library in called:
+        if library not in written:
+            module.link_in(library._get_module_for_linking(), preserve=True)
+    module.verify()
+    return module
+
+
+def _called_by(libraries: list[Any]) -> list[Any]:
+    """Return libraries and those of everything that their code calls, each once."""
     called: dict[Any, None] = {}
-    waiting = list(library._linking_libraries)
+    waiting = list(libraries)
     while waiting:
         each = waiting.pop()
         if each not in called:
@@ -147,6 +206,9 @@ class _LinkedOnly(Pipeline):  # type: ignore[misc]
 
     def __init__(self, typing_context: Any, target_context: Any, *others: Any) -> None:
         super().__init__(typing_context, target_context, *others)
+        # Memory is handed in by the caller, who owns it: references to it are not counted.
+        self.state.targetctx = self.state.targetctx.subtarget(enable_nrt=False)
+        self.state.typingctx = Resolved.of(typing_context)
         self.state.library = _LinkedCode(target_context.codegen(), "inner")
         _progress.compiled += 1
         _progress.advance(min(_progress.compiled / max(_progress.awaited, 1), 1.0))
@@ -154,7 +216,7 @@ class _LinkedOnly(Pipeline):  # type: ignore[misc]
     def define_pipelines(self) -> list[Any]:
         """Return the only pipeline."""
         steps = PassManager("linked code")
-        for each in PASSES:
+        for each in (*STEPS_BEFORE_CODE, ResolvedEmission, LAST_STEP):
             steps.add_pass(each, each.__name__)
         steps.finalize()
         return [steps]

@@ -7,7 +7,6 @@ reassociated, so that compiled and plain code give the same bits.
 """
 
 import hashlib
-import importlib
 import os
 import sys
 from collections.abc import Callable, Sequence
@@ -114,11 +113,6 @@ def _either(number: int, function: Function, otherwise: Function) -> Function:
 def compile_inner(function: Function) -> Any:
     """Compile a function that only compiled code calls."""
     return lanes.compile_inner(function, **OPTIONS)
-
-
-def compiler() -> Any:
-    """Return numba, loaded at the first use; its functions have no types."""
-    return importlib.import_module("numba")
 
 
 @cache

@@ -15,7 +15,6 @@ from uictest.rig.backends.compiled import (
     Function,
     compile_inner,
     compiled_operations,
-    compiler,
     with_controllers,
 )
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
@@ -158,7 +157,7 @@ def _entries(width: int) -> Entries:
     from uictest.rig.backends.lane_cycle import Cases, Lanes, RigRecords  # loads numba
     from uictest.rig.backends.lane_stops import run_queue
 
-    carray = compiler().carray
+    carray = vector_functions.carray
     run = translate(run_queue, compile_inner, lane_model())
 
     def on_addresses(

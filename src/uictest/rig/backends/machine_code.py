@@ -60,6 +60,8 @@ Watcher = Callable[[str, float], None]
 
 _BITCODE_SHARE: Final = 0.75
 """Share of the work that ends with the bitcode: measured, 10 of 14 s of single stops, 11 of 16 s of lanes."""
+_INSTRUCTIONS: Final = ("sqrt",)
+"""Functions of C that are one instruction: they are declared, but not called."""
 _compiling = Lock()
 _loaded: dict[str, tuple[Any, Callable[..., int]]] = {}
 """Functions by their name, and what keeps their code in this process."""
@@ -209,13 +211,22 @@ def object_file(bitcode: bytes, entry: str, target: Target, beside: Collection[s
     tuning.loop_vectorization = True
     passes = binding.create_pass_builder(machine, tuning)
     passes.getModulePassManager().run(module, passes)
-    # What reports errors to Python needs numba; that there are none is known now that all calls are inline.
+    # What calls of functions that are inline now needed is left over.
     unused = binding.create_new_module_pass_manager()
     unused.add_ipsccp_pass()
     unused.add_simplify_cfg_pass()
     unused.add_global_dead_code_eliminate_pass()
     unused.run(module, passes)
+    _reject_what_is_undefined(module, entry)
     return bytes(machine.emit_object(module))
+
+
+def _reject_what_is_undefined(module: Any, entry: str) -> None:
+    """Raise RuntimeError if code needs what stands nowhere: a process that loads it later would crash."""
+    names = [each.name for each in (*module.functions, *module.global_variables) if each.is_declaration]
+    undefined = sorted(name for name in names if name not in _INSTRUCTIONS and not name.startswith("llvm."))
+    if undefined:
+        raise RuntimeError(f"the code of {entry} needs what is not in it: {', '.join(undefined)}")
 
 
 def load_object_file(code: bytes) -> Any:

@@ -3,9 +3,10 @@
 from typing import Any, Final
 
 from uictest.controllers import EXCHANGE
+from uictest.core import lanes
 from uictest.core.lanes import translate
 from uictest.core.measures import FAULT_COLUMNS, STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.compiled import compile_inner, compiler, scalar_model
+from uictest.rig.backends.compiled import compile_inner, scalar_model
 from uictest.rig.backends.machine_code import Entries, Unit
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import RAIL_MEMORY, ROWS
@@ -54,7 +55,7 @@ def _entries() -> Entries:
 
 
 def _run_on_addresses(entry: Any) -> Any:
-    carray = compiler().carray
+    carray = lanes.carray
 
     def on_addresses(
         car: Any,
@@ -90,7 +91,7 @@ def _run_on_addresses(entry: Any) -> Any:
 
 
 def _step_on_addresses(entry: Any) -> Any:
-    carray = compiler().carray
+    carray = lanes.carray
 
     def on_addresses(
         car: Any,
@@ -133,7 +134,7 @@ def _step_on_addresses(entry: Any) -> Any:
 
 
 def _note_on_addresses(entry: Any) -> Any:
-    carray = compiler().carray
+    carray = lanes.carray
 
     def on_addresses(
         measures: Any,

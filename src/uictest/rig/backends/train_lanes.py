@@ -7,9 +7,10 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.core import lanes
 from uictest.core.lanes import block, register_width, translate
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.compiled import compile_inner, compiler
+from uictest.rig.backends.compiled import compile_inner
 from uictest.rig.backends.lanes import RIG, blocks_of, lane_model, longest_first
 from uictest.rig.backends.machine_code import Entries, Unit, address, is_kept, native_function
 from uictest.rig.model.couplers import COUPLER
@@ -132,7 +133,7 @@ def _entries(width: int) -> Entries:
     from uictest.rig.backends.lane_cycle import Lanes, RigRecords  # loads numba
     from uictest.rig.backends.lane_trains import Trains, run_train_queue
 
-    carray = compiler().carray
+    carray = lanes.carray
     run_queue = translate(run_train_queue, compile_inner, lane_model())
 
     def on_addresses(

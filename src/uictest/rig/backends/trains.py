@@ -4,9 +4,10 @@ from functools import cache
 from typing import Any, Final
 
 from uictest.controllers import EXCHANGE
+from uictest.core import lanes
 from uictest.core.lanes import translate
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.compiled import compile_inner, compiler, scalar_model
+from uictest.rig.backends.compiled import compile_inner, scalar_model
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.parameters import PARAMETERS
@@ -71,7 +72,7 @@ def _entries() -> Entries:
 
 
 def _run_on_addresses(entry: Any) -> Any:
-    carray = compiler().carray
+    carray = lanes.carray
 
     def on_addresses(
         cars: Any,
@@ -113,7 +114,7 @@ def _run_on_addresses(entry: Any) -> Any:
 
 
 def _step_on_addresses(entry: Any) -> Any:
-    carray = compiler().carray
+    carray = lanes.carray
 
     def on_addresses(
         cars: Any,

@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 import uictest
+from uictest.core import lanes
 from uictest.core.lanes import translate
 from uictest.core.recording import ORIGIN, Recording
 from uictest.plans.scenario import Case, rig_as_built
 from uictest.rig.assembly import ASSIGNMENTS, assemble, assigned
-from uictest.rig.backends.compiled import compile_inner, compiled_operations, compiler
+from uictest.rig.backends.compiled import compile_inner, compiled_operations
 from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
 from uictest.rig.bench.inputs import BenchInput, bench_input
 from uictest.rig.bench.recipe import BenchTest
@@ -73,7 +74,7 @@ def run_compiled(
 
 def _entries() -> Entries:
     """Return the bench as a function of addresses and the lengths behind them."""
-    carray = compiler().carray
+    carray = lanes.carray
     entry = translate(run_bench_test, compile_inner, compiled_operations())
 
     def on_addresses(
@@ -208,7 +209,7 @@ def _with(case: Case, **sections: object) -> Case:
 
 def _walk_entries() -> Entries:
     """Return the walk along a record as a function of addresses and its length."""
-    carray = compiler().carray
+    carray = lanes.carray
     entry = translate(_follow_record, compile_inner, compiled_operations())
 
     def on_addresses(
