@@ -199,7 +199,7 @@ def test_what_a_series_cannot_be_used_for_is_said(call, campaign, command, said)
 
 def test_recorded_stops_give_the_figures_of_the_simulated_ones(call, campaign):
     path = campaign()
-    call("run", path, "--repeat", "1", "--record", "all", "--record-rate", "1000")
+    call("run", path, "--repeat", "1", "--record", "all", "--record-rate", "250")
     (simulated,) = series.series_results_of(results()["series"])
     folder = Path("reports/latest/recordings")
     for name in ("dry", "wet"):
