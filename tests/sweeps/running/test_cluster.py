@@ -71,7 +71,7 @@ def test_only_missing_chunks_are_run(load, cluster):
 def test_a_scheduler_that_does_not_answer_is_reported(load, monkeypatch):
     from uictest.running.chunked import cluster as module
 
-    monkeypatch.setattr(module, "_TIMEOUT", "1s")
+    monkeypatch.setattr(module, "_TIMEOUT", "100ms")
     with pytest.raises(module.ClusterError, match=r"no scheduler answers at tcp://127\.0\.0\.1:9"):
         module.run_on_cluster(
             CaseSelection(load(TEXT)), [0], "tcp://127.0.0.1:9", lambda number, content: None
@@ -101,7 +101,7 @@ def announced_address(file, scheduler):
     while scheduler.poll() is None:
         with contextlib.suppress(FileNotFoundError, json.JSONDecodeError):
             return str(json.loads(file.read_text())["address"])
-        time.sleep(0.05)
+        time.sleep(0.005)
     raise AssertionError("the scheduler did not start")
 
 
