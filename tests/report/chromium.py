@@ -107,6 +107,12 @@ def run(browser, script, *arguments):
     return browser.execute_script(script, *arguments)
 
 
+def step_to(browser, slider, place):
+    """Put a slider a step before a place, and press the arrow to it: a key for each step takes long."""
+    run(browser, "[arguments[0].value] = [arguments[1]]", slider, place - 1)
+    slider.send_keys("\ue014")
+
+
 def wait(browser, script, *arguments):
     """Return what a script returns as soon as that is anything, at the latest after some minutes."""
     for _ in range(20_000):

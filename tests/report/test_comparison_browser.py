@@ -1,6 +1,6 @@
 """Cases chosen in the table and laid over each other, in a browser."""
 
-from .chromium import COMPARED, run, wait
+from .chromium import COMPARED, run, step_to, wait
 
 
 def _choose(browser, *places):
@@ -36,7 +36,7 @@ def test_the_cursor_reads_every_case_next_to_its_measures(browser, page):
     _choose(browser, 0, 1)
     assert wait(browser, COMPARED) == 2
     slider = browser.find_element("css selector", "#compared input[type=range]")
-    slider.send_keys("\ue014" * 294)  # arrow right, to 10 s
+    step_to(browser, slider, 294)  # 10 s
     rows = run(
         browser,
         "return Object.fromEntries([...document.querySelectorAll('.values tbody tr')].map((row) => "

@@ -9,7 +9,7 @@ from uictest.analysis import comparison
 from uictest.core.recording import Recording
 
 from .builders import make_recording
-from .chromium import resize, run, wait
+from .chromium import resize, run, step_to, wait
 
 NOTHING = "\N{EN DASH}"
 READY = "return document.querySelector('.laid-over[data-ready]') !== null"
@@ -65,7 +65,7 @@ def test_the_difference_stands_beneath_each_channel_on_its_axis(browser, laid_ov
 def test_one_cursor_reads_both_sides_their_difference_and_its_share(browser, laid_over_page):
     _open(browser, laid_over_page)
     slider = browser.find_element("css selector", ".laid-over input[type=range]")
-    slider.send_keys("\ue011" + "\ue014" * 500)  # home, then arrow right to the middle: 17 s
+    step_to(browser, slider, 500)  # the middle: 17 s
     assert browser.find_element("css selector", ".slider output").text == "17.00 s"
     speed = 120 - 17 * 3.6
     assert _at_cursor(browser) == {
@@ -91,7 +91,7 @@ def test_over_distance_both_sides_stand_at_the_same_place(browser, laid_over_pag
     title = "return document.querySelector('.panels-plot').plots.at(-1).plot.axes[0].label"
     assert wait(browser, f"{title}.startsWith('distance') && ({title[7:]})").endswith("m")
     slider = browser.find_element("css selector", ".laid-over input[type=range]")
-    slider.send_keys("\ue011" + "\ue014" * 300)
+    step_to(browser, slider, 300)
     place = float(browser.find_element("css selector", ".slider output").text.removesuffix(" m"))
     # v2 = v0**2 - 2 a s on the first side; its distance is a sum of samples, to some metres.
     a, b = (float(cell) for cell in _at_cursor(browser)["Speed"][1:3])

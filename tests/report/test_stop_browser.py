@@ -13,7 +13,7 @@ from uictest.report.traces.quantities import PANELS
 from uictest.report.traces.trace import trace_of
 
 from .builders import make_content, make_recording, make_result, make_verdict
-from .chromium import PLOTTED, emulate, resize, run, wait, written
+from .chromium import PLOTTED, emulate, resize, run, step_to, wait, written
 
 CASE = "slip 120[friction=0.09]"
 _FURTHER = {
@@ -238,7 +238,7 @@ def test_the_plots_stand_over_distance_and_over_the_speed_of_the_train(browser, 
     wait(browser, READY)
     _choose(browser, ".plots", "across", across)
     slider = browser.find_element("css selector", ".readout input")
-    slider.send_keys("\ue011" + "\ue014" * 294)  # home, then arrow right: 10 s of 34 s
+    step_to(browser, slider, 294)  # 10 s of 34 s
     place, title = run(
         browser,
         "const {plot} = document.querySelector('.panels-plot').plots[0];"
@@ -256,9 +256,9 @@ def test_two_cursors_read_the_difference_the_mean_and_the_vents_between(browser,
     browser.get(stop_page.as_uri())
     wait(browser, READY)
     slider = browser.find_element("css selector", ".readout input")
-    slider.send_keys("\ue011" + "\ue014" * 294)
+    step_to(browser, slider, 294)
     browser.find_element("css selector", ".pin").click()
-    slider.send_keys("\ue014" * 147)  # 5 s more
+    step_to(browser, slider, 441)  # 5 s more
     assert browser.find_element("css selector", ".between output").text == "5.00 s from 10.00 s"
     train = "return document.querySelector('.train-readout dd').textContent"
     assert run(browser, train) == "-18.0"
@@ -395,7 +395,7 @@ def test_cursors_and_labels_stand_at_their_instants_after_a_zoom(browser, stop_p
     browser.get(stop_page.as_uri())
     wait(browser, READY)
     slider = browser.find_element("css selector", ".readout input")
-    slider.send_keys("\ue011" + "\ue014" * 235)  # home, then arrow right: 8 s of 34 s
+    step_to(browser, slider, 235)  # 8 s of 34 s
     offsets = """
         const {plot} = document.querySelector('.panels-plot').plots.find(({row}) => row.key === 'slide');
         const line = plot.over.querySelector('.cursor-line');
