@@ -1,9 +1,12 @@
-"""Controllers driven through given cycles: each that was created is closed once."""
+"""Controllers driven through given cycles: each that was created is closed once, and keeps to its outputs."""
+
+import ctypes
 
 import numpy as np
 import pytest
 
-from uictest.controllers import INPUTS, Config, ControllerError, ControllerProgram
+from uictest.controllers import INPUTS, OUTPUTS, Config, ControllerError, ControllerProgram
+from uictest.controllers.adapters.instance import CallbackInstance
 from uictest.rig.external import drives
 from uictest.rig.external.in_process import empty_exchange
 
@@ -43,3 +46,39 @@ def test_a_controller_that_cannot_be_created_again_was_closed_once(monkeypatch):
     with pytest.raises(ControllerError, match="only one licence"):
         drives.drive_controller(request, empty_exchange())
     assert created[0].closed == 1
+
+
+class Writing(CallbackInstance):
+    """Writes one byte somewhere behind the beginning of its outputs."""
+
+    def __init__(self, contract, place):
+        super().__init__()
+        self.contract, self.place = contract, place
+
+    def reset(self):
+        """Nothing to reset."""
+
+    def answer(self, inputs, outputs):
+        ctypes.memset(outputs + self.place, 1, 1)
+
+
+PLACES = {name: OUTPUTS.fields[name][1] for name in OUTPUTS.names}
+
+
+@pytest.mark.parametrize(
+    ("contract", "place"),
+    [
+        *((version, OUTPUTS.itemsize + byte) for version in (1, 2) for byte in (0, 7)),
+        *((1, PLACES[name]) for name in ("dynamic_reduction", "sand_request", "track_brake_request")),
+    ],
+)
+def test_a_controller_that_writes_beyond_its_outputs_is_told_so(contract, place):
+    with pytest.raises(ControllerError, match=r"wrote beyond its outputs \(cycle 0\)"):
+        drives.drive(Writing(contract, place), np.zeros(2, INPUTS), 0.01, empty_exchange())
+
+
+def test_each_cycle_begins_with_blank_outputs():
+    driven = drives.drive(Writing(2, PLACES["vent"]), np.zeros(2, INPUTS), 0.01, empty_exchange())
+    assert driven.outputs["vent"].tolist() == [[1, 0, 0, 0]] * 2
+    assert not driven.outputs["hold"].any() and not driven.outputs["dynamic_reduction"].any()
+    assert np.isnan(driven.outputs["reference_speed"]).all()
