@@ -13,7 +13,9 @@ from .chromium import resize, run, wait, written
 
 WHERE = """
 const stop = document.getElementById(decodeURIComponent(location.hash.slice(1)));
-if (!stop || [...document.querySelectorAll('details.stop[open] .plots')].some((plots) => !plots.dataset.ready)) return null;
+const near = ({top, bottom}) => bottom > -innerHeight / 2 && top < 1.5 * innerHeight;
+const drawn = (plots) => plots.dataset.ready || !(stop.contains(plots) || near(plots.getBoundingClientRect()));
+if (!stop || ![...document.querySelectorAll('details.stop[open] .plots')].every(drawn)) return null;
 const within = ({top, bottom}) => top >= 0 && bottom <= innerHeight;
 const named = within(stop.querySelector('summary h3').getBoundingClientRect());
 const pressed = stop.querySelector('button.moment[aria-pressed=true]');
@@ -22,6 +24,8 @@ const place = pressed && stop.querySelector('.panels-plot').plots.find(({row}) =
 const found = [stop.id, named, place ? within(place.cell.getBoundingClientRect()) && light : null];
 return arguments[0] && !place ? null : found;
 """  # noqa: E501 - a script
+"""Where a link has led, once what moves the page is drawn: a click may come before the stop that is open from
+the beginning is drawn, which then waits, far from the window, to be scrolled to."""
 
 
 @pytest.fixture(scope="module")
