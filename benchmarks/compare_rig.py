@@ -10,7 +10,7 @@ from c_library import PLAIN, STRICT, CStop, can_run
 from stops import TIMED, Stop, shipped
 from timing import side_by_side
 
-from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.single_stop import FinishedStop, run_to_end
 
 TARGET = 1.3

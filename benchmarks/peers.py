@@ -22,7 +22,7 @@ from stops import Stop, shipped
 
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.lanes import run_in_lanes
-from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.model.rail import FRICTIONS
 from uictest.rig.single_stop import run_to_end
 

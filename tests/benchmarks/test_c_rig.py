@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.single_stop import run_to_end
 
 FIVE_SECONDS = 500

@@ -16,7 +16,7 @@ from uictest.core.lanes import translate
 from uictest.core.record import layout_of
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.model.controller import begin
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.start import start

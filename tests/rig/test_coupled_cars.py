@@ -8,7 +8,7 @@ import pytest
 from uictest.core.lanes import translate
 from uictest.rig import train_inputs
 from uictest.rig.backends.compiled import with_controllers
-from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.coupled_cars import run_coupled
 from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.couplers import coupler_energy

@@ -15,9 +15,12 @@ from .backends.machine_code import (
     Watcher as Watcher,
     compilation_watched as compilation_watched,
 )
-from .backends.native import compiled_stop as compiled_stop, stop_is_compiled as stop_is_compiled
 from .backends.replayed import noted_numbers as noted_numbers, pass_samples as pass_samples
-from .backends.scalar import STEP as STEP, STEP_ARGUMENTS as STEP_ARGUMENTS
+from .backends.scalar import (
+    STEP as STEP,
+    compiled_stop as compiled_stop,
+    stop_is_compiled as stop_is_compiled,
+)
 from .backends.stepped import (
     STOP_MEMORY as STOP_MEMORY,
     SteppedStop as SteppedStop,

@@ -1,24 +1,33 @@
 """The rail that the wheelsets of a recorded stop met, by the formulae and the code of the rig."""
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core import lanes
-from uictest.core.lanes import translate
+from uictest.core.lanes import Length, at, translate
 from uictest.plans.scenario import Scenario
 from uictest.rig.assembly import ASSIGNMENTS, assigned
 from uictest.rig.backends.compiled import compile_inner, compiled_operations
-from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
+from uictest.rig.backends.machine_code import Entry, Unit, native_function
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import MET_RAIL, RAIL_MEMORY, RECORDED_MOTION, follow_record
 from uictest.rig.model.state import CAR, WHEELSET
 
 Array = NDArray[np.float64]
 _WHEELSETS = 4
-_NAME = "uictest_recorded_rail"
-_ARGUMENTS = (CAR, WHEELSET, PARAMETERS, RAIL_MEMORY, RECORDED_MOTION, MET_RAIL, int)
+_ROWS = Length("rows")
+_ENTRY = Entry(
+    "uictest_recorded_rail",
+    "the rail under a record",
+    (
+        *(at(CAR), at(WHEELSET, _WHEELSETS), at(PARAMETERS), at(RAIL_MEMORY)),
+        *(at(RECORDED_MOTION, _ROWS, _WHEELSETS), at(MET_RAIL, _ROWS, _WHEELSETS)),
+    ),
+)
+_UNIT = Unit(
+    _ENTRY.name,
+    (_ENTRY,),
+    lambda: [translate(follow_record, compile_inner, compiled_operations())],
+)
 
 
 class RecordedRail:
@@ -68,37 +77,8 @@ class RecordedRail:
         wheelsets["friction"] = found[:, 0]
         for name in ("friction_ratio", "friction_decay", "reduction_adhesion", "reduction_slip"):
             wheelsets[name] = self._parameters[name]
-        car, memory, rows = np.zeros(1, CAR), np.zeros(1, RAIL_MEMORY), len(met)
+        car, memory = np.zeros(1, CAR), np.zeros(1, RAIL_MEMORY)
         memory["points"] = self._parameters["spent_share"]
-        native_function(_UNIT, _NAME, len(_ARGUMENTS))(
-            address(car, CAR, (1,)),
-            address(wheelsets, WHEELSET, (_WHEELSETS,)),
-            address(self._parameters, PARAMETERS, (1,)),
-            address(memory, RAIL_MEMORY, (1,)),
-            address(self._motion, RECORDED_MOTION, (rows, _WHEELSETS)),
-            address(met, MET_RAIL, (rows, _WHEELSETS)),
-            rows,
-        )
+        follow = native_function(_UNIT, _ENTRY)
+        follow(car[0], wheelsets, self._parameters[0], memory[0], self._motion, met)
         return met["friction"].T, met["cleaned_share"].T
-
-
-def _entries() -> Entries:
-    """Return the walk over the rail as a function of addresses and their length."""
-    carray = lanes.carray
-    entry = translate(follow_record, compile_inner, compiled_operations())
-
-    def on_addresses(car: Any, wheelsets: Any, p: Any, memory: Any, motion: Any, met: Any, rows: int) -> int:
-        entry(
-            carray(car, 1)[0],
-            carray(wheelsets, _WHEELSETS),
-            carray(p, 1)[0],
-            carray(memory, 1)[0],
-            carray(motion, (rows, _WHEELSETS)),
-            carray(met, (rows, _WHEELSETS)),
-        )
-        return 0
-
-    return {_NAME: (on_addresses, _ARGUMENTS)}
-
-
-_UNIT = Unit(_NAME, {_NAME: "the rail under a record"}, _entries)

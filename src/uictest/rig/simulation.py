@@ -12,7 +12,7 @@ from uictest.controllers import Config, ResponseTimes
 from uictest.core.recording import BRAKE_COMMAND_TIME, ORIGIN, TRACK_BRAKES_BESIDE, Recording
 from uictest.plans.scenario import Case
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.backends.trains import compiled_train
 from uictest.rig.coupled_cars import CouplerPeaks, peaks_beside
 from uictest.rig.external.workers import RunInputs, RunTrain, Workers

@@ -15,8 +15,8 @@ from uictest.core.physics.air import mass_flow, orifice_law
 from uictest.core.physics.arithmetic import exp, maximum
 from uictest.rig.backends.compiled import compiled_operations, sources, with_controllers
 from uictest.rig.backends.lane_stops import run_queue
-from uictest.rig.backends.native import compiled_stop
 from uictest.rig.backends.plain import plain_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.bench.step import run_bench_test
 from uictest.rig.model.controller import CHOICES, decide
 from uictest.rig.model.rail import RAIL_MEMORY

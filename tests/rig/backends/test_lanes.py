@@ -12,7 +12,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
 from uictest.rig.backends.lanes import longest_first, run_in_lanes
-from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import FRICTIONS, ROWS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS

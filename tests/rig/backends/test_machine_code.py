@@ -1,15 +1,20 @@
 """Machine code is called only if it is what the compiler made here."""
 
 from contextlib import contextmanager
+from typing import Any, NamedTuple
 
+import numpy as np
 import pytest
 from llvmlite import binding
 
 from uictest.core import user_cache
+from uictest.core.lanes import Length, at, compile_inner
 from uictest.rig.backends import machine_code
-from uictest.rig.backends.machine_code import Unit, host, is_kept, native_function, object_file
+from uictest.rig.backends.machine_code import Entry, Unit, host, is_kept, native_function, object_file
 
-NAME, OTHER, UNIT = "uictest_test", "uictest_other", "uictest_tests"
+TEST = Entry("uictest_test", "a test", (int,))
+OTHER = Entry("uictest_other", "another", (int,))
+UNIT = "uictest_tests"
 
 
 damaged = pytest.mark.parametrize(
@@ -31,20 +36,20 @@ def begin(monkeypatch):
 
     def load():
         monkeypatch.setattr(machine_code, "_loaded", {})
-        return _function(NAME)
+        return _function(TEST)
 
     return load
 
 
-def _function(name):
-    return native_function(Unit(UNIT, {NAME: "a test", OTHER: "another"}, _entries), name, 1)
+def _function(entry):
+    return native_function(Unit(UNIT, (TEST, OTHER), lambda: _functions()), entry)
 
 
-def _entries():
-    return {NAME: (lambda number: 3 * number, (int,)), OTHER: (lambda number: number - 1, (int,))}
+def _functions():
+    return [compile_inner(lambda number: 3 * number), compile_inner(lambda number: number - 1)]
 
 
-def _kept(cache, kind=NAME):
+def _kept(cache, kind=TEST.name):
     (path,) = cache.glob(f"{kind}-*")
     return path
 
@@ -63,28 +68,63 @@ define i64 @uictest_test(i64 %number) {
 def test_code_that_needs_anything_from_outside_is_refused():
     bitcode = binding.parse_assembly(CALL).as_bitcode()
     with pytest.raises(RuntimeError, match=r"uictest_test needs what is not in it: elsewhere, missing$"):
-        object_file(bitcode, NAME, host())
+        object_file(bitcode, TEST.name, host())
 
 
 def test_what_would_raise_an_error_needs_nothing_from_outside(cache):
     """Numba checks the index of a tuple and would tell Python."""
-    entries = {"uictest_chosen": (lambda number: (5, 6, 7)[number], (int,))}
-    unit = Unit("uictest_choice", {"uictest_chosen": "a choice"}, lambda: entries)
-    assert [native_function(unit, "uictest_chosen", 1)(number) for number in range(3)] == [5, 6, 7]
+    chosen = Entry("uictest_chosen", "a choice", (int,))
+    unit = Unit("uictest_choice", (chosen,), lambda: [compile_inner(lambda number: (5, 6, 7)[number])])
+    assert [native_function(unit, chosen)(number) for number in range(3)] == [5, 6, 7]
+
+
+class Tables(NamedTuple):
+    """A tuple that is handed to machine code."""
+
+    counts: Any
+    table: Any
+
+
+def test_machine_code_finds_what_it_is_given(cache):
+    """Each place has a weight of its own, so that nothing is read from another place."""
+    rows, point = Length("rows"), np.dtype([("x", "f8"), ("n", "i8")])
+
+    def sum_up(tables, record, factor):
+        total = 0
+        for row in range(len(tables.table)):
+            for column in range(3):
+                total += int(tables.table[row, column]) * (3 * row + column + 1)
+        for k in range(len(tables.counts)):
+            total += tables.counts[k] * (100 + k)
+        record.x = 0.5
+        return factor * (total + 1000 * record.n)
+
+    arguments = Tables(at("i8", 2 * rows - 1), at("f8", rows, 3)), at(point), int
+    entry = Entry("uictest_sum", "a sum", arguments)
+    function = native_function(Unit("uictest_sums", (entry,), lambda: [compile_inner(sum_up)]), entry)
+    for count in (1, 4):
+        record, table = np.zeros(1, point)[0], np.arange(3.0 * count).reshape(count, 3)
+        record["n"] = 7
+        counts = np.arange(2 * count - 1) + 5
+        expected = sum((n + 1) * n for n in range(3 * count)) + sum(
+            (100 + k) * (k + 5) for k in range(len(counts))
+        )
+        assert function(Tables(counts, table), record, 3) == 3 * (expected + 7000)
+        assert record["x"] == 0.5
 
 
 def test_code_is_compiled_once(cache, begin, monkeypatch):
-    assert not is_kept(NAME)
+    assert not is_kept(TEST)
     assert begin()(14) == 42
-    assert is_kept(NAME)
-    monkeypatch.setitem(globals(), "_entries", lambda: pytest.fail("compiled again"))
+    assert is_kept(TEST)
+    monkeypatch.setitem(globals(), "_functions", lambda: pytest.fail("compiled again"))
     assert begin()(14) == 42
 
 
 def test_what_shares_code_is_compiled_once(cache, begin, monkeypatch):
     begin()
     assert not is_kept(OTHER)
-    monkeypatch.setitem(globals(), "_entries", lambda: pytest.fail("compiled again"))
+    monkeypatch.setitem(globals(), "_functions", lambda: pytest.fail("compiled again"))
     assert _function(OTHER)(14) == 13
 
 
@@ -115,9 +155,9 @@ def test_damaged_code_is_compiled_anew(cache, begin, damage):
     begin()
     damaged = damage(_kept(cache).read_bytes())
     _kept(cache).write_bytes(damaged)
-    assert not is_kept(NAME)
+    assert not is_kept(TEST)
     assert begin()(14) == 42
-    assert is_kept(NAME)
+    assert is_kept(TEST)
     assert _kept(cache).read_bytes() != damaged
 
 
@@ -127,16 +167,16 @@ def test_no_single_flipped_bit_is_executed(cache, begin):
     for place in range(0, len(sound), 97):
         sound[place] ^= 1
         _kept(cache).write_bytes(sound)
-        assert not is_kept(NAME), place
+        assert not is_kept(TEST), place
         sound[place] ^= 1
     _kept(cache).write_bytes(sound)
-    assert is_kept(NAME)
+    assert is_kept(TEST)
 
 
 def test_code_of_another_processor_is_not_executed(cache, begin, monkeypatch):
     begin()
     monkeypatch.setattr(machine_code, "_inputs", lambda target: b"another processor")
-    assert not is_kept(NAME)
+    assert not is_kept(TEST)
 
 
 def test_without_any_place_it_is_compiled_and_nothing_is_left(tmp_path, begin, monkeypatch):
@@ -160,5 +200,5 @@ def test_what_another_process_compiles_meanwhile_is_used(cache, begin, monkeypat
         yield
 
     monkeypatch.setattr(user_cache, "turn", turn)
-    monkeypatch.setitem(globals(), "_entries", lambda: pytest.fail("compiled as well"))
+    monkeypatch.setitem(globals(), "_functions", lambda: pytest.fail("compiled as well"))
     assert begin()(14) == 42

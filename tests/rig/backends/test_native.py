@@ -11,7 +11,7 @@ import pytest
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.plans.scenario import load
 from uictest.rig import simulate
-from uictest.rig.backends.native import compiled_stop, stop_is_compiled
+from uictest.rig.backends.scalar import compiled_stop, stop_is_compiled
 from uictest.rig.model.rail import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, Trace
@@ -99,5 +99,5 @@ def test_a_processor_without_fused_multiply_add_gives_the_same_bits(tmp_path):
 def test_another_layout_is_refused(rig, name, other):
     """Machine code would read and write beyond it."""
     with pytest.raises(TypeError, match="contiguous"):
-        compiled_stop()(**{**arguments(rig), name: other})
-    assert compiled_stop()(**arguments(rig)) == 0
+        compiled_stop()(*{**arguments(rig), name: other}.values())
+    assert compiled_stop()(*arguments(rig).values()) == 0

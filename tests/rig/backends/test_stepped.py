@@ -9,7 +9,7 @@ from uictest.controllers import FORBIDDEN_COMMAND, NO_FAILURE, NO_MAGNET_STATE
 from uictest.core.record import fields_of
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.backends.stepped import SteppedStop
 from uictest.rig.model.state import Car, Wheelset
 from uictest.rig.single_stop import run_to_end

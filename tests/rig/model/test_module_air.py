@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.model.clamping import step_clamping
 from uictest.rig.model.module_air import follow_tanks, read_line_pressure
 from uictest.rig.model.pneumatics import step_air

@@ -234,14 +234,18 @@ def _case_header(inputs: StopInputs, contract: int) -> str:
 
 
 def _call(points: int) -> Iterator[str]:
-    """Yield the call of the machine code, whose arguments are those of :data:`uictest.rig.STEP_ARGUMENTS`."""
-    count = len(STOP_MEMORY.names)
-    parts = ", ".join(f"(memory) + {STOP_MEMORY.fields[name][1]}" for name in STOP_MEMORY.names)
-    pointers = ", ".join(["void *"] * count)
-    kinds = f"{pointers}, const void *, const void *, int64_t, void *, void *, int64_t, int64_t, int64_t"
-    yield f"int64_t {STEP}({kinds});"
-    yield f"#define CARRY_OUT(memory) {STEP}({parts}, \\"
-    yield f"    WHEELSET_PARAMETERS, RAIL, {points}, NULL, NULL, 0, 0, 0)"
+    """Yield the call of the machine code, as :func:`uictest.core.lanes.passed` says, without a trace."""
+    parts = {name: f"(memory) + {place}" for name, (_, place, *_) in STOP_MEMORY.fields.items()}
+    parts |= {"wheelset_parameters": "WHEELSET_PARAMETERS", "rail": "RAIL"}
+    order = (
+        *("car", "bogies", "wheelsets", "parameters", "wheelset_parameters", "rail", "rail_memory"),
+        *("measures", "wheelset_measures", "exchange", "train", "modules"),
+    )
+    addresses = ["const void *" if name.isupper() else "void *" for name in (parts[each] for each in order)]
+    kinds = ", ".join(["int64_t", "int64_t", *addresses, "void *", "void *", "int64_t", "int64_t"])
+    yield f"int64_t {STEP.name}({kinds});"
+    yield f"#define CARRY_OUT(memory) {STEP.name}({points}, 0, {', '.join(parts[each] for each in order)}, \\"
+    yield "    NULL, NULL, 0, 0)"
 
 
 def _provenance(case: scenario.Case, parts: dict[str, evaluation.EffectivePart]) -> bytes:

@@ -1,8 +1,15 @@
+from .arguments import (
+    Arguments as Arguments,
+    Length as Length,
+    at as at,
+    leaves as leaves,
+    lengths as lengths,
+    passed as passed,
+)
 from .block import block as block, fuses as fuses, register_width as register_width
 from .functions import (
     align_stack as align_stack,
     call as call,
-    carray as carray,
     floor as floor,
     fma as fma,
     maximum as maximum,

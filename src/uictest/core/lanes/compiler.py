@@ -35,9 +35,8 @@ signature: Callable[..., Any] = templates.signature
 """Signature of a function: type of the result, types of the arguments."""
 member_of_record: Callable[..., Any] = cgutils.get_record_member
 """Address of a field of an ordinary record."""
-_array_in_order: Any = arrayobj.get_cfarray_intrinsic
-array_at_address: Any = _array_in_order("C", None)
-"""Function of compiled code: of a pointer and a shape, the array there."""
+emit_array: Callable[..., Any] = arrayobj.np_cfarray
+"""Emit the code that makes an array of a pointer and a shape."""
 local_variable: Callable[..., Any] = cgutils.alloca_once
 """Address of a variable on the stack of the function being compiled."""
 Library: Any = JITCodeLibrary

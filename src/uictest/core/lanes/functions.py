@@ -6,17 +6,13 @@ from llvmlite import ir
 from numba.core import types
 
 from uictest.core.lanes.block import CACHE_LINE
-from uictest.core.lanes.compiler import array_at_address, in_compiled_code, local_variable
+from uictest.core.lanes.compiler import in_compiled_code, local_variable
 from uictest.core.lanes.operators import call_llvm, common_integers, common_vector, everywhere, spread
 from uictest.core.lanes.types import Mask, Vector, type_of_layout, vector_of_llvm
 
 _POINTER = ir.IntType(8).as_pointer()
 _NUMBERS = CACHE_LINE // 8
 """Double-precision numbers in a cache line."""
-
-
-carray: Any = array_at_address
-"""Array of a shape at an address, as numba's of that name for functions that are compiled whole."""
 
 
 @in_compiled_code

@@ -14,6 +14,7 @@ from typing import Any
 
 from llvmlite import binding, ir
 
+from uictest.core.lanes.arguments import Arguments
 from uictest.core.lanes.compiler import (
     LAST_STEP,
     STEPS_BEFORE_CODE,
@@ -22,10 +23,9 @@ from uictest.core.lanes.compiler import (
     Pipeline,
     compiled,
     empty_library,
-    signature,
 )
+from uictest.core.lanes.given_values import given_values, kind_of, parameters_of_c
 from uictest.core.lanes.resolved import Resolved, ResolvedEmission
-from uictest.core.lanes.types import type_of_argument
 
 Function = Callable[..., Any]
 _METADATA: tuple[list[Any], dict[Any, Any]] = [], {}
@@ -51,22 +51,19 @@ def compile_inner(function: Function, **options: Any) -> Any:
 
 
 def bitcode(
-    entries: Mapping[str, tuple[Function, tuple[Any, ...]]],
-    advance: Callable[[float], None] = lambda done: None,
-    **options: Any,
+    entries: Mapping[str, tuple[Any, Arguments]], advance: Callable[[float], None] = lambda done: None
 ) -> bytes:
-    """Compile functions as C calls them, and return LLVM's code of them and of all that they call.
+    """Return LLVM's code of functions as C calls them, and of all that they call.
 
-    The code is not optimised and the same on every processor of a kind. Each entry returns a whole number.
+    The code is not optimised and the same on every processor of a kind. What C calls returns a whole number,
+    0 where the function returns nothing.
 
     Args:
-        entries: name -> function and, for each of its arguments, the layout of what lies at the address, or
-            `int` for a whole number.
+        entries: name -> function of :func:`compile_inner`, and what it takes.
         advance: is told the share of the work that is done, as far as it can be foreseen.
-        options: those of `numba.cfunc`.
     """
     with _without_collection(), _watched(advance):
-        linked = _module_of([_entry(name, *each, options) for name, each in entries.items()])
+        linked = _module_of([_entry(name, *each) for name, each in entries.items()])
     for number, each in enumerate((*linked.functions, *linked.global_variables)):
         if each.name in entries:
             each.linkage = "external"
@@ -76,26 +73,24 @@ def bitcode(
     return bytes(linked.as_bitcode())
 
 
-def _entry(name: str, function: Function, arguments: tuple[Any, ...], options: Any) -> Any:
+def _entry(name: str, function: Any, arguments: Arguments) -> Any:
     """Return the code of a function of C that calls a compiled one, and dies where that would raise."""
-    inner = compile_inner(function, **options)
-    inner.compile(signature(type_of_argument(int), *(type_of_argument(each) for each in arguments)))
-    (result,) = inner.overloads.values()
-    context, kinds, library = result.target_context, result.signature.args, result.library
+    kinds = tuple(map(kind_of, arguments))
+    function.compile(kinds)
+    result = function.overloads[kinds]
+    context, returned = result.target_context, result.signature.return_type
     code = _LinkedCode(context.codegen(), name)
-    code.add_linking_library(library)
-    module = code.create_ir_module(name)
-    types = [context.get_value_type(kind) for kind in kinds]
-    entry = ir.Function(module, ir.FunctionType(ir.IntType(64), types), name)
+    code.add_linking_library(result.library)
+    module, whole = code.create_ir_module(name), ir.IntType(64)
+    entry = ir.Function(module, ir.FunctionType(whole, parameters_of_c(context, arguments)), name)
     builder = ir.IRBuilder(entry.append_basic_block())
     called = context.declare_function(module, result.fndesc)
-    status, value = context.call_conv.call_function(
-        builder, called, result.signature.return_type, kinds, entry.args
-    )
+    values = given_values(context, builder, arguments, entry.args)
+    status, value = context.call_conv.call_function(builder, called, returned, kinds, values)
     with builder.if_then(status.is_error, likely=False):
         builder.call(module.declare_intrinsic("llvm.trap", (), ir.FunctionType(ir.VoidType(), ())), ())
         builder.unreachable()
-    builder.ret(value)
+    builder.ret(value if value.type == whole else whole(0))
     code.add_ir_module(module)
     return code
 

@@ -142,8 +142,3 @@ def type_of_layout(layout: Any) -> Any:
         return kind
     fields = [(name, {"type": each.type, "offset": each.offset}) for name, each in kind.fields.items()]
     return Layout(fields, kind.size, kind.aligned)
-
-
-def type_of_argument(argument: Any) -> Any:
-    """Return the type of an argument of C: the address of a layout, or a whole number for `int`."""
-    return types.int64 if argument is int else types.CPointer(type_of_layout(argument))  # type: ignore[no-untyped-call]

@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 from uictest.controllers import Controller, functions_of_addresses
 from uictest.rig.backends.compiled import compile_inner
-from uictest.rig.backends.machine_code import Entries, Target, Unit, object_code
+from uictest.rig.backends.machine_code import Entry, Target, Unit, object_code
 
 
 class ControllerCode(NamedTuple):
@@ -21,13 +21,13 @@ def controller_code(controller: Controller, target: Target) -> ControllerCode:
     """Return a controller of this package as an object file for a target."""
     name = f"uictest_{controller.name.replace('-', '_')}"
 
-    def entries() -> Entries:
+    def functions() -> list[Any]:
         begin, decide = map(compile_inner, functions_of_addresses(controller, compile_inner))
 
         def begin_or_decide(memory: int, inputs: int, outputs: int) -> Any:
             return begin(memory) if inputs == 0 else decide(memory, inputs, outputs)
 
-        return {name: (begin_or_decide, (int, int, int))}
+        return [compile_inner(begin_or_decide)]
 
-    unit = Unit(f"{name}_controller", {name: f"the controller {controller.name}"}, entries)
-    return ControllerCode(name, object_code(unit, name, target))
+    entry = Entry(name, f"the controller {controller.name}", (int, int, int))
+    return ControllerCode(name, object_code(Unit(f"{name}_controller", (entry,), functions), entry, target))

@@ -7,6 +7,7 @@ cycle; everything else runs in all lanes at once. The brake makes its steps of a
 from typing import Any, NamedTuple
 
 from uictest.core.lanes import lane, vectors
+from uictest.rig.backends.lane_records import Cases, Lanes
 from uictest.rig.model.brake_command import follow_commands
 from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import (
@@ -50,14 +51,6 @@ IDLE = -1
 """Number of a lane's case when it has none."""
 
 
-class RigRecords(NamedTuple):
-    """Records of one rig, or blocks of them in lanes: a car, two bogies, four wheelsets."""
-
-    car: Any
-    bogies: Any
-    wheelsets: Any
-
-
 class Needs(NamedTuple):
     """What a controller cycle has to do for any lane: how many steps it has, and what else."""
 
@@ -70,26 +63,6 @@ class Needs(NamedTuple):
     brakes_dynamically: bool
     brakes_on_track: bool
     has_four_calipers: bool
-
-
-class Lanes(NamedTuple):
-    """Blocks of lanes (:func:`uictest.core.lanes.block`): a rig, its parameters, the measures of its stop."""
-
-    rig: RigRecords
-    settings: Any
-    measures: Any
-    wheelset_measures: Any
-    module_steps: Any
-
-
-class Cases(NamedTuple):
-    """Inputs of stops and the records that receive their measures, an entry for each case."""
-
-    parameters: Any
-    wheelset_parameters: Any
-    rail: Any
-    measures: Any
-    wheelset_measures: Any
 
 
 def begin_cycle(lanes: Lanes, cases: Cases, running: Any, memories: Any) -> Needs:

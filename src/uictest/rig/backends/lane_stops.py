@@ -9,14 +9,12 @@ from typing import Any
 from uictest.core.lanes import align_stack, copy_from_lane, copy_to_lane, lane
 from uictest.rig.backends.lane_cycle import (
     IDLE,
-    Cases,
-    Lanes,
-    RigRecords,
     advance_brake,
     advance_vehicle,
     begin_cycle,
     end_cycle,
 )
+from uictest.rig.backends.lane_records import Cases, Lanes, RigRecords
 from uictest.rig.model.rail import forget_rail
 from uictest.rig.model.sand import forget_sand
 from uictest.rig.model.start import start

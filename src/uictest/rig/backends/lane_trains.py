@@ -5,41 +5,22 @@ are couplers and the rail. A lane does what :func:`uictest.rig.model.train.run_t
 bits. All trains of a queue have as many cars and as many steps in a controller cycle.
 """
 
-from typing import Any, NamedTuple
+from typing import Any
 
 from uictest.core.lanes import align_stack, copy_from_lane, copy_to_lane, lane, vectors
 from uictest.rig.backends.lane_cycle import (
     IDLE,
-    Cases,
-    Lanes,
     Needs,
-    RigRecords,
     advance_brake,
     advance_vehicle,
     begin_cycle,
     end_cycle,
 )
+from uictest.rig.backends.lane_records import Cases, Lanes, RigRecords, Trains
 from uictest.rig.backends.lane_stops import begin_case, finish_if_stopped, set_to_start
 from uictest.rig.model.couplers import account_for_coupler, pull_cars, release_couplers
 from uictest.rig.model.rail import hand_rail_on
 from uictest.rig.model.sand import hand_sand_on
-
-
-class Trains(NamedTuple):
-    """Inputs of trains of n cars and the records that receive their measures, an entry for each train.
-
-    Car by car, so that the entries of one car are cases: parameters and measures of shape (n, trains), those
-    of wheelsets (n, trains, 4), distances (n, trains). The rail is one for all cars, the couplers of a train
-    lie together: (trains, n - 1).
-    """
-
-    parameters: Any
-    wheelset_parameters: Any
-    rail: Any
-    distances: Any
-    couplers: Any
-    measures: Any
-    wheelset_measures: Any
 
 
 def run_train_queue(

@@ -1,14 +1,14 @@
 """Many stops on one core, several at a time in the lanes of a SIMD register."""
 
-from collections.abc import Callable
-from functools import cache, partial
+from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest.core import lanes as vector_functions
-from uictest.core.lanes import block, register_width, translate
+from uictest.core.lanes import Length, at, block, leaves, register_width, translate
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.core.physics import floor, maximum, minimum, select, sqrt
 from uictest.rig.backends.compiled import (
@@ -17,7 +17,8 @@ from uictest.rig.backends.compiled import (
     compiled_operations,
     with_controllers,
 )
-from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
+from uictest.rig.backends.lane_records import Cases, Lanes, RigRecords
+from uictest.rig.backends.machine_code import Entry, Unit, native_function
 from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.couplers import account_for_coupler, pull_cars, release_couplers
 from uictest.rig.model.cycle import (
@@ -49,10 +50,10 @@ RIG = ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))
 """Records of one rig and how many there are."""
 BLOCKS = (*RIG, (PARAMETERS, 1), (STOP_MEASURES, 1), (WHEELSET_MEASURES, 4))
 """Records that each lane has, besides what it keeps of a controller cycle."""
+BLANK = RigRecords(*(at(layout, number) for layout, number in RIG))
+"""Records of a rig that compiled code is given."""
 _BRAKED_ADHESION, _LEAST_ADHESION = 0.12, 0.01
 """What full service uses of a better rail, and the least that a rail is taken to have; chosen."""
-_ARGUMENTS = 22
-"""How many arguments the compiled loop over a queue has."""
 
 
 class BatchMeasures(NamedTuple):
@@ -120,97 +121,61 @@ def _run_queue(
     steps: int,
     width: int,
 ) -> None:
-    blocks = blocks_of(1, steps, width)
-    blank = [np.zeros(number, layout) for layout, number in RIG]
-    allocated = (*blocks, *blank, *batch, queue, np.empty(width, np.int64), np.empty(width, RAIL_MEMORY))
-    count, points = parameters.size, rail.shape[-1]
-    arguments = (
-        address(parameters, PARAMETERS, (count,)),
-        address(wheelset_parameters, WHEELSET_PARAMETERS, (count, 4)),
-        address(rail, "f8", (count, ROWS, points)),
-        *(address(array, array.dtype, array.shape) for array in allocated),
-        *(count, points, queue.size, steps),
+    load_lanes(width)(
+        *(lane_blocks(1, steps, width), blank_rig(), Cases(parameters, wheelset_parameters, rail, *batch)),
+        *(queue, np.empty(width, np.int64), np.empty(width, RAIL_MEMORY)),
     )
-    load_lanes(width)(*arguments)
 
 
-def blocks_of(cars: int, steps: int, width: int) -> list[NDArray[Any]]:
+def blank_rig() -> RigRecords:
+    """Return the records of a rig, all zero."""
+    return RigRecords(*(np.zeros(number, layout) for layout, number in RIG))
+
+
+def lane_blocks(cars: int, steps: int, width: int) -> Lanes:
     """Return the blocks of rigs of so many cars, whose controller cycles have so many steps."""
     blocks = [block(layout, width, cars * number) for layout, number in BLOCKS]
-    return [*blocks, block(MODULE_STEP, width, cars * steps * 4)]
+    return _lanes([*blocks, block(MODULE_STEP, width, cars * steps * 4)])
+
+
+def _lanes(blocks: Sequence[Any]) -> Lanes:
+    car, bogies, wheelsets, settings, measures, wheelset_measures, module_steps = blocks
+    rig = RigRecords(car, bogies, wheelsets)
+    return Lanes(rig, settings, measures, wheelset_measures, module_steps)
+
+
+def lane_arguments(cars: int | Length, width: int) -> Lanes:
+    """Return what compiled code takes as the blocks of rigs of so many cars."""
+    *records, module_step = (each.dtype for each in leaves(lane_blocks(1, 1, width)))
+    counts = (number * cars for _, number in BLOCKS)
+    arguments = [at(record, count) for record, count in zip(records, counts, strict=True)]
+    return _lanes([*arguments, at(module_step, Length("module steps"))])
 
 
 def load_lanes(width: int | None = None) -> Callable[..., int]:
     """Return the loop over a queue of cases in machine code, compiled first where the cache has none."""
-    width = width or register_width()
-    titles = {_name(width): "the rig for many stops at once"}
-    unit = Unit(f"uictest_lanes_{width}", titles, partial(_entries, width))
-    return native_function(unit, _name(width), _ARGUMENTS)
+    return native_function(*_code(width or register_width()))
 
 
-def _name(width: int) -> str:
-    return f"uictest_run_queue_{width}"
+@cache
+def _code(width: int) -> tuple[Unit, Entry]:
+    cases, points, queued = Length("cases"), Length("points"), Length("queued")
+    given = Cases(
+        *(at(PARAMETERS, cases), at(WHEELSET_PARAMETERS, cases, 4), at("f8", cases, ROWS, points)),
+        *(at(STOP_MEASURES, cases), at(WHEELSET_MEASURES, cases, 4)),
+    )
+    arguments = (
+        *(lane_arguments(1, width), BLANK, given),
+        *(at("i8", queued), at("i8", width), at(RAIL_MEMORY, width)),
+    )
+    entry = Entry(f"uictest_run_queue_{width}", "the rig for many stops at once", arguments)
+    return Unit(f"uictest_lanes_{width}", (entry,), _functions), entry
 
 
-def _entries(width: int) -> Entries:
-    """Return the loop over a queue of cases, as a function of addresses and of what lies there."""
-    from uictest.rig.backends.lane_cycle import Cases, Lanes, RigRecords  # loads numba
-    from uictest.rig.backends.lane_stops import run_queue
+def _functions() -> list[Any]:
+    from uictest.rig.backends.lane_stops import run_queue  # loads numba
 
-    carray = vector_functions.carray
-    run = translate(run_queue, compile_inner, lane_model())
-
-    def on_addresses(
-        parameters: Any,
-        wheelset_parameters: Any,
-        rail: Any,
-        cars: Any,
-        bogies: Any,
-        wheelsets: Any,
-        settings: Any,
-        samples: Any,
-        wheelset_samples: Any,
-        module_steps: Any,
-        blank_car: Any,
-        blank_bogies: Any,
-        blank_wheelsets: Any,
-        measures: Any,
-        wheelset_measures: Any,
-        queue: Any,
-        running: Any,
-        memories: Any,
-        count: int,
-        points: int,
-        queued: int,
-        steps: int,
-    ) -> int:
-        run(
-            Lanes(
-                RigRecords(carray(cars, 1), carray(bogies, 2), carray(wheelsets, 4)),
-                carray(settings, 1),
-                carray(samples, 1),
-                carray(wheelset_samples, 4),
-                carray(module_steps, steps * 4),
-            ),
-            RigRecords(carray(blank_car, 1), carray(blank_bogies, 2), carray(blank_wheelsets, 4)),
-            Cases(
-                carray(parameters, count),
-                carray(wheelset_parameters, (count, 4)),
-                carray(rail, (count, ROWS, points)),
-                carray(measures, count),
-                carray(wheelset_measures, (count, 4)),
-            ),
-            carray(queue, queued),
-            carray(running, width),
-            carray(memories, width),
-        )
-        return 0
-
-    blocks = (each.dtype for each in blocks_of(1, 1, width))
-    records = (*(layout for layout, _ in RIG), STOP_MEASURES, WHEELSET_MEASURES)
-    inputs = PARAMETERS, WHEELSET_PARAMETERS, "f8"
-    arguments = (*inputs, *blocks, *records, "i8", "i8", RAIL_MEMORY, int, int, int, int)
-    return {_name(width): (on_addresses, arguments)}
+    return [translate(run_queue, compile_inner, lane_model())]
 
 
 @cache

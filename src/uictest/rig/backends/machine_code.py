@@ -10,19 +10,31 @@ is made from that in four to six.
 
 import ctypes
 import logging
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from threading import Lock
 from typing import Any, Final, NamedTuple
 
-import numpy as np
-
 from uictest.core import lanes, user_cache
-from uictest.rig.backends.compiled import OPTIONS, Function, compiler_inputs
+from uictest.core.lanes import Arguments, leaves, lengths, passed
+from uictest.rig.backends.compiled import compiler_inputs
 
-Entries = Mapping[str, tuple[Function, tuple[Any, ...]]]
-"""Functions of addresses and whole numbers by their names, as :func:`.bitcode` takes them."""
+
+class Entry(NamedTuple):
+    """A function in machine code.
+
+    Attributes:
+        name: of the function.
+        title: what people are told is compiled.
+        arguments: what it takes.
+        beside: small functions that are in its object file, too, for this process.
+    """
+
+    name: str
+    title: str
+    arguments: Arguments
+    beside: tuple[str, ...] = ()
 
 
 class Unit(NamedTuple):
@@ -30,15 +42,14 @@ class Unit(NamedTuple):
 
     Attributes:
         name: of its file in the cache.
-        titles: what people are told is compiled, by the name of the function.
-        entries: returns the functions, ready to be compiled; loads the compiler.
-        beside: small functions that are in the object file of another, for this process, by its name.
+        entries: those that are called from outside.
+        functions: returns them in that order, of :func:`~uictest.core.lanes.compile_inner`; loads the
+            compiler.
     """
 
     name: str
-    titles: Mapping[str, str]
-    entries: Callable[[], Entries]
-    beside: Mapping[str, tuple[str, ...]] = {}
+    entries: tuple[Entry, ...]
+    functions: Callable[[], Sequence[Any]]
 
 
 class Target(NamedTuple):
@@ -86,42 +97,51 @@ def compilation_watched(watcher: Watcher) -> Iterator[None]:
         _watcher = before
 
 
-def native_function(unit: Unit, entry: str, arguments: int) -> Callable[..., int]:
+def native_function(unit: Unit, entry: Entry) -> Callable[..., int]:
     """Return a function in machine code, from the cache, or compiled and kept there.
 
-    Args:
-        unit: what it is compiled with.
-        entry: its name.
-        arguments: how many it has, addresses and whole numbers.
+    It is called with what its arguments describe: arrays, records, named tuples of them, whole numbers. It
+    releases the interpreter's lock while it runs, and raises TypeError where an array or a record does not
+    have the compiled layout or shape.
     """
+    return _of_values(entry, function_of_addresses(unit, entry))
+
+
+def function_of_addresses(unit: Unit, entry: Entry) -> Callable[..., int]:
+    """Return the same function, to be called with what :func:`~uictest.core.lanes.passed` returns."""
     with _compiling:
-        if entry not in _loaded:
+        if entry.name not in _loaded:
             engine = load_object_file(_object_code(unit, entry, host()))
-            _loaded[entry] = engine, _function(engine, entry, arguments)
-    return _loaded[entry][1]
+            _loaded[entry.name] = engine, _function(engine, entry)
+    return _loaded[entry.name][1]
 
 
-def loaded_beside(entry: str, name: str, arguments: int) -> Callable[..., int] | None:
+def loaded_beside(entry: Entry, other: Entry) -> Callable[..., int] | None:
     """Return a function that is in the object file of another; None unless that was loaded."""
-    if entry not in _loaded:
+    if entry.name not in _loaded:
         return None
-    return _function(_loaded[entry][0], name, arguments)
+    return _of_values(other, _function(_loaded[entry.name][0], other))
 
 
-def _function(engine: Any, name: str, arguments: int) -> Callable[..., int]:
-    prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_int64] * arguments)
-    return prototype(engine.get_function_address(name))
+def _of_values(entry: Entry, function: Callable[..., int]) -> Callable[..., int]:
+    return lambda *values: function(*passed(entry.arguments, values))
 
 
-def object_code(unit: Unit, entry: str, target: Target) -> bytes:
+def _function(engine: Any, entry: Entry) -> Callable[..., int]:
+    count = len(lengths(entry.arguments)) + len(list(leaves(entry.arguments)))
+    prototype = ctypes.CFUNCTYPE(ctypes.c_int64, *[ctypes.c_int64] * count)
+    return prototype(engine.get_function_address(entry.name))
+
+
+def object_code(unit: Unit, entry: Entry, target: Target) -> bytes:
     """Return a function as an object file for a target, from the cache, or compiled and kept there."""
     with _compiling:
         return _object_code(unit, entry, target)
 
 
-def is_kept(entry: str) -> bool:
+def is_kept(entry: Entry) -> bool:
     """Return whether the cache holds a function for this process, so that it can be called at once."""
-    return user_cache.read(entry, _inputs(host())) is not None
+    return user_cache.read(entry.name, _inputs(host())) is not None
 
 
 @cache
@@ -132,37 +152,16 @@ def host() -> Target:
     return Target(binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
 
 
-def address(values: Any, layout: Any, shape: tuple[int, ...] = ()) -> int:
-    """Return the address of a record or an array. Machine code does not check the layout behind it.
-
-    Raises TypeError for another layout or shape.
-    """
-    if values.dtype != layout or values.shape != shape or not values.flags.c_contiguous:
-        raise TypeError(
-            f"expected {shape} contiguous {np.dtype(layout)}, found {values.shape} {values.dtype}"
-        )
-    return start_of(values)
-
-
-def start_of(record: Any) -> int:
-    """Return where a record or an array begins.
-
-    Its `__array_interface__` would say it, too, but lists all fields first, for some tenths of a millisecond.
-    """
-    return int(np.frombuffer(record, np.uint8).ctypes.data)
-
-
-def _object_code(unit: Unit, entry: str, target: Target) -> bytes:
+def _object_code(unit: Unit, entry: Entry, target: Target) -> bytes:
     def make() -> bytes:
-        watcher, title = _watcher, unit.titles[entry]
+        watcher, title = _watcher, entry.title
         watcher(title, 0.0)
         bitcode = _bitcode_of(unit, lambda done: watcher(title, _BITCODE_SHARE * done))
-        beside = () if target.in_library else unit.beside.get(entry, ())
-        code = object_file(bitcode, entry, target, beside)
+        code = object_file(bitcode, entry.name, target, () if target.in_library else entry.beside)
         watcher(title, 1.0)
         return code
 
-    return _from_cache(entry, _inputs(target), make)
+    return _from_cache(entry.name, _inputs(target), make)
 
 
 def _bitcode_of(unit: Unit, advance: Callable[[float], None] = lambda done: None) -> bytes:
@@ -172,8 +171,12 @@ def _bitcode_of(unit: Unit, advance: Callable[[float], None] = lambda done: None
         unit: the functions.
         advance: is told the share of the work that is done.
     """
-    inputs = compiler_inputs()
-    return _from_cache(unit.name, inputs, lambda: lanes.bitcode(unit.entries(), advance, **OPTIONS))
+
+    def make() -> bytes:
+        pairs = zip(unit.entries, unit.functions(), strict=True)
+        return lanes.bitcode({each.name: (function, each.arguments) for each, function in pairs}, advance)
+
+    return _from_cache(unit.name, compiler_inputs(), make)
 
 
 def _from_cache(kind: str, inputs: bytes, make: Callable[[], bytes]) -> bytes:

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uictest.core.measures import (
-    FAULT_COLUMNS,
     STOP_MEASURES,
     WHEELSET_MEASURES,
     Cell,
@@ -15,8 +14,8 @@ from uictest.core.measures import (
     Replay,
 )
 from uictest.core.record import fields_of
-from uictest.rig.backends.machine_code import address, loaded_beside
-from uictest.rig.backends.scalar import NOTE, NOTE_ARGUMENTS, RUN
+from uictest.rig.backends.machine_code import loaded_beside
+from uictest.rig.backends.scalar import NOTE, RUN
 from uictest.rig.model.parameters import PARAMETERS
 
 _RECORDS = np.dtype([("train", STOP_MEASURES), ("wheelsets", WHEELSET_MEASURES, 4)])
@@ -40,7 +39,7 @@ def pass_samples(replay: Replay) -> None:
 
 
 def _compiled() -> Callable[..., int] | None:
-    return loaded_beside(RUN, NOTE, len(NOTE_ARGUMENTS))
+    return loaded_beside(RUN, NOTE)
 
 
 def _noted(note: Callable[..., int], replay: Replay, cells: Sequence[Cell]) -> NDArray[np.float64]:
@@ -56,15 +55,8 @@ def _noted(note: Callable[..., int], replay: Replay, cells: Sequence[Cell]) -> N
     places = np.array([_place(cell) for cell in cells], np.int64)
     noted = np.empty((len(samples.train) - 1, len(cells)))
     note(
-        address(train, STOP_MEASURES),
-        address(wheelsets, WHEELSET_MEASURES, (4,)),
-        address(parameters[0], PARAMETERS),
-        *(address(samples.train, _NUMBER, (len(samples.train), 8)), len(samples.train)),
-        address(samples.wheelsets, _NUMBER, (len(samples.train), 4, 10)),
-        *(address(samples.faults, _NUMBER, (len(samples.faults), FAULT_COLUMNS)), len(samples.faults)),
-        *(address(numbers, _NUMBER, (len(numbers),)), len(numbers)),
-        *(address(places, np.dtype("i8"), (len(cells),)), len(cells)),
-        address(noted, _NUMBER, noted.shape),
+        *(train, wheelsets, parameters[0], samples.train, samples.wheelsets, samples.faults),
+        *(numbers, places, noted),
     )
     for own, record in zip((replay.train, *replay.wheelsets), (train, *wheelsets), strict=True):
         vars(own).update((name, record[name].tolist()) for name in record.dtype.names)

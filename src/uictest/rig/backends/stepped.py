@@ -3,21 +3,20 @@
 No controller is called: commands and sensor readings pass through the exchange.
 """
 
-from functools import cache
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest.controllers import EXCHANGE, INPUTS, OUTPUTS, OUTPUTS_AT
+from uictest.core.lanes import passed
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.machine_code import Target, address, native_function, object_code, start_of
-from uictest.rig.backends.scalar import SCALAR, STEP, STEP_ARGUMENTS
+from uictest.rig.backends.machine_code import Target, function_of_addresses, object_code
+from uictest.rig.backends.scalar import SCALAR, STEP
 from uictest.rig.model.parameters import PARAMETERS
-from uictest.rig.model.rail import RAIL_MEMORY, ROWS
+from uictest.rig.model.rail import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
-from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.rig.single_stop import FinishedStop, StopInputs, empty_trace, rows_of_trace
 
 STOP_MEMORY: Final[Any] = np.dtype(
@@ -42,7 +41,7 @@ is a stop that has not begun.
 
 
 def stepping_code(target: Target) -> bytes:
-    """Return the stepped stop as an object file for a target."""
+    """Return the stepped stop as an object file for a target; :data:`STEP` says what it is called with."""
     return object_code(SCALAR, STEP, target)
 
 
@@ -70,13 +69,16 @@ class SteppedStop:
         self.exchange: Any = self.memory["exchange"]
         (self.inputs,), (self.outputs,) = within_exchanges(memory, 1)
         self._trace = empty_trace(rows_of_trace(inputs.parameters, steps_per_sample))
-        self._arguments = (
-            *addresses_within(self.memory),
-            *(address(inputs.wheelset_parameters, WHEELSET_PARAMETERS, (4,)), *of_rail(inputs.rail)),
-            *(*_of_trace(self._trace), steps_per_sample),
+        own = self.memory
+        # The machine code reads and writes them by their addresses as long as the stop lasts.
+        self._kept = (
+            *(own["car"], own["bogies"], own["wheelsets"], own["parameters"]),
+            *(inputs.wheelset_parameters, inputs.rail),
+            *(own["rail_memory"], own["measures"], own["wheelset_measures"], own["exchange"]),
+            *(Trace(own["train"], own["modules"]), self._trace, steps_per_sample, 0),
         )
-        self._kept = inputs  # the machine code reads them by their addresses
-        self._step = _native_step()
+        *self._arguments, _ = passed(STEP.arguments, self._kept)
+        self._step = function_of_addresses(SCALAR, STEP)
         self._rows = 0
         self.step()
 
@@ -115,11 +117,6 @@ class SteppedStop:
         )
 
 
-@cache
-def _native_step() -> Any:
-    return native_function(SCALAR, STEP, len(STEP_ARGUMENTS))
-
-
 def within_exchanges(memory: NDArray[Any], cars: int) -> tuple[list[Any], list[Any]]:
     """Return the records of inputs, and those of outputs, within the part `exchange` of a record."""
     first = memory.dtype.fields["exchange"][1]  # type: ignore[index]
@@ -127,24 +124,4 @@ def within_exchanges(memory: NDArray[Any], cars: int) -> tuple[list[Any], list[A
     return (
         [np.frombuffer(memory, INPUTS, 1, place)[0] for place in places],
         [np.frombuffer(memory, OUTPUTS, 1, place + OUTPUTS_AT).reshape(()) for place in places],
-    )
-
-
-def addresses_within(memory: Any) -> tuple[int, ...]:
-    """Return the addresses of the parts of a record, in their order."""
-    start = start_of(memory)
-    return tuple(start + memory.dtype.fields[name][1] for name in memory.dtype.names)
-
-
-def of_rail(rail: NDArray[np.float64]) -> tuple[int, int]:
-    """Return the address of a rail and its number of points."""
-    return address(rail, np.dtype("f8"), (ROWS, rail.shape[1])), rail.shape[1]
-
-
-def _of_trace(trace: Trace) -> tuple[int, int, int]:
-    rows = len(trace.train)
-    return (
-        address(trace.train, TRAIN_SAMPLE, (rows,)),
-        address(trace.wheelsets, WHEELSET_SAMPLE, (rows, 4)),
-        rows,
     )

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from uictest.rig.backends.machine_code import address, native_function
-from uictest.rig.backends.stepped import STOP_MEMORY, addresses_within, of_rail, within_exchanges
-from uictest.rig.backends.trains import STEP, STEP_ARGUMENTS, TRAINS
+from uictest.core.lanes import passed
+from uictest.rig.backends.machine_code import function_of_addresses
+from uictest.rig.backends.stepped import STOP_MEMORY, within_exchanges
+from uictest.rig.backends.trains import STEP, TRAINS
 from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
-from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
 from uictest.rig.single_stop import FinishedStop, rows_of_trace
 from uictest.rig.train_measures import finished_cars
 from uictest.rig.train_stop import TrainInputs
@@ -55,16 +55,17 @@ class SteppedTrain:
         self.inputs, self.outputs = within_exchanges(memory, n)
         room = rows_of_trace(train.parameters[0], steps_per_sample)
         self._trace = Trace(np.empty((n, room), TRAIN_SAMPLE), np.empty((n, room, 4), WHEELSET_SAMPLE))
-        self._arguments = (
-            *(*addresses_within(self.memory), n),
-            address(train.wheelset_parameters, WHEELSET_PARAMETERS, (n, 4)),
-            *(address(train.distances, np.dtype("f8"), (n,)), *of_rail(train.rail)),
-            address(self._trace.train, TRAIN_SAMPLE, (n, room)),
-            address(self._trace.wheelsets, WHEELSET_SAMPLE, (n, room, 4)),
-            *(room, steps_per_sample),
+        own = self.memory
+        present = Trace(own["train"].reshape(n, 1), own["modules"].reshape(n, 1, 4))
+        # The machine code reads and writes them by their addresses as long as the stop lasts.
+        self._kept = (
+            *(own["car"], own["bogies"], own["wheelsets"], own["parameters"]),
+            *(train.wheelset_parameters.reshape(4 * n), train.distances, own["couplers"], train.rail),
+            *(own["rail_memory"], own["measures"], own["wheelset_measures"], own["exchange"]),
+            *(present, *self._trace, steps_per_sample, 0),
         )
-        self._kept = train  # the machine code reads it by its addresses
-        self._step = native_function(TRAINS, STEP, len(STEP_ARGUMENTS))
+        *self._arguments, _ = passed(STEP.arguments, self._kept)
+        self._step = function_of_addresses(TRAINS, STEP)
         self._rows = 0
         self.step()
 

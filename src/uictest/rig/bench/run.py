@@ -8,13 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 import uictest
-from uictest.core import lanes
-from uictest.core.lanes import translate
+from uictest.core.lanes import Length, at, translate
 from uictest.core.recording import ORIGIN, Recording
 from uictest.plans.scenario import Case, rig_as_built
 from uictest.rig.assembly import ASSIGNMENTS, assemble, assigned
 from uictest.rig.backends.compiled import compile_inner, compiled_operations
-from uictest.rig.backends.machine_code import Entries, Unit, address, native_function
+from uictest.rig.backends.machine_code import Entry, Unit, native_function
 from uictest.rig.bench.inputs import BenchInput, bench_input
 from uictest.rig.bench.recipe import BenchTest
 from uictest.rig.bench.step import (
@@ -42,12 +41,21 @@ from uictest.rig.model.wheelset_parameters import (
 
 Samples = NDArray[np.float64]
 
-_NAME = "uictest_bench"
-_ARGUMENTS = (
-    *(CAR, WHEELSET, WHEELSET, PARAMETERS, WHEELSET_PARAMETERS),
-    *("f8", "f8", "i8", BENCH_SAMPLE, int, int),
+_COUNT, _CYCLES, _ROWS = len(SETTINGS), Length("cycles"), Length("rows")
+_BENCH = Entry(
+    "uictest_bench",
+    "the bench of the rig",
+    (
+        BenchRig(
+            *(at(CAR), at(WHEELSET, MODULES), at(WHEELSET, _COUNT), at(PARAMETERS, _COUNT)),
+            *(at(WHEELSET_PARAMETERS), at("f8", LOADCELLS)),
+        ),
+        *(at("f8", _ROWS - 1), at("i8", _CYCLES), at(BENCH_SAMPLE, _ROWS)),
+    ),
 )
-_COUNT = len(SETTINGS)
+_UNIT = Unit(
+    _BENCH.name, (_BENCH,), lambda: [translate(run_bench_test, compile_inner, compiled_operations())]
+)
 
 
 def run_compiled(
@@ -57,54 +65,7 @@ def run_compiled(
 
     Raises TypeError where a record or an array does not have the compiled layout.
     """
-    native_function(_UNIT, _NAME, len(_ARGUMENTS))(
-        address(rig.car, CAR),
-        address(rig.modules, WHEELSET, (MODULES,)),
-        address(rig.computed, WHEELSET, (_COUNT,)),
-        address(rig.settings, PARAMETERS, (_COUNT,)),
-        address(rig.wheelset_parameters, WHEELSET_PARAMETERS),
-        address(rig.loadcell_errors, "f8", (LOADCELLS,)),
-        address(demanded_pressures, "f8", (len(trace) - 1,)),
-        address(valve_commands, "i8", (len(valve_commands),)),
-        address(trace, BENCH_SAMPLE, (len(trace),)),
-        len(valve_commands),
-        len(trace),
-    )
-
-
-def _entries() -> Entries:
-    """Return the bench as a function of addresses and the lengths behind them."""
-    carray = lanes.carray
-    entry = translate(run_bench_test, compile_inner, compiled_operations())
-
-    def on_addresses(
-        car: Any,
-        modules: Any,
-        computed: Any,
-        settings: Any,
-        wheelset_parameters: Any,
-        loadcell_errors: Any,
-        pressures: Any,
-        commands: Any,
-        trace: Any,
-        cycles: int,
-        rows: int,
-    ) -> int:
-        rig = BenchRig(
-            carray(car, 1)[0],
-            carray(modules, MODULES),
-            carray(computed, _COUNT),
-            carray(settings, _COUNT),
-            carray(wheelset_parameters, 1)[0],
-            carray(loadcell_errors, LOADCELLS),
-        )
-        entry(rig, carray(pressures, rows - 1), carray(commands, cycles), carray(trace, rows))
-        return 0
-
-    return {_NAME: (on_addresses, _ARGUMENTS)}
-
-
-_UNIT = Unit(_NAME, {_NAME: "the bench of the rig"}, _entries)
+    native_function(_UNIT, _BENCH)(rig, demanded_pressures, valve_commands, trace)
 
 
 def run_bench(case: Case, applied: BenchInput, run: Callable[..., None] = run_compiled) -> Recording:
@@ -140,8 +101,6 @@ def run_test(test: BenchTest) -> Recording:
 _AIR = "rig.compensation_model.air"
 _OF_AIR = tuple(each for each in ASSIGNMENTS if any(_AIR.startswith(key) for key in each.keys))
 """What sets the parameters that the unknowns decide."""
-_WALK = "uictest_modelled_pressure"
-_WALK_ARGUMENTS = (CAR, WHEELSET, PARAMETERS, WHEELSET_PARAMETERS, "f8", "f8", "i8", "f8", int)
 
 
 class ModelledPressure:
@@ -172,18 +131,11 @@ class ModelledPressure:
         for name, value in assigned(_OF_AIR, _with_unknowns(self._case, unknowns).scenario).items():
             self._parameters[name] = value
         computed = np.empty(self._tank.size)
-        follow = native_function(_WALK_UNIT, _WALK, len(_WALK_ARGUMENTS))
-        car, wheelset, rows = np.zeros(1, CAR), np.zeros(1, WHEELSET), computed.shape
+        car, wheelset = np.zeros(1, CAR)[0], np.zeros(1, WHEELSET)[0]
+        follow = native_function(_WALK_UNIT, _WALK)
         follow(
-            address(car, CAR, (1,)),
-            address(wheelset, WHEELSET, (1,)),
-            address(self._parameters, PARAMETERS, (1,)),
-            address(self._of_wheelset, WHEELSET_PARAMETERS, (1,)),
-            address(self._tank, "f8", rows),
-            address(self._line, "f8", rows),
-            address(self._commands, "i8", rows),
-            address(computed, "f8", rows),
-            computed.size,
+            *(car, wheelset, self._parameters[0], self._of_wheelset[0]),
+            *(self._tank, self._line, self._commands, computed),
         )
         return computed
 
@@ -205,37 +157,6 @@ def _with_unknowns(case: Case, unknowns: Samples) -> Case:
 
 def _with(case: Case, **sections: object) -> Case:
     return replace(case, scenario=case.scenario.model_copy(update=sections))
-
-
-def _walk_entries() -> Entries:
-    """Return the walk along a record as a function of addresses and its length."""
-    carray = lanes.carray
-    entry = translate(_follow_record, compile_inner, compiled_operations())
-
-    def on_addresses(
-        car: Any,
-        wheelset: Any,
-        p: Any,
-        own: Any,
-        tank: Any,
-        line: Any,
-        commands: Any,
-        computed: Any,
-        rows: int,
-    ) -> int:
-        entry(
-            carray(car, 1)[0],
-            carray(wheelset, 1)[0],
-            carray(p, 1)[0],
-            carray(own, 1)[0],
-            carray(tank, rows),
-            carray(line, rows),
-            carray(commands, rows),
-            carray(computed, rows),
-        )
-        return 0
-
-    return {_WALK: (on_addresses, _WALK_ARGUMENTS)}
 
 
 def _follow_record(
@@ -265,4 +186,14 @@ def _follow_record(
         computed[n] = wheelset.modelled_pressure - p.atmospheric_pressure
 
 
-_WALK_UNIT = Unit(_WALK, {_WALK: "the air of a record"}, _walk_entries)
+_WALK = Entry(
+    "uictest_modelled_pressure",
+    "the air of a record",
+    (
+        *(at(CAR), at(WHEELSET), at(PARAMETERS), at(WHEELSET_PARAMETERS)),
+        *(at("f8", _ROWS), at("f8", _ROWS), at("i8", _ROWS), at("f8", _ROWS)),
+    ),
+)
+_WALK_UNIT = Unit(
+    _WALK.name, (_WALK,), lambda: [translate(_follow_record, compile_inner, compiled_operations())]
+)

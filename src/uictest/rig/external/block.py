@@ -19,7 +19,7 @@ from uictest.controllers import (
     ControllerProgram,
 )
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.external.in_process import opened
 from uictest.rig.single_stop import StopInputs, run_to_end
 

@@ -30,7 +30,7 @@ from uictest.controllers import (
     open_controller,
     shown_version,
 )
-from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.backends.trains import compiled_train
 from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
 from uictest.rig.train_stop import TrainInputs, TrainStop, run_train_to_end

@@ -8,7 +8,7 @@ from types import TracebackType
 from typing import Final, Self, TypeGuard
 
 from uictest.controllers import ControllerProgram, ProgramKey
-from uictest.rig.backends.native import compiled_stop
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.backends.trains import compiled_train
 from uictest.rig.external.block import BlockInputs, BlockRun, empty_run, load_block, run_block
 from uictest.rig.external.drives import DriveRequest, Drives, drive_controller
