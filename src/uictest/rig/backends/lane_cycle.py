@@ -16,20 +16,17 @@ from uictest.rig.model.cycle import (
     read_line_sensor,
     read_other_loadcells,
     read_pole_wheels,
-    start_cycle,
 )
 from uictest.rig.model.disc_brake import warm_discs
 from uictest.rig.model.dynamic_brake import brake_dynamically, demand_dynamic_brake
 from uictest.rig.model.faults import (
-    falsify_readings,
     let_air_leak,
     limit_valves,
     silence_controller,
     update_faults,
 )
 from uictest.rig.model.module_air import follow_tanks, read_line_pressure
-from uictest.rig.model.rail import clean_rail
-from uictest.rig.model.sand import command_sanders, spread_sand
+from uictest.rig.model.sand import command_sanders
 from uictest.rig.model.step import (
     compensate_kept,
     step_modules,
@@ -37,15 +34,14 @@ from uictest.rig.model.step import (
     step_vehicle,
     take_clamping_forces,
 )
+from uictest.rig.model.stop import meet_rail
 from uictest.rig.model.stop_measures import observe_cycle
 from uictest.rig.model.track_brake import (
     account_for_magnets,
-    clean_by_magnets,
     command_track_brake,
     drag_magnets,
 )
 from uictest.rig.model.traction import hold_speed
-from uictest.rig.model.train_sensors import read_train_sensors
 
 IDLE = -1
 """Number of a lane's case when it has none."""
@@ -124,17 +120,7 @@ def _needs_of(cases: Cases, running: Any) -> Needs:
 def _decide(lanes: Lanes, cases: Cases, case: int, memory: Any, k: int) -> None:
     """Look up the friction that lane ``k`` meets and let its controller and driver decide."""
     p, car, wheelsets = cases.parameters[case], lane(lanes.rig.car, k), lane(lanes.rig.wheelsets, k)
-    if p.has_train_speed + p.has_accelerometer > 0.0:
-        read_train_sensors(car, p)
-    start_cycle(car, wheelsets, p, cases.rail[case])
-    if p.cleans_rail > 0.0:
-        clean_rail(car, wheelsets, p, memory)
-        if p.magnet_cleaning > 0.0:
-            clean_by_magnets(car, wheelsets, p, memory)
-    if p.has_sanders > 0.0:
-        spread_sand(car, wheelsets, p, memory)
-    if p.fault_count > 0:
-        falsify_readings(car, wheelsets, p)
+    meet_rail(car, wheelsets, p, cases.rail[case], memory)
     decide(car, wheelsets, p)
     if p.fault_count > 0:
         silence_controller(car, wheelsets, p)

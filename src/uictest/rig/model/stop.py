@@ -115,6 +115,11 @@ def begin_cycle(
     read_sensors(car, wheelsets, p)
     if p.uses_pole_wheels > 0.0:
         read_pole_wheels(car, wheelsets, p)
+    meet_rail(car, wheelsets, p, rail, memory)
+
+
+def meet_rail(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: Any, memory: RailMemory) -> None:
+    """Find the friction where the train has come to, then let faults falsify what the sensors have read."""
     if p.has_train_speed + p.has_accelerometer > 0.0:
         read_train_sensors(car, p)
     start_cycle(car, wheelsets, p, rail)
