@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from numba import njit
-from numba.core import cgutils, compiler_machinery, imputils, lowering, typed_passes, untyped_passes
+from numba.core import callconv, cgutils, cpu, imputils, lowering, typed_passes, types, untyped_passes
 from numba.core.codegen import CodeLibrary, JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.core.typing import templates
@@ -45,24 +45,26 @@ empty_library: Any = CodeLibrary.__init__
 """Begin a library without any code."""
 Pipeline: Any = Compiler
 """Steps from a Python function to its code."""
-PassManager: Any = compiler_machinery.PassManager
-"""Some of these steps in an order."""
+CallConvention: Any = callconv.CPUCallConv
+"""How functions call each other."""
+Target: Any = cpu.CPUContext
+"""What code is emitted for, and the definitions by which it is."""
+none: Any = types.none
+"""Type of None."""
 EmittedFunction: Any = lowering.Lower
 """Emits the code of one function."""
 Emission: Any = typed_passes.NativeLowering
 """The step that emits code."""
-step_of_compiler: Callable[..., Any] = compiler_machinery.register_pass
-"""Make a class a step."""
-STEPS_BEFORE_CODE: Any = (
+_BEFORE_CODE: Any = (
     untyped_passes.TranslateByteCode,
     untyped_passes.FixupArgs,
     untyped_passes.IRProcessing,
     untyped_passes.ReconstructSSA,
     typed_passes.NopythonTypeInference,
     typed_passes.PreLowerStripPhis,
-    typed_passes.IRLegalization,
-    typed_passes.AnnotateTypes,
 )
+STEPS_BEFORE_CODE: Any = tuple(step() for step in _BEFORE_CODE)
 """The steps without which no function is compiled, in their order, up to that which emits code."""
-LAST_STEP: Any = typed_passes.NoPythonBackend
+_RESULT: Any = typed_passes.NoPythonBackend
+LAST_STEP: Any = _RESULT()
 """The step that returns the result."""

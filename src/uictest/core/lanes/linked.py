@@ -15,11 +15,11 @@ from typing import Any
 from llvmlite import binding, ir
 
 from uictest.core.lanes.arguments import Arguments
+from uictest.core.lanes.calls import DirectTarget
 from uictest.core.lanes.compiler import (
     LAST_STEP,
     STEPS_BEFORE_CODE,
     Library,
-    PassManager,
     Pipeline,
     compiled,
     empty_library,
@@ -74,7 +74,9 @@ def bitcode(
 
 
 def _entry(name: str, function: Any, arguments: Arguments) -> Any:
-    """Return the code of a function of C that calls a compiled one, and dies where that would raise."""
+    """Return the code of a function of C that calls a compiled one."""
+    for context in (function.typingctx, function.targetctx):
+        context.refresh()
     kinds = tuple(map(kind_of, arguments))
     function.compile(kinds)
     result = function.overloads[kinds]
@@ -86,10 +88,7 @@ def _entry(name: str, function: Any, arguments: Arguments) -> Any:
     builder = ir.IRBuilder(entry.append_basic_block())
     called = context.declare_function(module, result.fndesc)
     values = given_values(context, builder, arguments, entry.args)
-    status, value = context.call_conv.call_function(builder, called, returned, kinds, values)
-    with builder.if_then(status.is_error, likely=False):
-        builder.call(module.declare_intrinsic("llvm.trap", (), ir.FunctionType(ir.VoidType(), ())), ())
-        builder.unreachable()
+    value = context.call_conv.call(builder, called, returned, values)
     builder.ret(value if value.type == whole else whole(0))
     code.add_ir_module(module)
     return code
@@ -145,18 +144,9 @@ class _LinkedCode(Library):  # type: ignore[misc]
         """Link nothing and optimise nothing."""
         self._finalized = True
 
-    def get_pointer_to_function(self, name: str) -> int:
-        """Return that there is none."""
-        return 0
-
     def _get_module_for_linking(self) -> Any:
         """Return the code with that of everything that it calls."""
         return _module_of([self])
-
-    @property
-    def codegen(self) -> Any:
-        """What is told of the objects that errors are raised with: there is no place to keep them."""
-        return SimpleNamespace(set_env=lambda name, environment: None)
 
 
 def _empty_module(codegen: Any, name: str) -> Any:
@@ -200,18 +190,18 @@ class _LinkedOnly(Pipeline):  # type: ignore[misc]
     """The steps of numba's own pipeline that plain functions need, with another end."""
 
     def __init__(self, typing_context: Any, target_context: Any, *others: Any) -> None:
-        super().__init__(typing_context, target_context, *others)
+        super().__init__(Resolved.of(typing_context), DirectTarget.of(target_context), *others)
         # Memory is handed in by the caller, who owns it: references to it are not counted.
-        self.state.targetctx = self.state.targetctx.subtarget(enable_nrt=False)
-        self.state.typingctx = Resolved.of(typing_context)
+        self.state.targetctx.enable_nrt = False
         self.state.library = _LinkedCode(target_context.codegen(), "inner")
         _progress.compiled += 1
         _progress.advance(min(_progress.compiled / max(_progress.awaited, 1), 1.0))
 
     def define_pipelines(self) -> list[Any]:
         """Return the only pipeline."""
-        steps = PassManager("linked code")
-        for each in (*STEPS_BEFORE_CODE, ResolvedEmission, LAST_STEP):
-            steps.add_pass(each, each.__name__)
-        steps.finalize()
-        return [steps]
+        return [SimpleNamespace(pipeline_name="linked code", exec_times={}, run=_take_steps)]
+
+
+def _take_steps(state: Any) -> None:
+    for step in (*STEPS_BEFORE_CODE, ResolvedEmission(), LAST_STEP):
+        step.run_pass(state)

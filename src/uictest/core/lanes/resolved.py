@@ -9,7 +9,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-from uictest.core.lanes.compiler import Emission, EmittedFunction, step_of_compiler
+from uictest.core.lanes.compiler import Emission, EmittedFunction, local_variable
 
 
 class Resolved:
@@ -28,6 +28,9 @@ class Resolved:
     def __getattr__(self, name: str) -> Any:
         return getattr(self._context, name)
 
+    def refresh(self) -> None:
+        """Look for no new definitions: there are none while functions are compiled."""
+
     def resolve_function_type(self, function: Any, args: Any, kws: Any) -> Any:
         """Return the signature of a function or operator for arguments; None where it has none."""
         asked = function, tuple(args), tuple(sorted(kws.items()))
@@ -45,7 +48,27 @@ class Resolved:
 
 
 class _Function(EmittedFunction):  # type: ignore[misc]
-    """Code of a function, whose operators are those that were found for its types."""
+    """Code of a function, whose operators are those that were found for its types.
+
+    It counts no references and describes nothing to a debugger.
+    """
+
+    def emit_environment_object(self) -> None:
+        """Make no place for objects that errors would be raised with."""
+
+    def pre_block(self, block: Any) -> None:
+        """Begin a block; none is part of a try."""
+
+    def storevar(self, value: Any, name: str, argidx: Any = None) -> None:
+        """Keep the value of a variable, on the stack where other blocks use it."""
+        if name in self._singly_assigned_vars:
+            self._blk_local_varmap[name] = value
+        else:
+            self.builder.store(value, self.getvar(name))
+
+    def alloca_lltype(self, name: str, kind: Any, datamodel: Any = None) -> Any:
+        """Make a place for a variable."""
+        return local_variable(self.builder, kind, name=name)
 
     def lower_binop(self, resty: Any, expr: Any, op: Any) -> Any:
         """Emit an operator; numba looks for code for constants first, and has some for powers only."""
@@ -63,7 +86,6 @@ class _Function(EmittedFunction):  # type: ignore[misc]
         return self.context.cast(self.builder, value, found.return_type, resty)
 
 
-@step_of_compiler(mutates_CFG=True, analysis_only=False)
 class ResolvedEmission(Emission):  # type: ignore[misc]
     """The step that emits code of operators and functions that were found before."""
 
