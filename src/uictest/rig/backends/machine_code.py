@@ -211,10 +211,13 @@ def object_file(bitcode: bytes, entry: str, target: Target, beside: Collection[s
     if target.in_library:
         module.get_function(entry).visibility = "hidden"
     tuning = binding.create_pipeline_tuning_options(speed_level=3)
-    tuning.loop_vectorization = True
-    # Loops are over four wheelsets: unrolled they take a quarter longer to compile, and run no faster.
-    tuning.loop_unrolling = False
+    # Loops are over four wheelsets: unrolled they take a quarter longer to compile, and run no faster; nor do
+    # they in vectors, and lanes are vectors already.
+    tuning.loop_unrolling = tuning.loop_vectorization = tuning.slp_vectorization = False
     passes = binding.create_pass_builder(machine, tuning)
+    others = binding.create_new_module_pass_manager()
+    others.add_global_dead_code_eliminate_pass()
+    others.run(module, passes)
     passes.getModulePassManager().run(module, passes)
     # What calls of functions that are inline now needed is left over.
     unused = binding.create_new_module_pass_manager()
