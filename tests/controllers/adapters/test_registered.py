@@ -154,6 +154,21 @@ def test_reset_leaves_nothing_of_the_stop_before():
     assert answers[0] == answers[1]
 
 
+def test_an_error_in_machine_code_of_a_package_does_not_end_the_process(monkeypatch):
+    raised = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda failure: raised.append(failure.exc_type))
+
+    def decide(train, wheelsets, p):
+        train.reference_speed = (20.0, 10.0)[int(1000.0 * p.cycle_time)]
+
+    config = Config(4, 0.01, 30.0, (0.46,) * 4, {})
+    broken = threshold.CONTROLLER._replace(decide=decide)
+    instance = registered.CompiledInstance(broken, shipped(), config, "acme-wsp 2.1.0")
+    instance.reset()
+    rig.drive(instance, anything(0.01, 1).inputs, 0.01, rig.empty_exchange())
+    assert set(raised) == {IndexError}
+
+
 def test_a_class_is_created_with_its_parameters():
     instance = opened("acme-class", gain=2.0)
     assert instance.version == "acme-wsp 2.1.0"

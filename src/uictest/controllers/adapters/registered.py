@@ -5,7 +5,7 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
-from functools import cache, partial
+from functools import cache
 from importlib import import_module
 from types import SimpleNamespace
 from typing import Any, Final, NamedTuple
@@ -118,7 +118,6 @@ def in_si(name: str, written: Any, declared: DeclaredParameter) -> float:
 
 _OPTIONS: Final[dict[str, Any]] = {"error_model": "numpy", "nogil": True}
 """As the rig is compiled: the same source gives the same bits."""
-_compile_inner: Final[Any] = partial(lanes.compile_inner, **_OPTIONS)
 
 
 class CompiledInstance(ControllerInstance):
@@ -171,7 +170,8 @@ def memory_of(controller: Controller) -> Any:
 def _compiled(controller: Controller) -> _Functions:
     """Compile a controller, which takes some seconds, once per process."""
     numba: Any = import_module("numba")
-    begin_at, step_at = functions_of_addresses(controller, _compile_inner)
+    # Not as the rig's own functions, which end the process where they would raise an error.
+    begin_at, step_at = functions_of_addresses(controller, numba.njit(**_OPTIONS))
     address, status = numba.int64, numba.int32
     return _Functions(
         numba.cfunc(status(address), **_OPTIONS)(begin_at),
