@@ -26,6 +26,7 @@ def response(part):
 
 
 @pytest.mark.slow
+@pytest.mark.xfail(strict=True, reason="it was identified from records of 0.1.0 (known errors)")
 def test_it_is_regenerated(tmp_path, monkeypatch):
     """Lines to a thousandth, the response to a hundredth: the simplex ends elsewhere under another BLAS."""
     monkeypatch.chdir(tmp_path)
