@@ -7,10 +7,10 @@ import numpy as np
 import yaml
 from numpy.typing import NDArray
 from parameters import Fields, fields, values
+from uictest.rig.backends.native import compiled_stop
 
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.native import compiled_stop
 from uictest.rig.model.rail import FRICTIONS
 from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
 

@@ -86,7 +86,7 @@ class DirectTarget(Target):  # type: ignore[misc]
     call_conv = property(_DirectCalls)
 
     def refresh(self) -> None:
-        """Look for new definitions only where those of types that were just found are."""
+        """Take up what was added to registries since; the types have looked for new registries."""
         for each in tuple(self._registries):
             self.install_registry(each)
 
@@ -112,7 +112,7 @@ class DirectTarget(Target):  # type: ignore[misc]
         self._defns[key].append(definition, described.argtypes)
 
     def get_executable(self, library: Any, described: Any, environment: Any) -> Any:
-        """Return what stands for a function where Python would call it: one that has nothing to find."""
+        """Return what stands for a function where Python would call it: any built-in one, uncalled."""
         return [].index
 
     def post_lowering(self, module: Any, library: Any) -> None:
