@@ -8,6 +8,7 @@ beside this file keeps the result and what was done with it.
 """
 
 import argparse
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,13 +68,16 @@ def _arguments() -> argparse.Namespace:
 
 def _present() -> NDArray[np.float64]:
     """Free parameters as they stand in the library, as shares between their bounds."""
-    record = SLIDE.inputs.parameters
-    delay = record.valve_delay_cycles * record.cycle_time + record.valve_delay_steps * record.step
-    special = {"switching_delay": delay, "friction": SLIDE.inputs.rail[FRICTIONS, 0]}
-    shares = [
-        free.share(float(special[free.name] if free.name in special else record[free.name])) for free in FREE
-    ]
+    record, leading = SLIDE.inputs.parameters, SLIDE.inputs.wheelset_parameters[0]
+    delay = leading["valve_delay_cycles"] * record.cycle_time + leading["valve_delay_steps"] * record.step
+    own = {**_numbers(leading), **_numbers(record), "switching_delay": delay}
+    own["friction"] = SLIDE.inputs.rail[FRICTIONS, 0]
+    shares = [free.share(float(own[free.name])) for free in FREE]
     return np.clip(np.array(shares), 0.0, 1.0)
+
+
+def _numbers(record: Any) -> dict[str, Any]:
+    return {name: record[name] for name in record.dtype.names}
 
 
 if __name__ == "__main__":

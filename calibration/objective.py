@@ -7,10 +7,10 @@ import numpy as np
 import yaml
 from numpy.typing import NDArray
 from parameters import Fields, fields, values
-from uictest.rig.backends.native import compiled_stop
 
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
+from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.model.rail import FRICTIONS
 from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
 
@@ -33,14 +33,14 @@ class Stop:
 
     def run(self, changed: Fields, friction: float | None = None) -> FinishedStop:
         """Run it with some record fields, and maybe the rail's friction, changed."""
-        record = self.inputs.parameters.copy()
+        record, of_wheelsets = self.inputs.parameters.copy(), self.inputs.wheelset_parameters.copy()
         for name, value in changed.items():
-            record[name] = value
+            (record if name in record.dtype.names else of_wheelsets)[name] = value
         rail = self.inputs.rail.copy()
         if friction is not None:
             rail[FRICTIONS] = friction
-        changed_inputs = self.inputs._replace(parameters=record, rail=rail)
-        return run_to_end(compiled_stop(self.inputs.controller), changed_inputs)
+        changed_inputs = self.inputs._replace(parameters=record, wheelset_parameters=of_wheelsets, rail=rail)
+        return run_to_end(compiled_stop(), changed_inputs)
 
 
 def stop(file: str) -> Stop:
