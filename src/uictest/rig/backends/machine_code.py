@@ -3,9 +3,9 @@
 Importing numba and finding code in its own cache takes longer than a dozen stops. Its code generator alone
 loads an object file in a tenth of that time.
 
-Code is kept in two forms: the bitcode of a unit, which numba takes some eight seconds to make and which is
+Code is kept in two forms: the bitcode of a unit, which numba takes some six seconds to make and which is
 the same for every processor of a kind, and an object file for one processor and one entry of the unit, which
-is made from that in four to six.
+is made from that in three or more.
 """
 
 import ctypes
@@ -215,6 +215,7 @@ def object_file(bitcode: bytes, entry: str, target: Target, beside: Collection[s
     # they in vectors, and lanes are vectors already.
     tuning.loop_unrolling = tuning.loop_vectorization = tuning.slp_vectorization = False
     passes = binding.create_pass_builder(machine, tuning)
+    # The unit's other entries are called by nothing now.
     others = binding.create_new_module_pass_manager()
     others.add_global_dead_code_eliminate_pass()
     others.run(module, passes)
