@@ -14,7 +14,6 @@ from types import SimpleNamespace
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
-from _pytest.junitxml import xml_key
 from hypothesis import settings
 from typer.main import get_command
 
@@ -25,7 +24,6 @@ from uictest.core import lanes
 from uictest.core.physics import FILL, VENT, arithmetic, fma
 from uictest.core.record import fields_of
 from uictest.core.recording.formats import isolation, reader
-from uictest.selftest import dossier
 
 _LONGEST = (
     "rig/backends/test_lanes.py",
@@ -74,7 +72,6 @@ _LONGEST = (
     "sweeps/running/test_external.py",
     "selftest/test_selftest.py",
     "firmness/test_varied_case.py",
-    "selftest/test_dossier.py",
     "templates/test_controller.py",
     "pytest_plugin/test_cases.py",
     "recording/formats/test_isolation.py",
@@ -100,19 +97,14 @@ settings.register_profile("search", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
 
 
-@pytest.hookimpl(trylast=True)
-def pytest_configure(config):
-    """Keep byte code, whatever the shell says, and let the file of --junitxml say which program was tested.
+def pytest_configure():
+    """Keep byte code, whatever the shell says.
 
-    Without byte code each process of tests would compile every file of tests at each run, and each of the
-    hundreds of processes that they start what it imports of the sources. `uictest selftest --tests` compares
-    what the file says.
+    Without it each process of tests would compile every file of tests at each run, and each of the hundreds
+    of processes that they start what it imports of the sources.
     """
     sys.dont_write_bytecode = False
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    if (xml := config.stash.get(xml_key, None)) is not None:
-        for name, value in dossier.tested_program().items():
-            xml.add_global_property(name, value)
 
 
 def pytest_collection():

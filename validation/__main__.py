@@ -12,11 +12,10 @@ from typing import Final
 
 from studies.stop_runner import StopRunner
 from validation import sources
-from validation.pages import overview, page, table
+from validation.pages import overview, page
 from validation.source import Source, Validation
 
 _FOLDER: Final = Path(__file__).parent
-_TABLE: Final = _FOLDER.parent / "src" / "uictest" / "selftest" / "public_sources.json"
 
 
 def find_sources() -> dict[str, Source]:
@@ -34,11 +33,10 @@ def validate(selected: Sequence[Source], jobs: int = 1) -> list[Validation]:
 
 
 def files(validations: Sequence[Validation]) -> Mapping[Path, str]:
-    """Return the pages of the sources, their table and its data, by path."""
+    """Return the pages of the sources and their table, by path."""
     return {
         **{_FOLDER / f"{each.source.name}.md": page(each) for each in validations},
         _FOLDER / "README.md": overview(validations),
-        _TABLE: table(validations),
     }
 
 

@@ -1,14 +1,12 @@
-"""The page of a source, the table of all sources, and the same table as data of the package."""
+"""The page of a source, and the table of all sources."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Sequence
-from typing import Any, Final
+from typing import Final
 
 from validation.source import TOLERANCE, Agreement, Comparison, Validation
 
-SCHEMA: Final = "uictest/public-sources/2"
 _KINDS: Final = {
     "measured": "measurement",
     "tabulated": "design table",
@@ -100,8 +98,7 @@ def overview(validations: Sequence[Validation]) -> str:
             ),
             "The pages and this table are written by\n",
             "    python -m validation\n",
-            "which needs a checkout and no network, and is checked by a test. The package holds the table as",
-            "`selftest/public_sources.json`.\n",
+            "which needs a checkout and no network, and is checked by a test.\n",
         )
     )
 
@@ -130,49 +127,3 @@ def _worst(found: Agreement) -> str:
     if found.worst is None:
         return "-"
     return f"{found.worst.quantity}: {_ours(found.worst)} against {_of_source(found.worst)}"
-
-
-def table(validations: Sequence[Validation]) -> str:
-    """Return the table of all sources as JSON, those that miss first."""
-    rows = [_entry(each) for each in misses_first(validations)]
-    content = {"schema": SCHEMA, "tolerance_percent": TOLERANCE, "sources": rows}
-    return json.dumps(content, indent=2, ensure_ascii=False) + "\n"
-
-
-def _entry(validation: Validation) -> dict[str, Any]:
-    source, found = validation.source, validation.predicted
-    return {
-        "name": source.name,
-        "title": source.title,
-        "place": source.place,
-        "kind": source.kind,
-        "shows": source.shows,
-        "does_not_show": source.does_not_show,
-        "fitted": source.fitted,
-        "fitted_numbers": validation.fitted,
-        "predicted_numbers": found.count,
-        "missed": found.missed,
-        "bias_percent": _rounded(found.bias),
-        "spread_percent": _rounded(found.spread),
-        "worst_percent": _rounded(found.worst.difference if found.worst else None),
-        "worst": found.worst.quantity if found.worst else None,
-        "result": found.result,
-        "numbers": [_number(each) for each in validation.findings.comparisons],
-        "notes": list(validation.findings.notes),
-    }
-
-
-def _number(comparison: Comparison) -> dict[str, Any]:
-    """Return one number of the source beside ours, as the page shows it."""
-    return {
-        "quantity": comparison.quantity,
-        "source": _of_source(comparison),
-        "here": _ours(comparison),
-        "difference_percent": _rounded(comparison.difference),
-        "status": "fitted" if comparison.fitted else "predicted",
-        "result": comparison.result,
-    }
-
-
-def _rounded(value: float | None) -> float | None:
-    return None if value is None else round(value, 1)

@@ -70,11 +70,6 @@ class Agreement:
     spread: float | None
     worst: Comparison | None
 
-    @property
-    def result(self) -> Result:
-        """`misses` if any comparison does."""
-        return "misses" if self.missed else "holds"
-
 
 def agreement(comparisons: Sequence[Comparison]) -> Agreement:
     """Return how comparisons agree; those that are not modelled count as missed and have no difference."""

@@ -40,6 +40,12 @@ def test_every_known_answer_holds_in_this_installation(stops):
     assert len({each.id for each in examination.findings}) == len(examination.findings)
 
 
+def test_a_known_answer_says_where_it_comes_from(stops):
+    origins = {each.id: each.origin for each in selftest.all_checks(stops)}
+    assert origins["creep-on-wet-rail"] == "publication"
+    assert origins["textbook-stop"] == "closed form of the rig's own force"
+
+
 def _compensated_sum(values, /, start=0):
     """Return the sum as Python 3.12 and later give it: without the rounding of each addition."""
     listed = [start, *values]

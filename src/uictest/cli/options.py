@@ -244,8 +244,8 @@ def rejected(option: str, kind: type[ValueError] = ValueError) -> Iterator[None]
         raise typer.BadParameter(str(error), param_hint=option) from error
 
 
-def junit_file(path: Path | None, output: Path, option: str = "--junitxml") -> Path | None:
-    """Return the file of `--junitxml`, or of another option. Raises typer.BadParameter: it cannot be written.
+def junit_file(path: Path | None, output: Path) -> Path | None:
+    """Return the file of `--junitxml`. Raises typer.BadParameter where it cannot be written.
 
     A folder in or above `output` may be missing: the command makes it.
     """
@@ -254,9 +254,9 @@ def junit_file(path: Path | None, output: Path, option: str = "--junitxml") -> P
     folder, own = path.absolute().parent, output.absolute()
     expected = own.is_relative_to(folder) or folder.is_relative_to(own)
     if path.is_dir():
-        raise typer.BadParameter(f"{path} is a folder", param_hint=option)
+        raise typer.BadParameter(f"{path} is a folder", param_hint="--junitxml")
     if not folder.is_dir() and not (expected and not folder.exists()):
-        raise typer.BadParameter(f"{path}: there is no folder {path.parent}", param_hint=option)
+        raise typer.BadParameter(f"{path}: there is no folder {path.parent}", param_hint="--junitxml")
     return path
 
 
