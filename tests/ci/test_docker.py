@@ -1,6 +1,7 @@
 """The image: its file has no known defect, and the build gets what it needs and nothing else."""
 
 import subprocess
+import tomllib
 from pathlib import Path
 
 from .conftest import REPOSITORY, TOOLS
@@ -23,5 +24,9 @@ def test_the_build_gets_every_file_that_the_package_is_made_of():
     kept = {
         line[1:] for line in (REPOSITORY / ".dockerignore").read_text("utf-8").splitlines() if line[0] == "!"
     }
-    assert kept == {"src", "pyproject.toml", "README.md", "LICENSE"}
+    settings = tomllib.loads((REPOSITORY / "pyproject.toml").read_text("utf-8"))
+    wheel = settings["tool"]["hatch"]["build"]["targets"]["wheel"]
+    packed = {Path(name).parts[0] for name in (*wheel["packages"], *wheel["force-include"])}
+    metadata = {"pyproject.toml", settings["project"]["readme"], *settings["project"]["license-files"]}
+    assert kept == packed | metadata
     assert all(Path(REPOSITORY, name).exists() for name in kept)
