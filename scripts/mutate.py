@@ -30,7 +30,7 @@ REPOSITORY = Path(__file__).resolve().parents[1]
 PACKAGE = REPOSITORY / "src/uictest"
 _TESTS = {
     "analysis": ("comparison", "validation", "sweeps/summaries", "cli/commands/test_validate.py"),
-    "api": ("api", "stepping", "pytest_plugin", "fmu"),
+    "api": ("api", "stepping", "fmu"),
     "controllers": ("controllers", "rig"),
     "core": (
         *(

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from uictest.plans.scenario import load
-from uictest.rig import simulate, stop_is_compiled
+from uictest.rig import simulate
+from uictest.rig.backends.machine_code import is_kept
+from uictest.rig.backends.scalar import RUN
 
 
 @pytest.fixture(name="stops", scope="module")
@@ -65,7 +67,7 @@ def test_no_recording_unless_asked(stops):
 
 
 def test_rig_is_compiled_once_it_ran(stops):
-    assert stop_is_compiled()
+    assert is_kept(RUN)
 
 
 def test_diagnosis_is_recorded_only_of_a_controller_from_outside(rig, tmp_path):

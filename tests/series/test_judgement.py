@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import pytest
 
-from uictest import report
 from uictest.judging import evaluation, series
 from uictest.plans.scenario.yaml import parse_quantity
+from uictest.report.series.series_sentences import count_sentences, series_verdict_sentence
 
 THREE = (
     "dry: dry.yaml\nwet: {scenario: wet.yaml, set: {rail.friction: [0.07, 0.08, 0.09]}}\ncriteria: own.yaml\n"
@@ -55,7 +55,7 @@ def test_a_series_that_keeps_everything_passes_and_a_miss_says_how_much_is_missi
     alone = verdicts(judge(planned, [460.0, 519.0, 520.0, 521.0]))["k-wet"]
     assert (alone.verdict.status, alone.confident) == ("pass", False)
     assert verdicts(judge(planned, [[460.0, 460.0], 519.0, 520.0, 521.0]))["k-wet"].confident is False
-    assert "no 95 % interval: one dry stop shows no scatter" in report.series_verdict_sentence(alone, 0.95)
+    assert "no 95 % interval: one dry stop shows no scatter" in series_verdict_sentence(alone, 0.95)
 
 
 def test_one_stop_from_each_speed_has_a_speed_that_decides(load, judge, write):
@@ -357,11 +357,11 @@ def test_k_wet_of_the_bypassed_wsp_stands_beside_and_decides_nothing(write, load
     assert (better.criteria, better.speeds, better.outcome) == (
         *(without.criteria, without.speeds, without.outcome),
     )
-    said = "\n".join(report.count_sentences(better))
+    said = "\n".join(count_sentences(better))
     assert "K_wet is better with the WSP bypassed, 0.9524" in said
     assert "a wheelset is locked for up to 0 s with it bypassed, 0 s with the tested one" in said
     worse = judge(planned, distances, bypassed=700.0)
-    assert "bypassed" not in "\n".join(report.count_sentences(worse))
+    assert "bypassed" not in "\n".join(count_sentences(worse))
     (read,) = series.series_results_of(series.series_document([better]))
     assert read == better
 

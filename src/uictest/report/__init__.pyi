@@ -54,7 +54,7 @@ from .github import (
     case_annotations as case_annotations,
     missing_annotations as missing_annotations,
 )
-from .junit import junit_text as junit_text, test_properties as test_properties
+from .junit import junit_text as junit_text
 from .manifest import (
     CASES_IN_PYTHON as CASES_IN_PYTHON,
     RunManifest as RunManifest,
@@ -71,7 +71,6 @@ from .part_wording import (
     notices as notices,
 )
 from .repeat_wording import repeat_sentences as repeat_sentences, rule_text as rule_text
-from .requirements import requirements_of as requirements_of
 from .run_folder import (
     RECORDINGS as RECORDINGS,
     RESULTS as RESULTS,
@@ -86,15 +85,11 @@ from .run_folder import (
     write_reports as write_reports,
 )
 from .series.series_sentences import (
-    count_sentences as count_sentences,
     missing_interval as missing_interval,
-    not_counted_sentences as not_counted_sentences,
     series_annotations as series_annotations,
-    series_explanation as series_explanation,
     series_line as series_line,
     series_lines as series_lines,
     series_tally as series_tally,
-    series_verdict_sentence as series_verdict_sentence,
     series_word as series_word,
 )
 from .series.tables import series_table as series_table
@@ -205,7 +200,6 @@ from .verdict_sentences import (
     CASE_WORDS as CASE_WORDS,
     DIFFERS as DIFFERS,
     counts_text as counts_text,
-    explanation as explanation,
     line_word as line_word,
     listed as listed,
     number as number,

@@ -19,7 +19,6 @@ from .backends.replayed import noted_numbers as noted_numbers, pass_samples as p
 from .backends.scalar import (
     STEP as STEP,
     compiled_stop as compiled_stop,
-    stop_is_compiled as stop_is_compiled,
 )
 from .backends.stepped import (
     STOP_MEMORY as STOP_MEMORY,

@@ -43,7 +43,6 @@ from .scenario_files import (
     is_sweep as is_sweep,
     load_cases as load_cases,
     load_cases_and_series as load_cases_and_series,
-    load_series as load_series,
     nothing_selected as nothing_selected,
     only_case as only_case,
     read_reference as read_reference,

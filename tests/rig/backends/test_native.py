@@ -11,7 +11,8 @@ import pytest
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.plans.scenario import load
 from uictest.rig import simulate
-from uictest.rig.backends.scalar import compiled_stop, stop_is_compiled
+from uictest.rig.backends.machine_code import is_kept
+from uictest.rig.backends.scalar import RUN, compiled_stop
 from uictest.rig.model.rail import RAIL_MEMORY
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, Trace
@@ -59,7 +60,7 @@ def arguments(rig):
 
 def test_a_warm_start_needs_no_compiler(tmp_path):
     compiled_stop()
-    assert stop_is_compiled()
+    assert is_kept(RUN)
     scenario = tmp_path / "stop.yaml"
     scenario.write_text("schema: uictest/scenario/1\nname: stop\ninitial_speed: 20 km/h\n")
     command = [sys.executable, "-c", WITHOUT_COMPILER, scenario]

@@ -28,13 +28,11 @@ from .expansion import (
     expand as expand,
 )
 from .files import (
-    OTHER_SCHEMAS as OTHER_SCHEMAS,
     SERIES_SUFFIXES as SERIES_SUFFIXES,
     SWEEP_SUFFIXES as SWEEP_SUFFIXES,
     Files as Files,
     Roots as Roots,
     link_outside as link_outside,
-    may_be_scenario as may_be_scenario,
 )
 from .identifiers import (
     CAR as CAR,

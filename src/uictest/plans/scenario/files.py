@@ -142,7 +142,7 @@ def nearest_file(path: Path, otherwise: str) -> str:
 SWEEP_SUFFIXES: Final = (".sweep.yaml", ".sweep.yml")
 SERIES_SUFFIXES: Final = (".series.yaml", ".series.yml")
 _OTHER_KINDS: Final = (*library.FOLDERS.values(), "bench", "channel-map", "validation")
-OTHER_SCHEMAS: Final = frozenset(f"uictest/{kind}/1" for kind in _OTHER_KINDS)
+_OTHER_SCHEMAS: Final = frozenset(f"uictest/{kind}/1" for kind in _OTHER_KINDS)
 """Schemas of files that may lie among scenarios and are none: parts, benches, channel maps, validations."""
 
 
@@ -174,7 +174,7 @@ def scenario_trees(
                     tree = errors.salvaged if isinstance(errors.salvaged, Map) else None
                     raise
             schema = None if tree is None else tree.get("schema")
-            is_other = isinstance(schema, Scalar) and schema.value in OTHER_SCHEMAS
+            is_other = isinstance(schema, Scalar) and schema.value in _OTHER_SCHEMAS
             if tree is not None and (named or not is_other):
                 yield path, tree
 
@@ -191,11 +191,11 @@ def _below(folder: Path, diagnostics: list[Diagnostic]) -> list[Path]:
     inside: list[Path] = []
     for parent, folders, names in os.walk(folder, onerror=report):
         folders[:] = [name for name in folders if not name.startswith(".")]
-        inside.extend(Path(parent, name) for name in names if may_be_scenario(name))
+        inside.extend(Path(parent, name) for name in names if _may_be_scenario(name))
     return sorted(inside, key=Path.as_posix)
 
 
-def may_be_scenario(name: str) -> bool:
+def _may_be_scenario(name: str) -> bool:
     """Whether a file of this name in a folder is taken for a scenario, unless its schema is another."""
     return (
         name.endswith((".yaml", ".yml"))

@@ -7,7 +7,7 @@ from uictest.controllers import EXCHANGE
 from uictest.core.lanes import Length, at, translate
 from uictest.core.measures import FAULT_COLUMNS, STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.compiled import compile_inner, scalar_model
-from uictest.rig.backends.machine_code import Entry, Unit, is_kept, native_function
+from uictest.rig.backends.machine_code import Entry, Unit, native_function
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import RAIL_MEMORY, ROWS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
@@ -52,11 +52,6 @@ def _functions() -> list[Any]:
 
 
 SCALAR: Final = Unit("uictest_scalar", (RUN, STEP, NOTE), _functions)
-
-
-def stop_is_compiled() -> bool:
-    """Return whether the cache holds the stop."""
-    return is_kept(RUN)
 
 
 @cache
