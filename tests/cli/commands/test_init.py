@@ -15,6 +15,14 @@ def test_the_first_scenario_is_valid_for_program_and_editor_and_is_met(call):
     assert call("run", "somewhere/scenarios").code == 0
 
 
+def test_every_schema_that_a_shipped_scenario_names_is_written_with_it(call):
+    assert call("init", "--scenarios").code == 0
+    for path in Path("scenarios").iterdir():
+        first = path.read_text("utf-8").splitlines()[0]
+        named = path.parent / first.removeprefix("# yaml-language-server: $schema=")
+        assert "const" in named.read_text("utf-8"), path
+
+
 def test_nothing_is_overwritten(call):
     call("init")
     Path("scenarios/first-stop.yaml").write_text("mine")

@@ -9,14 +9,13 @@ from typing import Annotated
 import typer
 
 from uictest import report, runs
-from uictest.cli.commands.schema import schema_text
+from uictest.cli.commands.schema import SchemaKind, schema_name, schema_text
 from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode, message
 from uictest.core import files
 from uictest.plans import library, templates
 
 SCENARIO = Path("scenarios", "first-stop.yaml")
-SCHEMA = Path("schema", "scenario.schema.json")
 
 _FIRST_STOP = """\
 # yaml-language-server: $schema=../schema/scenario.schema.json
@@ -77,10 +76,10 @@ def init(
         if shipped:
             paths = library.scenarios().values()
             copies = {what / "scenarios" / path.name: path.read_text("utf-8") for path in paths}
-            _write_new({**copies, what / SCHEMA: schema_text()})
+            _write_new({**copies, **_schemas(what, SchemaKind.SCENARIO, SchemaKind.SERIES)})
             message(f"Run them with 'uictest run {report.argument(str(what / 'scenarios'))}'.")
             return ExitCode.MET
-        _write_new({what / SCENARIO: _FIRST_STOP, what / SCHEMA: schema_text()})
+        _write_new({what / SCENARIO: _FIRST_STOP, **_schemas(what, SchemaKind.SCENARIO)})
         message(f"Run it with 'uictest run {report.argument(str(what / SCENARIO))}'.")
         return ExitCode.MET
     if shipped:
@@ -92,6 +91,11 @@ def init(
     else:
         raise typer.BadParameter("write `uictest init controller` with either --python DIR or --c DIR")
     return ExitCode.MET
+
+
+def _schemas(folder: Path, *kinds: SchemaKind) -> dict[Path, str]:
+    """Return the schemas that the first lines of scenarios, sweeps and series name, by their places."""
+    return {folder / "schema" / schema_name(kind): schema_text(kind) for kind in kinds}
 
 
 def _write_controller(folder: Path, language: templates.Language, *build: str) -> None:

@@ -1,14 +1,19 @@
-"""`uictest schema`: the JSON Schema of a kind of file."""
+"""`uictest schema`: the JSON Schema of a kind of file, or of all."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable
 from enum import StrEnum
+from pathlib import Path
 from typing import Annotated, Any
 
-from uictest.cli.options import argument
+import typer
+
+from uictest import runs
+from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode, data
+from uictest.core import files
 from uictest.plans import scenario, series
 from uictest.recorded import field_data
 from uictest.rig import bench as rig_bench
@@ -34,18 +39,52 @@ class SchemaKind(StrEnum):
     VEHICLE = "vehicle"
 
 
-def schema(
-    kind: Annotated[SchemaKind, argument("[KIND]", "Kind of file: what `schema: uictest/KIND/1` says.")] = (
-        SchemaKind.SCENARIO
+Kind = Annotated[
+    SchemaKind | None,
+    argument(
+        "[KIND]",
+        "Kind of file: what `schema: uictest/KIND/1` says [default: scenario].",
+        show_default=False,
     ),
-) -> ExitCode:
+]
+Folder = Annotated[
+    Path | None, option("--all DIR", "Write the schema of every kind to DIR/KIND.schema.json instead.")
+]
+
+
+def schema(kind: Kind = None, everything: Folder = None) -> ExitCode:
     """Print the JSON Schema (draft-07) of a kind of file, with which an editor completes and checks it."""
-    data(schema_text(kind).rstrip("\n"))
+    if everything is None:
+        data(schema_text(kind or SchemaKind.SCENARIO).rstrip("\n"))
+    elif kind is None:
+        data("\n".join(map(str, _write_all(everything))))
+    else:
+        raise typer.BadParameter("write `uictest schema` with either KIND or --all DIR")
     return ExitCode.MET
 
 
-def schema_text(kind: SchemaKind = SchemaKind.SCENARIO) -> str:
-    """Return the schema of a kind of file as the JSON text that is kept in the repository."""
+def _write_all(folder: Path) -> list[Path]:
+    """Write the schema of every kind, and return the paths.
+
+    Raises OSError, and InvalidInputError where a file of another program has the name of one.
+    """
+    paths = {folder / schema_name(kind): kind for kind in SchemaKind}
+    for path, kind in paths.items():
+        if path.exists() and f"uictest/{kind}/1".encode() not in path.read_bytes():
+            raise runs.InvalidInputError(f"already there, and no schema of uictest: {path}")
+    files.make_folder(folder)
+    for path, kind in paths.items():
+        files.write_to(path, schema_text(kind))
+    return list(paths)
+
+
+def schema_name(kind: SchemaKind) -> str:
+    """Return the name of the file with the schema of a kind, which first lines of shipped files name."""
+    return f"{kind}.schema.json"
+
+
+def schema_text(kind: SchemaKind) -> str:
+    """Return the schema of a kind of file as the JSON text of its file."""
     return f"{json.dumps(_schema(kind), indent=2, ensure_ascii=False)}\n"
 
 
