@@ -8,11 +8,6 @@ from .adapters.instance import (
     stated_declarations as stated_declarations,
     write_outputs as write_outputs,
 )
-from .adapters.registered import (
-    functions_of_addresses as functions_of_addresses,
-    in_si as in_si,
-    memory_of as memory_of,
-)
 from .adapters.turns import interrupt_turns as interrupt_turns
 from .contract import (
     CONTROLLERS as CONTROLLERS,

@@ -6,7 +6,11 @@ from .assembly import (
     controller_config as controller_config,
     friction_laws as friction_laws,
 )
-from .backends.controller_code import ControllerCode as ControllerCode, controller_code as controller_code
+from .backends.controller_code import (
+    ControllerCode as ControllerCode,
+    controller_code as controller_code,
+    controller_memory as controller_memory,
+)
 from .backends.lanes import (
     run_in_lanes as run_in_lanes,
 )

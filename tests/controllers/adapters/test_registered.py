@@ -1,4 +1,4 @@
-"""Controllers of installed packages: a class, or functions in the built-in form."""
+"""Controllers of installed packages: a class."""
 
 import json
 import sys
@@ -18,13 +18,11 @@ from uictest.controllers import (
     open_controller,
 )
 from uictest.controllers.adapters import registered
-from uictest.plans.scenario import ScenarioErrors, load, load_controller, load_part, with_parameters
+from uictest.plans.scenario import ScenarioErrors, load, load_controller, with_parameters
 from uictest.selftest.conformance.situations import anything
 
-from ...stop_bits import stop_bits
-
 ENTRY_POINTS = """\
-acme-copy = acme_wsp.copy_of_threshold:CONTROLLER
+acme-functions = acme_wsp.functions:CONTROLLER
 acme-class = acme_wsp.in_python:Acme
 acme-broken = acme_wsp.broken:Anything
 acme-declares = acme_wsp.declares:Acme
@@ -57,9 +55,9 @@ def _site(tmp_path_factory):
     modules = site / "acme_wsp"
     modules.mkdir()
     describe(site / "acme_wsp-2.1.0.dist-info", "acme-wsp", ENTRY_POINTS)
-    copy = Path(threshold.__file__).read_text("utf-8").replace('name="threshold"', 'name="acme-copy"')
+    functions = Path(threshold.__file__).read_text("utf-8")
     texts = {"__init__": "", "in_python": IN_PYTHON, "broken": "import no_such_module\n"}
-    texts |= {"copy_of_threshold": copy, "declares": IN_PYTHON + PARAMETERS}
+    texts |= {"functions": functions, "declares": IN_PYTHON + PARAMETERS}
     for name, text in texts.items():
         (modules / f"{name}.py").write_text(text, "utf-8")
     registered._loaded.cache_clear()
@@ -115,12 +113,6 @@ def test_a_name_that_nobody_or_two_packages_registered_has_no_version(tmp_path, 
     assert installed_version("acme-number") == "acme-wsp 2.1.0"
 
 
-def shipped():
-    """The parameters of the threshold controller of the library, SI units."""
-    part = load_part("controllers/threshold")
-    return {name: float(value) for name, value in part if isinstance(value, float) and name != "cycle_time"}
-
-
 def opened(name, **parameters):
     config = Config(4, 0.01, 30.0, (0.46,) * 4, parameters)
     return open_controller(ControllerProgram("registered", name, parameters=json.dumps(parameters)), config)
@@ -133,40 +125,6 @@ def stop(folder, controller):
         "utf-8",
     )
     return load([folder / "stop.yaml"])[0]
-
-
-def test_a_copy_of_a_built_in_controller_gives_its_bits(tmp_path):
-    ours = rig.simulate(stop(tmp_path, "threshold"))
-    parameters = json.dumps(shipped())
-    copy = stop(tmp_path, f"{{registered: acme-copy, parameters: {parameters}}}")
-    theirs = rig.simulate(copy, run=rig.run_in_process)  # where the other tests find what is compiled for it
-    own, copied = (stop_bits(each.measures, each.wheelset_measures) for each in (ours, theirs))
-    assert copied == own
-
-
-def test_reset_leaves_nothing_of_the_stop_before():
-    instance = opened("acme-copy", **shipped())
-    answers = []
-    for _ in range(2):
-        instance.reset()
-        driven = rig.drive(instance, anything(0.01, 500).inputs, 0.01, rig.empty_exchange())
-        answers.append(driven.outputs.tobytes())
-    assert answers[0] == answers[1]
-
-
-def test_an_error_in_machine_code_of_a_package_does_not_end_the_process(monkeypatch):
-    raised = []
-    monkeypatch.setattr(sys, "unraisablehook", lambda failure: raised.append(failure.exc_type))
-
-    def decide(train, wheelsets, p):
-        train.reference_speed = (20.0, 10.0)[int(1000.0 * p.cycle_time)]
-
-    config = Config(4, 0.01, 30.0, (0.46,) * 4, {})
-    broken = threshold.CONTROLLER._replace(decide=decide)
-    instance = registered.CompiledInstance(broken, shipped(), config, "acme-wsp 2.1.0")
-    instance.reset()
-    rig.drive(instance, anything(0.01, 1).inputs, 0.01, rig.empty_exchange())
-    assert set(raised) == {IndexError}
 
 
 def test_a_class_is_created_with_its_parameters():
@@ -197,42 +155,14 @@ def test_an_unknown_name_gets_a_hint_with_the_registered_ones(tmp_path):
     ("name", "message"),
     [
         ("acme-broken", "acme-broken of acme-wsp 2.1.0 cannot be imported: ModuleNotFoundError"),
-        ("acme-number", "acme-number of acme-wsp 2.1.0 is of type int; register a class or a Controller"),
+        ("acme-number", "entry point acme-number of acme-wsp 2.1.0 is of type int; register a class$"),
+        (
+            "acme-functions",
+            "entry point acme-functions of acme-wsp 2.1.0 is of type Controller; register a class$",
+        ),
         ("nobody", "no installed package has registered 'nobody'; registered: acme-broken, acme-class"),
     ],
 )
 def test_what_cannot_be_opened_says_why(name, message):
     with pytest.raises(ControllerError, match=message):
         opened(name)
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"slip_treshold": 1.0}, "no parameter slip_treshold; did you mean slip_threshold?"),
-        ({"slip_threshold": "0.8 bar"}, "slip_threshold is '0.8 bar', expected a number in m/s or a text"),
-        ({"slip_threshold": True}, "slip_threshold is True, expected a number in m/s"),
-        ({"slip_threshold": 99}, "slip_threshold is 99, expected a speed from 0.001 km/h to 100 km/h"),
-        ({"slip_threshold": float("nan")}, "slip_threshold is nan, expected a finite number"),
-        ({"hold_limit": "9 ms"}, "hold_limit is 9 ms: 9 ms is shorter than one controller cycle"),
-    ],
-)
-def test_wrong_parameters_are_rejected(changes, message):
-    with pytest.raises(ControllerError) as error:
-        opened("acme-copy", **{**shipped(), **changes})
-    assert message in str(error.value)
-
-
-def test_parameters_may_have_units():
-    plain = opened("acme-copy", **shipped())
-    written = opened("acme-copy", **{**shipped(), "slip_threshold": "3.6km/h", "deep_slide": "30 %"})
-    values = written._memory["parameters"][0]
-    assert values["slip_threshold"] == 1.0
-    assert values["deep_slide"] == plain._memory["parameters"][0]["deep_slide"]
-
-
-def test_missing_parameters_are_named():
-    parameters = shipped()
-    del parameters["slip_threshold"], parameters["hold_limit"]
-    with pytest.raises(ControllerError, match="parameters without a value: slip_threshold, hold_limit"):
-        opened("acme-copy", **parameters)

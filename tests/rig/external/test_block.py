@@ -1,15 +1,16 @@
 """Stops in one block: in lanes where the controller says that it runs beside others, else one by one."""
 
 import json
+import os
 import shutil
+import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-import uictest.controllers.built_in.threshold as threshold
-from uictest.controllers import EXCHANGE
+from uictest.controllers import EXCHANGE, HEADER
 from uictest.controllers.adapters import registered
 from uictest.plans.scenario import load, load_part
 from uictest.rig.assembly import assemble
@@ -20,23 +21,18 @@ from uictest.rig.external.workers import Workers
 
 from ...stop_bits import stop_bits
 
-ENTRY_POINTS = """\
-[uictest.controllers]
-acme-copy = acme_lanes:CONTROLLER
-acme-class = bad:Bad
-"""
+ENTRY_POINTS = "[uictest.controllers]\nacme-class = bad:Bad\n"
+TWIN = Path(__file__).parents[3] / "examples" / "threshold-c" / "threshold.c"
 
 
 @pytest.fixture(scope="module")
 def package(tmp_path_factory):
-    """Install a package with a copy of the threshold controller and a class that fails as told to."""
+    """Install a package with a class that fails as told to."""
     site = tmp_path_factory.mktemp("site")
     metadata = site / "acme_lanes-1.0.dist-info"
     metadata.mkdir()
     (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: acme-lanes\nVersion: 1.0\n", "utf-8")
     (metadata / "entry_points.txt").write_text(ENTRY_POINTS, "utf-8")
-    copy = Path(threshold.__file__).read_text("utf-8").replace('name="threshold"', 'name="acme-copy"')
-    (site / "acme_lanes.py").write_text(copy, "utf-8")
     shutil.copy(Path(__file__).parent / "bad.py", site)
     with pytest.MonkeyPatch.context() as patch:
         patch.syspath_prepend(str(site))
@@ -44,8 +40,24 @@ def package(tmp_path_factory):
         registered._loaded.cache_clear()
         yield
     registered._loaded.cache_clear()
-    for name in ("acme_lanes", "bad"):
-        sys.modules.pop(name, None)
+    sys.modules.pop("bad", None)
+
+
+@pytest.fixture(scope="module")
+def _twin(tmp_path_factory):
+    compiler = shutil.which(os.environ.get("CC", "gcc"))
+    if compiler is None:
+        pytest.skip("no C compiler")
+    library = tmp_path_factory.mktemp("twin") / "libtwin.so"
+    command = [compiler, "-O2", "-ffp-contract=off", "-fPIC", "-shared", f"-I{HEADER.parent}"]
+    subprocess.run([*command, "-o", library, TWIN, "-lm"], check=True)
+    return library
+
+
+@pytest.fixture
+def twin(folder, _twin):
+    """Put the threshold controller in C into the working folder."""
+    return shutil.copy(_twin, folder)
 
 
 @pytest.fixture
@@ -62,11 +74,12 @@ def ran_in_lanes(monkeypatch):
     return counts
 
 
-def copies(*frictions, **changes):
-    """Stops with the copy of the threshold controller, on rails that need it."""
+def twins(*frictions):
+    """Stops with the threshold controller in C, on rails that need it."""
     part = load_part("controllers/threshold")
     own = {name: float(value) for name, value in part if isinstance(value, float) and name != "cycle_time"}
-    return stops(f"{{registered: acme-copy, parameters: {json.dumps({**own, **changes})}}}", *frictions)
+    written = f"{{library: libtwin.so, parameters: {json.dumps(own)}, free_parameters: true}}"
+    return stops(written, *frictions)
 
 
 def stops(controller, *frictions):
@@ -79,28 +92,28 @@ def bits(run, place=()):
     return bytes(measures.tobytes() + of_wheelsets.tobytes())
 
 
-@pytest.mark.usefixtures("package", "folder")
+@pytest.mark.usefixtures("package", "twin")
 def test_machine_code_runs_in_lanes_with_the_bits_of_a_stop_alone(library, block_of, ran_in_lanes):
     """Whatever stands between them in the block; a class of a package runs one by one."""
     library()
     frictions = (0.06, 0.08, 0.11)
     inputs = [
-        *copies(*frictions),
+        *twins(*frictions),
         *stops("{registered: acme-class, parameters: {fault: none, at: 0}}", 0.08),
         *stops("threshold", *frictions),
         *stops("{library: libbad.so, parameters: {fault: none, at: 0}}", 0.08),
-        *copies(0.14),
+        *twins(0.14),
     ]
     run = run_block(block_of(inputs))
     assert run.failures == [""] * 9
     assert ran_in_lanes == [8]
     for place, stop in enumerate(inputs):
         assert bits(run, place) == bits(run_in_process(stop)), place
-    copied, own = (
+    twin, own = (
         [stop_bits(run.measures[[place]], run.wheelset_measures[place]) for place in places]
         for places in ((0, 1, 2), (4, 5, 6))
     )
-    assert copied == own
+    assert twin == own
 
 
 @pytest.mark.usefixtures("folder")
@@ -112,19 +125,20 @@ def test_no_stop_is_blamed_for_a_failure_that_another_notes_on_it(library, block
     assert run_block(block_of(inputs)).failures == [told, ""]
 
 
-@pytest.mark.usefixtures("package", "folder")
-def test_a_controller_that_fails_ends_its_own_stop_alone(block_of, ran_in_lanes):
+@pytest.mark.usefixtures("package", "twin")
+def test_a_controller_that_fails_ends_its_own_stop_alone(library, block_of, ran_in_lanes):
+    library()
     inputs = [
-        *copies(0.08, slip_threshold=99.0),
-        *copies(0.08),
+        *stops("{library: libbad.so, parameters: {fault: create, at: 0}}", 0.08),
+        *twins(0.08),
         *stops("{registered: acme-class, parameters: {fault: raise, at: 7}}", 0.08),
         *stops("{registered: acme-class, parameters: {fault: create, at: 0}}", 0.08),
-        *copies(0.06),
+        *twins(0.06),
     ]
     exchanges = np.zeros(5, EXCHANGE)
     run = run_block(block_of(inputs), exchanges)
     expected = (
-        "controller: slip_threshold is 99.0, expected a speed from",
+        "controller: uictest_create failed: ",
         "",
         "controller: step failed: ValueError: told to",
         "controller: Bad(config) failed: ValueError: told to",

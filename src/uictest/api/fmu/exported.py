@@ -24,14 +24,13 @@ from uictest.controllers import (
     Controller,
     ControllerError,
     DeclaredParameter,
-    in_si,
-    memory_of,
     parameter_problems,
     shown_version,
     stated_declarations,
 )
 from uictest.core import files
 from uictest.core.units import KINDS
+from uictest.plans.scenario.yaml import parse_quantity
 
 _TARGET: Final = rig.Target("x86-64", in_library=True)
 """Every x86-64 processor: controllers have no operation that newer ones do otherwise."""
@@ -130,9 +129,11 @@ def _in_library(part: Any, config: Config) -> Exported:
 
 
 def parameter_of(name: str, value: float, declared: DeclaredParameter) -> Parameter:
-    """Return a parameter of a controller in the built-in form."""
-    limits = in_si(name, declared.at_least, declared), in_si(name, declared.at_most, declared)
-    return Parameter(name, value, KINDS[declared.kind].canonical, limits, declared.description)
+    """Return a parameter of a built-in controller."""
+    at_least, at_most = (
+        float(parse_quantity(each, declared.kind)) for each in (declared.at_least, declared.at_most)
+    )
+    return Parameter(name, value, KINDS[declared.kind].canonical, (at_least, at_most), declared.description)
 
 
 def _built_in(part: Any, compiler: str) -> Exported:
@@ -152,7 +153,7 @@ def _built_in(part: Any, compiler: str) -> Exported:
 
 def _memory_header(controller: Controller, parameters: Sequence[str], function: str) -> str:
     """Return `memory.h`: the name of the machine code, and places in its memory."""
-    memory = memory_of(controller)
+    memory = rig.controller_memory(controller)
     places = {name: place_of(memory, f"parameters.{name}")[0] for name in ("cycle_time", *parameters)}
     rows = (f"{{{json.dumps(json.dumps(name) + ':')}, {places[name]}}}" for name in parameters)
     lines = {

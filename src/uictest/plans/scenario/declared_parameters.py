@@ -1,7 +1,7 @@
 """The parameters that a controller from outside declares: read without running it, and held against the file.
 
 A part lists them, or its program does where it can be read as text: a literal `PARAMETERS` in Python, the
-description of an FMU. A library in C and a controller in the built-in form are asked once they run.
+description of an FMU. A library in C is asked once it runs.
 """
 
 import ast
@@ -107,7 +107,7 @@ def _declared_by_program(controller: ExternalController, files: Files) -> Declar
         return {}
     if controller.kind == "registered":
         source = _source_of_module(installed_module(controller.reference))
-        # A controller in the built-in form declares them in code.
+        # Where its module has none, the class may come from another one.
         return (_declared_in(source, "python", files) or None) if source else None
     if controller.kind == "python" or (controller.kind == "fmu" and controller.parameters):
         return _declared_in(Path(getattr(controller, controller.kind).location), controller.kind, files)

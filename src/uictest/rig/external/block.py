@@ -109,9 +109,8 @@ def empty_run(count: int) -> BlockRun:
 
 def load_block(programs: Sequence[ControllerProgram | None]) -> None:
     """Load what :func:`run_block` calls, compiled first where the cache does not hold it; no foreign code."""
-    # What a package has registered runs in either way; which one is known once the package is imported.
     kinds = {None if program is None else program.kind for program in programs}
-    if kinds & {None, "library", "registered"}:
+    if kinds & {None, "library"}:
         from uictest.rig.backends.lanes import load_lanes
 
         load_lanes()
