@@ -8,6 +8,8 @@ from xml.etree import ElementTree
 
 import pytest
 
+import uictest
+
 from .conftest import HANGING, REPOSITORY, SCENARIO, TOOLS, action, gitlab_component
 
 _SCENARIOS = {0: "", 1: "expect: fail\n", 4: "brake: {command: 200 %}\n"}
@@ -42,6 +44,19 @@ def test_the_github_action_hands_on_the_exit_code(job, code):
     assert (job / "outputs").read_text("utf-8") == f"exit-code={code}\n"
     assert ("::error" in done.stdout) == (code == 1)
     assert (job / "out" / "latest").exists() == (code != 4)
+
+
+def test_the_github_action_keeps_compiled_code_by_the_version_of_the_program(job):
+    steps = action()["runs"]["steps"]
+    [cache] = [step["with"] for step in steps if "cache@" in step.get("uses", "")]
+    [installed] = [step for step in steps if step.get("id") == "installed"]
+    files = {name: str(job / name) for name in ("GITHUB_OUTPUT", "GITHUB_ENV")}
+    assert bash(installed["run"], HOME="/home/runner", **files).returncode == 0
+    assert (job / "GITHUB_OUTPUT").read_text("utf-8") == f"version={uictest.__version__}\n"
+    assert (job / "GITHUB_ENV").read_text("utf-8") == "UICTEST_CACHE=/home/runner/.cache/uictest\n"
+    assert cache["path"] == "~/.cache/uictest"
+    names = ("runner.os", "runner.arch", "inputs.python-version", "steps.installed.outputs.version")
+    assert cache["key"] == "-".join(["uictest", *(f"${{{{ {name} }}}}" for name in names)])
 
 
 @pytest.mark.parametrize("folders", ["one two", "one\ntwo\n"], ids=["a line", "lines"])
