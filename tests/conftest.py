@@ -60,7 +60,6 @@ _LONGEST = (
     "service_log/test_campaign.py",
     "service_log/test_found_stops.py",
     "cli/commands/test_compare_firm.py",
-    "service_log/test_scenarios_of_stops.py",
     "docs/test_pictures.py",
     "cli/test_signals.py",
     "report/test_index_browser.py",

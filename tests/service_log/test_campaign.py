@@ -205,6 +205,21 @@ def test_a_selection_of_dry_stops_that_is_empty_is_refused(tmp_path, capsys, mon
     assert "stop-0007: selects no stop" in capsys.readouterr().err
 
 
+def test_logs_of_one_name_are_told_apart_by_their_folder(tmp_path, monkeypatch):
+    """Two nights, both `a<line feed>b.parquet`: a part of the path says which is dry."""
+    monkeypatch.chdir(tmp_path)
+    rails = {"mon": logs.DRY, "tue": logs.wet(0.09)}
+    for number, (night, rail) in enumerate(rails.items()):
+        Path(night).mkdir()
+        stop = logs.simulated(rail, 40.0, number)
+        logs.write_log([stop], Path(night, "a\nb.parquet"), begin=1000.0 * number)
+    Path("night.yaml").write_text(logs.CONDITIONS, "utf-8")
+    files = [f"{night}/a\nb.parquet" for night in rails]
+    assert execute(["log", *files, "--scenario", "night.yaml", "-q", "--dry", "mon/a"]) in (0, 1)
+    subjects = json.loads(Path("reports/latest/results.json").read_text("utf-8"))["subjects"]
+    assert [each["settings"]["rail"] for each in subjects.values()] == ["dry", "wet"]
+
+
 @pytest.mark.parametrize("braked", [True, False])
 def test_a_log_without_a_stop_leaves_reports_that_say_so(tmp_path, capsys, monkeypatch, braked):
     monkeypatch.chdir(tmp_path)

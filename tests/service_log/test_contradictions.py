@@ -1,7 +1,6 @@
 """Sensors that contradict each other, clocks that cannot be right, files with the same rows."""
 
 import os
-from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
@@ -277,15 +276,6 @@ def test_a_recorder_that_begins_with_a_default_date_overlaps_nothing(tmp_path):
     second["time"][:5] = 9.8e8 + STEP * np.arange(5)
     files = [written(each, tmp_path / f"{n}.parquet") for n, each in enumerate((first, second))]
     assert [event.file for event in find_stops(files, MAP).stops] == files
-
-
-def test_scenarios_do_not_replace_the_stops(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    written(braking(30.0), tmp_path / "log.parquet")
-    scenario = str(Path(__file__).parents[2] / "scenarios" / "slide-80.yaml")
-    options = ["--scenario", scenario, "--recordings", "same", "--scenarios", "same"]
-    assert execute(["log", "log.parquet", *options]) == 4
-    assert "the same folder as --recordings" in capsys.readouterr().err
 
 
 def test_a_case_of_a_sweep_of_the_rail_can_be_selected(tmp_path, monkeypatch):

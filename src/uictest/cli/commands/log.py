@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import functools
 import math
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -17,11 +16,9 @@ from uictest.cli import options, recordings, run_display
 from uictest.cli.cases import malformed
 from uictest.cli.options import option, rejected
 from uictest.cli.output import ExitCode, data, message, of_run, terminal_width
-from uictest.cli.progress import compilation_shown
 from uictest.core import files as file_system
 from uictest.core.document import Lines, Table
 from uictest.core.recording import formats
-from uictest.judging import evaluation
 from uictest.plans import scenario as scenarios
 from uictest.plans.scenario import yaml
 from uictest.recorded import field_data, service_log
@@ -37,10 +34,6 @@ DryStops = Annotated[
     str | None,
     option("--dry EXPR", "Stops on a dry rail, by name or file, as -k selects; the others are as stated."),
 ]
-ScenarioFolder = Annotated[
-    Path | None, option("--scenarios DIR", "Make scenarios of the worst stops, for 'uictest run DIR'.")
-]
-Worst = Annotated[int, option("--worst N", "How many at most with --scenarios.", min=1)]
 _ON_DRY_RAIL = ("rail.condition=dry", "rail.friction=null", "rail.cleaning=null")
 """What is stated of these."""
 
@@ -54,8 +47,6 @@ def log(
     folder: StopsFolder = Path("stops"),
     scenario: ScenarioFile = None,
     dry: DryStops = None,
-    made_in: ScenarioFolder = None,
-    worst: Worst = 10,
     expression: options.Expression = None,
     overrides: options.Overrides = None,
     trusted: options.Trusted = None,
@@ -74,14 +65,6 @@ def log(
     junit = options.junit_file(junit, output)
     mapped, inputs = recordings.channel_map(map_name, trusted, None)
     _require_many_triggers(map_name, mapped.preparation)
-    if made_in is not None and scenario is None:
-        raise typer.BadParameter(
-            "needs vehicle, brake and controller: state them with --scenario", param_hint="--scenarios"
-        )
-    if made_in is not None and made_in.resolve() == folder.resolve():
-        raise typer.BadParameter(
-            "the same folder as --recordings, whose stops it would replace: name another"
-        )
     settings = _settings(from_speed, to_speed, float(mapped.preparation.standstill_speed))
     stated = _case_of(scenario, expression, overrides or (), trusted)
     stated("log", settings.from_speed)  # What is stated wrongly is told before the log is read.
@@ -124,17 +107,6 @@ def log(
         return ExitCode.NOTHING_SELECTED
     if shown is options.Format.TEXT and not quiet:
         _show_together(published.content.campaign)
-    if made_in is not None and scenario is not None:
-        own = {case.id: (file, case) for file, case in zip(stops.files, stops.cases, strict=True)}
-        digest = functools.cache(field_data.digest_of)
-
-        def source(result: evaluation.CaseResult) -> runs.Source:
-            event, (file, case) = named[result.id], own[result.id]
-            keys = _by_key((*(overrides or ()), *(_ON_DRY_RAIL if result.id in on_dry_rail else ())))
-            return runs.Source(file, event, digest(event.file), result, case, keys)
-
-        sources = map(source, published.content.ranked)
-        _make_scenarios(sources, worst, scenario, mapped.preparation, made_in, trusted or ())
     return of_run(published)
 
 
@@ -145,35 +117,6 @@ def _require_many_triggers(map_name: str, preparation: field_data.Preparation) -
             f"{map_name}: preparation: a log has many brake commands: leave out trigger_time, and set trigger"
             f" to one of {', '.join(service_log.SHOWN_BY)}"
         )
-
-
-def _by_key(overrides: Sequence[str]) -> dict[str, str]:
-    return {key.strip(): text for key, _, text in (each.partition("=") for each in overrides)}
-
-
-def _make_scenarios(
-    sources: Iterable[runs.Source],
-    most: int,
-    scenario: Path,
-    preparation: field_data.Preparation,
-    folder: Path,
-    trusted: Sequence[Path],
-) -> None:
-    """Write scenarios of the worst stops, and say which have none or one that is off."""
-    try:
-        with compilation_shown():
-            made = runs.write_scenarios(sources, most, scenario, preparation, folder, trusted)
-    except (file_system.ForeignFileError, file_system.FolderInUseError) as error:
-        raise runs.InvalidInputError(_not_replaced(folder, error, "--scenarios")) from error
-    for each in made:
-        if each.problem:
-            message(f"uictest: {each.source.file.name}: no scenario: {each.problem}")
-        elif each.off > runs.AGREES:
-            distance, time = (100.0 * share for share in each.differences)
-            off = f"distance {distance:+.1f} %, time {time:+.1f} %"
-            message(f"uictest: {each.source.file.name}: its scenario does not lie over the record: {off}")
-    count = sum(not each.problem for each in made)
-    message(f"uictest: {report.counted(count, 'scenario')} and README.md in {folder}")
 
 
 def _show_together(together: report.Campaign | None) -> None:
@@ -245,15 +188,16 @@ def _stops(
     except (formats.UnreadableError, formats.MissingExtraError, field_data.MapError) as error:
         raise runs.InvalidInputError(str(error)) from error
     except (file_system.ForeignFileError, file_system.FolderInUseError) as error:
-        raise runs.InvalidInputError(_not_replaced(place, error, "--recordings")) from error
+        raise runs.InvalidInputError(_not_replaced(place, error)) from error
     except OSError as error:
         raise runs.InvalidInputError(f"{error.filename}: {error.strerror or error}") from error
 
 
-def _not_replaced(place: Path, error: Exception, name: str) -> str:
+def _not_replaced(place: Path, error: Exception) -> str:
     if isinstance(error, file_system.FolderInUseError):
         return str(error)
-    return f"{place}: {error}: uictest did not write it, or it has changed: name another folder with {name}"
+    changed = "uictest did not write it, or it has changed"
+    return f"{place}: {error}: {changed}: name another folder with --recordings"
 
 
 def _canonical(mapped: field_data.ChannelMap) -> field_data.ChannelMap:

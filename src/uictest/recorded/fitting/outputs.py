@@ -84,7 +84,6 @@ def fitted_yaml(
     folder: Path,
     cleaning: CleaningFit | None = None,
     stop: tuple[str, str] | None = None,
-    changes: Mapping[str, Any] | None = None,
 ) -> str:
     """Return the text of a scenario that extends `scenario` from `folder` and states the fitted friction.
 
@@ -96,7 +95,6 @@ def fitted_yaml(
         folder: folder of the new file.
         cleaning: how sliding cleans the rail, if that was fitted.
         stop: name and initial speed of the stop, where there are several.
-        changes: further values, by dotted key.
 
     Raises ValueError where a value cannot be written below a part that the scenario only refers to.
 
@@ -125,8 +123,6 @@ def fitted_yaml(
         _assign(content, "initial_speed", stop[1])
     if fit.pad_factor is not None:
         content.setdefault("brake", {})["system"] = _with_pads(case.scenario, fit.pad_factor.value)
-    for key, value in (changes or {}).items():
-        _assign(content, key, value)
     text: str = yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=110)
     return text
 

@@ -1,10 +1,4 @@
 from .clocks import EARLIEST_DATE as EARLIEST_DATE
-from .command_course import (
-    CommandCourse as CommandCourse,
-    command_course as command_course,
-    held_speed as held_speed,
-    read_like as read_like,
-)
 from .finder import (
     FinderSettings as FinderSettings,
     Log as Log,
