@@ -41,7 +41,6 @@ _LONGEST = (
     "report/test_stop_browser.py",
     "examples/test_threshold_c.py",
     "studies/experiments/test_independent_integration.py",
-    "fitting/test_cleaning.py",
     "report/test_page_browser.py",
     "cli/test_closed_streams.py",
     "rig/external/test_workers.py",

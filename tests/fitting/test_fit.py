@@ -51,6 +51,28 @@ def test_without_sliding_or_beyond_the_stop_there_is_no_value(recorded_stop):
         fit_stop(stop, case.scenario)
 
 
+LAW = "recovered_friction: 0.22, reach: 0.5 m, carry_over: 0.5"
+CURVES = "friction_ratio: 0.74, friction_decay: 0.18 s/m, reduction_adhesion: 0.87, reduction_slip: 0.45"
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        "energy: 8000 J/m",
+        f"energy: 8000 J/m, clean_curve: {{{CURVES}}}",
+        "energy: 8000 J/m, spent: 2 kJ/m",
+        "energy: 4000 J/m, loss: contact",
+    ],
+    ids=["one curve", "whole curves", "a worn layer", "loss of one contact"],
+)
+def test_stated_cleaning_is_not_counted_twice(recorded_stop, more):
+    """The friction is that of the rail as found."""
+    case, recorded = recorded_stop(80.0, "0.07", 1, settings=(f"rail.cleaning={{{LAW}, {more}}}",))
+    plain = stated_case("plain", 80.0 / 3.6, ["rail.condition=wet"]).scenario
+    assert fit_stop(recorded, case.scenario).friction[0].value == pytest.approx(0.07, rel=0.04)
+    assert fit_stop(recorded, plain).friction[0].value > 0.09
+
+
 def test_what_wheelsets_have_of_their_own_is_accounted_for(recorded_stop):
     """A weak brake, a small wheel, other pads: the balances of that wheelset hold with its own numbers."""
     small = "wheel_radius: 0.41 m, configured_radius: 0.41 m"

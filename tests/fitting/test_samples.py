@@ -1,11 +1,11 @@
-"""What a fit takes from a record: torques by forces, and the speed at the brake command."""
+"""What a fit takes from a record: torques by forces, and no track brake."""
 
 import numpy as np
 import pytest
 
 from uictest.core.recording import TIME
 from uictest.recorded.field_data import WHEELSETS, Preparation, RawChannel, prepare, stated_case
-from uictest.recorded.fitting.samples import FitError, initial_speed, samples_of
+from uictest.recorded.fitting.samples import FitError, samples_of
 from uictest.rig import simulate
 
 
@@ -31,17 +31,6 @@ def test_forces_say_the_torque_of_pads_that_do_not_vary():
     assert recorded.max() > 1e3
     rolling = np.abs(by_forces - recorded) < 1e-3 * recorded.max()
     assert rolling.mean() > 0.98
-
-
-def test_the_initial_speed_is_the_mean_of_the_first_tenth_of_a_second():
-    """One sample has the noise of one sample; a long mean would be that of a train that brakes."""
-    time = np.arange(-1.0, 21.0, 0.01)
-    dice = np.random.default_rng(0)
-    speed = np.clip(20.0 - np.maximum(time, 0.0), 0.0, 20.0) + dice.normal(0.0, 0.05, len(time))
-    channels = {"speed": RawChannel("speed", "speed", time, speed)}
-    stop = prepare(channels, {"brake_command_time": "0 s"}, Preparation())
-    first = (time > -1e-6) & (time < 0.1 + 1e-6)
-    assert initial_speed(stop) == pytest.approx(float(speed[first].mean()), abs=0.01)
 
 
 def test_a_stop_that_a_track_brake_slowed_as_well_is_no_stop_for_a_fit(recorded_stop):

@@ -25,9 +25,9 @@ def test_exact_records_give_the_shares_of_the_rig(wsp):
     vehicle = case.scenario.vehicle
     base, pivots = 2.0 * vehicle.bogie.half_wheelbase, 2.0 * vehicle.half_pivot_distance
     place = np.asarray(recording["distance"])[moving] - np.array([[0.0], [base], [pivots], [pivots + base]])
-    rail = RecordedRail(case.scenario, time, speed, place, channel("wheel_load"))
-    found = np.full(place.shape, 0.07)
-    friction, share = rail.met(found, speed - channel("wheel_speed"), 8000.0, 0.22)
+    slip = speed - channel("wheel_speed")
+    rail = RecordedRail(case.scenario, time, speed, place, channel("wheel_load"), slip)
+    friction, share = rail.met(np.full(place.shape, 0.07))
     np.testing.assert_allclose(friction, 0.07 + share * 0.15, rtol=1e-12)
     recorded = channel("cleaned_share")
     assert recorded.max() > 0.3
@@ -37,36 +37,39 @@ def test_exact_records_give_the_shares_of_the_rig(wsp):
     assert np.abs(difference).mean() < 0.003
 
 
-def steady_slide(seconds, *rail):
+def steady_slide(seconds, slip, *cleaning, rail="wet-cleaning"):
     """The rail under a train at 20 m/s, and ones for each wheelset and sample."""
-    case = stated_case("stop", 20.0, [*(rail or ["rail.condition=wet-cleaning"])])
+    settings = [f"rail.condition={rail}", *(f"rail.condition.cleaning.{each}" for each in cleaning)]
+    case = stated_case("stop", 20.0, settings)
     time = np.arange(0.0, seconds, 0.01)
     place = 20.0 * time - np.array([[0.0], [2.5], [17.5], [20.0]])
     full = np.ones_like(place)
-    return RecordedRail(case.scenario, time, 20.0 * full[0], place, 5.5e4 * full), full
+    return RecordedRail(case.scenario, time, 20.0 * full[0], place, 5.5e4 * full, slip * full), full
 
 
-@pytest.mark.parametrize(("energy", "share"), [(60e3, 0.393469), (120e3, 0.221199), (np.inf, 0.0)])
-def test_what_earlier_stops_spent_belongs_to_the_energy_that_is_sought(energy, share):
-    """1 - exp(-30 / 60), 1 - exp(-30 / 120), none: under every wheelset from the first sample on."""
-    rail, full = steady_slide(2.0, "rail.condition=leaf-layer", "rail.condition.cleaning.spent=30 kJ/m")
-    friction, found = rail.met(0.05 * full, 0.0 * full, energy, 0.28)
+@pytest.mark.parametrize(("energy", "share"), [(60, 0.393469), (120, 0.221199)])
+def test_what_earlier_stops_spent_has_cleaned_the_rail(energy, share):
+    """1 - exp(-30 / 60), 1 - exp(-30 / 120): under every wheelset from the first sample on."""
+    cleaning = ("spent=30 kJ/m", f"energy={energy} kJ/m", "recovered_friction=0.28")
+    rail, full = steady_slide(2.0, 0.0, *cleaning, rail="leaf-layer")
+    friction, found = rail.met(0.05 * full)
     np.testing.assert_allclose(found, share, atol=1e-6)
     np.testing.assert_allclose(friction, 0.05 + share * 0.23, atol=1e-6)
 
 
-def test_a_rail_that_nothing_cleans_is_as_it_was_found():
-    rail, full = steady_slide(2.0)
-    friction, share = rail.met(0.1 * full, 2.0 * full, np.inf, 0.28)
+def test_a_rail_on_which_nothing_slides_is_as_it_was_found():
+    rail, full = steady_slide(2.0, 0.0)
+    friction, share = rail.met(0.1 * full)
     np.testing.assert_array_equal(friction, 0.1)
     np.testing.assert_array_equal(share, 0.0)
 
 
 def test_a_constant_slide_settles_at_the_share_of_its_loss():
     """1 - exp(-W / Wc), with W = F s per metre, for the first wheelset and for those behind it."""
-    rail, full = steady_slide(5.0)
-    # The rail is better than a clean one, so that the friction stays as it is: the loss is the creep law's.
-    _, share = rail.met(0.1 * full, 2.0 * full, 5000.0, 0.1)
+    cleaning = ("energy=5000 J/m", "recovered_friction=0.1")
+    rail, full = steady_slide(5.0, 2.0, *cleaning)
+    # The rail is as good as a clean one, so that the friction stays as it is: the loss is the creep law's.
+    _, share = rail.met(0.1 * full)
     own = share[0, -1]
     loss = -5000.0 * np.log1p(-own)
     limit = 2.0 * 5.5e4 * 0.1 * (0.6 * np.exp(-0.2 * 2.0) + 0.4) * 0.1

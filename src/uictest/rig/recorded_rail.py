@@ -31,46 +31,42 @@ _UNIT = Unit(
 
 
 class RecordedRail:
-    """The rail under the wheelsets of a recorded stop, for any friction as found and any cleaning.
+    """The rail under the wheelsets of a recorded stop, for any friction as found.
 
     Args:
-        scenario: creep law, contact, and reach and carry-over of the cleaning. It must clean the rail.
+        scenario: creep law, contact and cleaning. It must clean the rail.
         time: of the samples, s, shape (n,).
         speed: of the train, m/s, > 0, shape (n,).
         place: of the wheelsets on the track, m from where the first was at the brake command, shape (4, n).
         load: of one wheel, N, shape (4, n).
+        slip: slip speeds, m/s, shape (4, n).
 
     """
 
-    def __init__(self, scenario: Scenario, time: Array, speed: Array, place: Array, load: Array) -> None:
+    def __init__(
+        self, scenario: Scenario, time: Array, speed: Array, place: Array, load: Array, slip: Array
+    ) -> None:
         self._parameters = np.zeros(1, PARAMETERS)
         for name, value in assigned(ASSIGNMENTS, scenario).items():
             self._parameters[name] = value
-        assert scenario.rail.cleaning_in_force is not None
-        self._cleaning = scenario.rail.cleaning_in_force
+        cleaning = scenario.rail.cleaning_in_force
+        assert cleaning is not None
+        self._parameters["spent_share"] = cleaning.spent_share  # not rounded, as the rig takes it
         self._behind = place[0, 0] - place[:, 0]
         self._motion = np.zeros((len(time), _WHEELSETS), RECORDED_MOTION)
         self._motion["duration"] = np.diff(time, prepend=time[0])[:, None]
         self._motion["speed"] = speed[:, None]
         self._motion["position"] = place[0][:, None]
         self._motion["load"] = load.T
+        self._motion["slip"] = 0.5 * (slip + np.concatenate((slip[:, :1], slip[:, :-1]), axis=1)).T
 
-    def met(self, found: Array, slip: Array, energy: float, recovered_friction: float) -> tuple[Array, Array]:
+    def met(self, found: Array) -> tuple[Array, Array]:
         """Return the friction under each wheelset and the cleaned share of the rail, both of shape (4, n).
 
-        The first call on a machine compiles it, within seconds.
-
-        Args:
-            found: initial friction coefficient of the rail that nothing has cleaned, shape (4, n).
-            slip: slip speeds, m/s, shape (4, n).
-            energy: Wc, J/m.
-            recovered_friction: mur.
+        `found` is the initial friction coefficient of the rail that nothing has cleaned, shape (4, n). The
+        first call on a machine compiles it, within seconds.
         """
-        self._parameters["cleaning_response"] = self._cleaning.response_to(energy)
-        self._parameters["recovered_friction"] = recovered_friction
-        self._parameters["spent_share"] = self._cleaning.spent_share_with(energy)
         self._motion["found"] = found.T
-        self._motion["slip"] = 0.5 * (slip + np.concatenate((slip[:, :1], slip[:, :-1]), axis=1)).T
         met = np.zeros(self._motion.shape, MET_RAIL)
         wheelsets = np.zeros(_WHEELSETS, WHEELSET)
         wheelsets["behind"] = self._behind

@@ -34,7 +34,6 @@ from .recorded_files import (
     named_map as named_map,
     read_recording as read_recording,
     read_stop as read_stop,
-    stop_names as stop_names,
 )
 from .scenario_files import (
     is_series as is_series,

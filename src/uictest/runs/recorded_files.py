@@ -80,7 +80,7 @@ def read_files(
         return RecordedFile(path, "", digest, stop, stop.defects)
 
     files = each_file(paths, read)
-    return [replace(file, name=name) for file, name in zip(files, stop_names(paths), strict=True)]
+    return [replace(file, name=name) for file, name in zip(files, _stop_names(paths), strict=True)]
 
 
 def named_map(
@@ -138,7 +138,7 @@ def read_stop(path: Path, channel_map: field_data.ChannelMap) -> field_data.Reco
         raise formats.UnreadableError(str(error)) from error
 
 
-def stop_names(paths: Sequence[Path]) -> list[str]:
+def _stop_names(paths: Sequence[Path]) -> list[str]:
     """Return a name for each file, safe as a file name and all different."""
     names: list[str] = []
     for path in paths:

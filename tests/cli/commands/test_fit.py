@@ -57,61 +57,13 @@ def test_a_record_that_cannot_tell_exits_1(call, scenario):
     assert "at least" in answer.out
 
 
-CLEANED = """rail:
-  condition: wet
-  friction: {friction}
-  cleaning: {{energy: {energy}, recovered_friction: {clean}, reach: 0.5 m, carry_over: 0.5}}
-criteria: [uictest-stop]
-"""
-
-
-@pytest.fixture
-def cleaned(scenario):
-    for name, friction in (("first", 0.07), ("second", 0.1)):
-        text = CLEANED.format(friction=friction, energy="8000 J/m", clean=0.22)
-        simulated(scenario(name, text), f"{name}.parquet")
-    return scenario("guess", CLEANED.format(friction=0.09, energy="5300 J/m", clean=0.28))
-
-
-def test_several_stops_share_the_cleaning_that_is_found(call, cleaned):
-    answer = call("fit", "first.parquet", "second.parquet", "--scenario", cleaned, "--cleaning", code=0)
-    assert answer.out.startswith("energy that cleans the rail: ")
-    assert "\nfirst: friction everywhere: " in answer.out
-    assert "\nsecond: friction everywhere: " in answer.out
-    [folder] = Path("reports").iterdir()
-    stops = ("first", "second")
-    files = [f"overlay-{stop}.{kind}" for stop in stops for kind in ("csv", "svg")]
-    scenarios = [f"guess-fitted-{stop}.yaml" for stop in stops]
-    assert {path.name for path in folder.iterdir()} == {"SHA256SUMS", "fit.json", *files, *scenarios}
-    document = json.loads((folder / "fit.json").read_text())
-    assert document["cleaning"]["standing"] == "found"
-    assert document["cleaning"]["energy"] == pytest.approx(8000.0, rel=0.1)
-    assert [stop["name"] for stop in document["stops"]] == list(stops)
-    for path, friction in zip(scenarios, (0.07, 0.1), strict=True):
-        [fitted] = load([folder / path])
-        rail = fitted.scenario.rail
-        assert rail.friction == pytest.approx(friction, rel=0.03)
-        assert float(rail.cleaning.energy) == pytest.approx(8000.0, rel=0.1)
-        assert float(rail.cleaning.recovered_friction) == pytest.approx(0.22, rel=0.05)
-
-
-def test_cleaning_that_is_not_seen_exits_1_and_is_not_written_as_found(call, recorded, cleaned):
-    answer = call("fit", "stop.parquet", "--scenario", cleaned, "--cleaning", code=1)
-    assert "cleaning is not seen" in answer.out
-    [fitted] = load(list(Path("reports").glob("*/guess-fitted.yaml")))
-    assert float(fitted.scenario.rail.cleaning.energy) > 1e5
-    assert float(fitted.scenario.rail.cleaning.recovered_friction) == 0.28
-
-
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [
         (["stop.parquet", "--break", "10"], "--break"),
         (["stop.parquet", "--break", "20 m", "--break", "10 m"], "--break"),
         (["stop.parquet", "--set", "rail.friction=x"], "rail.friction"),
-        (["stop.parquet", "stop.parquet"], "only with --cleaning"),
-        (["stop.parquet", "--cleaning", "--pads"], "fit the pads first"),
-        (["stop.parquet", "--cleaning"], "the library's values"),
+        (["stop.parquet", "stop.parquet"], "unexpected extra argument"),
     ],
 )
 def test_what_cannot_be_fitted_exits_4_and_leaves_nothing(call, recorded, arguments, what):

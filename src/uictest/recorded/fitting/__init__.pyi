@@ -1,18 +1,15 @@
 from .balances import Balances as Balances
 from .fit import (
-    CleaningFit as CleaningFit,
     Fit as Fit,
     balances_of as balances_of,
     fit_balances as fit_balances,
-    fit_cleaning as fit_cleaning,
     fit_stop as fit_stop,
 )
 from .outputs import (
     Agreement as Agreement,
     agreement as agreement,
-    cleaning_document as cleaning_document,
     fit_document as fit_document,
     fitted_yaml as fitted_yaml,
     overlay as overlay,
 )
-from .samples import FitError as FitError, initial_speed as initial_speed
+from .samples import FitError as FitError

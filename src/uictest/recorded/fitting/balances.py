@@ -131,7 +131,7 @@ class Balances:
     windows: Windows
     scenario: Scenario
 
-    def rail_impulse(self, friction: Array, share: Array | None = None) -> Array:
+    def rail_impulse(self, friction: Array, share: Array | None) -> Array:
         """Return the impulse of the rail on each wheelset by the creep law, N s, (4, k).
 
         Arguments are those of :meth:`residuals`.
@@ -143,7 +143,7 @@ class Balances:
         force = wheelset_creep(slip, s.speed, s.load, friction, rail.condition, clean)
         return over(self.windows, s, force)
 
-    def brake_impulse(self, brake_factor: float | Array) -> Array | None:
+    def brake_impulse(self, brake_factor: float) -> Array | None:
         """Return the impulse of the rail by the balance of each wheelset, N s, (4, k); else None."""
         if self.samples.torque is None:
             return None
@@ -151,9 +151,7 @@ class Balances:
         impulse: Array = (torque + self._inertia * self._turned) / self._radius
         return impulse
 
-    def residuals(
-        self, friction: Array, share: Array | None, brake_factor: float | Array
-    ) -> tuple[Array, Array]:
+    def residuals(self, friction: Array, share: Array | None, brake_factor: float) -> tuple[Array, Array]:
         """Return the residuals of the balances of sliding wheelsets, and of the train.
 
         The train's are those of windows in which all impulses are known.
@@ -161,13 +159,9 @@ class Balances:
         Args:
             friction: initial friction coefficient under each wheelset, (4, n).
             share: cleaned share of the rail under it, (4, n); None where nothing is cleaned.
-            brake_factor: on the torque of the brakes, one or (4, 1).
+            brake_factor: on the torque of the brakes.
         """
-        return self.residuals_by(self.rail_impulse(friction, share), brake_factor)
-
-    def residuals_by(self, by_rail: Array, brake_factor: float | Array) -> tuple[Array, Array]:
-        """Return the residuals with the impulse of the rail, N s, (4, k)."""
-        by_brake = self.brake_impulse(brake_factor)
+        by_rail, by_brake = self.rail_impulse(friction, share), self.brake_impulse(brake_factor)
         load, sliding, standing = self._load_impulse, self.windows.sliding, self.windows.standing
         if by_brake is None:
             of_wheelsets, impulse, known = np.empty(0), by_rail, sliding.all(axis=0)

@@ -29,69 +29,35 @@ class Solution:
 
     Args:
         values: of the unknowns.
-        covariance: of them; neighbouring residuals that agree count less.
-        cost: half the sum of the squares, in units of the noise; outliers count less.
-        significance: by how much the cost must rise for values to lie outside the 95 % confidence.
-        noise: standard deviation of each group.
-        quantile: standard deviations of the half width of a 95 % confidence interval.
+        half_widths: of their 95 % confidence intervals; neighbouring residuals that agree count less.
         residual: standard deviation of all residuals.
-        misfit: minus the logarithm of the likelihood if residuals were independent, up to a constant.
-        dependence: how many residuals count as one.
     """
 
     values: Array
-    covariance: Array
-    cost: float
-    significance: float
-    noise: tuple[float, ...]
-    quantile: float
+    half_widths: list[float]
     residual: float
-    misfit: float
-    dependence: float
-
-    @property
-    def half_widths(self) -> list[float]:
-        """Half widths of the 95 % confidence intervals."""
-        return [float(self.quantile * np.sqrt(v)) for v in np.diag(self.covariance)]
 
 
-def solve(
-    residuals: Callable[[Array], Groups],
-    start: Array,
-    bounds: Bounds,
-    noise: Sequence[float] | None = None,
-    known: Callable[[Array], Array] | None = None,
-    steps: int = _MOST_STEPS,
-) -> Solution:
-    """Return the unknowns with the least sum of squares.
+def solve(residuals: Callable[[Array], Groups], start: Array, bounds: Bounds) -> Solution:
+    """Return the unknowns with the least sum of squares; the noise is estimated by a first pass.
 
     Args:
         residuals: of the unknowns; every call returns groups of the same lengths.
         start: of the unknowns; its sizes are their scales.
         bounds: lowest and highest values.
-        noise: standard deviation of each group; None: estimated by a first pass.
-        known: by how many standard deviations unknowns differ from what is known of them beforehand.
-        steps: after which either pass ends, however far it has come.
     """
-    if noise is None:
-        first = _minimum(residuals, start, bounds, None, known, steps)
-        start, noise = first.x, noise_of(residuals(first.x))
-    found = _minimum(residuals, start, bounds, noise, known, steps)
-    return _solution(found, residuals(found.x), tuple(noise))
+    first = _minimum(residuals, start, bounds, None)
+    found = _minimum(residuals, first.x, bounds, _noise_of(residuals(first.x)))
+    return _solution(found, residuals(found.x))
 
 
-def noise_of(residuals: Groups) -> tuple[float, ...]:
+def _noise_of(residuals: Groups) -> list[float]:
     """Return the standard deviation of each group."""
-    return tuple(max(float(np.std(group)) if len(group) > 2 else 1.0, 1e-6) for group in residuals)
+    return [max(float(np.std(group)) if len(group) > 2 else 1.0, 1e-6) for group in residuals]
 
 
 def _minimum(
-    residuals: Callable[[Array], Groups],
-    start: Array,
-    bounds: Bounds,
-    noise: Sequence[float] | None,
-    known: Callable[[Array], Array] | None,
-    steps: int,
+    residuals: Callable[[Array], Groups], start: Array, bounds: Bounds, noise: Sequence[float] | None
 ) -> Any:
     """Return scipy's solution, in units of the noise if it is known."""
     from scipy.optimize import least_squares
@@ -101,35 +67,23 @@ def _minimum(
     def scaled(x: Array) -> Array:
         groups = residuals(x)
         each = [1.0] * len(groups) if noise is None else noise
-        parts = [group / size for group, size in zip(groups, each, strict=True)]
-        if known is not None:
-            parts.append(known(x) * (outlier / _OUTLIER))
-        return np.concatenate(parts)
+        return np.concatenate([group / size for group, size in zip(groups, each, strict=True)])
 
     scale = np.maximum(np.abs(start), 1e-3)
     return least_squares(
-        scaled, start, bounds=bounds, loss="soft_l1", f_scale=outlier, x_scale=scale, max_nfev=steps
+        scaled, start, bounds=bounds, loss="soft_l1", f_scale=outlier, x_scale=scale, max_nfev=_MOST_STEPS
     )
 
 
-def _solution(found: Any, residuals: Groups, noise: tuple[float, ...]) -> Solution:
+def _solution(found: Any, residuals: Groups) -> Solution:
     from scipy.stats import t as student
 
     freedom = max(len(found.fun) - len(found.x), 1)
     variance = 2.0 * found.cost / freedom * _inflation(max(residuals, key=len))
-    sizes = np.array([len(group) for group in residuals])
     quantile = float(student.ppf(0.5 * (1.0 + _CONFIDENCE), freedom))
-    return Solution(
-        found.x,
-        np.linalg.pinv(found.jac.T @ found.jac) * variance,
-        float(found.cost),
-        0.5 * quantile**2 * variance,
-        noise,
-        quantile,
-        float(np.std(np.concatenate(residuals))),
-        float(sizes @ np.log(noise_of(residuals))),
-        max(variance, 1.0),
-    )
+    covariance = np.linalg.pinv(found.jac.T @ found.jac) * variance
+    half_widths = [float(quantile * np.sqrt(v)) for v in np.diag(covariance)]
+    return Solution(found.x, half_widths, float(np.std(np.concatenate(residuals))))
 
 
 def _inflation(residuals: Array) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -16,9 +16,9 @@ from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import evaluation
 from uictest.plans import library
 from uictest.plans.scenario import EXPANSION_KEYS, PART_KEYS, Case, Scenario
-from uictest.plans.scenario.yaml import Quantity, Section, dotted, quantities_in
+from uictest.plans.scenario.yaml import dotted, quantities_in
 from uictest.recorded.field_data import RecordedStop, of_wheelsets
-from uictest.recorded.fitting.fit import CleaningFit, Fit
+from uictest.recorded.fitting.fit import Fit
 from uictest.rig import SimulatedStop
 
 _COMPARED = ("speed", *of_wheelsets("wheel_speed"))
@@ -82,8 +82,6 @@ def fitted_yaml(
     fit: Fit,
     scenario: Path,
     folder: Path,
-    cleaning: CleaningFit | None = None,
-    stop: tuple[str, str] | None = None,
 ) -> str:
     """Return the text of a scenario that extends `scenario` from `folder` and states the fitted friction.
 
@@ -93,8 +91,6 @@ def fitted_yaml(
         fit: the fitted values.
         scenario: file of the case.
         folder: folder of the new file.
-        cleaning: how sliding cleans the rail, if that was fitted.
-        stop: name and initial speed of the stop, where there are several.
 
     Raises ValueError where a value cannot be written below a part that the scenario only refers to.
 
@@ -102,9 +98,9 @@ def fitted_yaml(
     ships = library.named_scenario(scenario) != scenario
     content: dict[str, Any] = {
         "schema": "uictest/scenario/1",
-        "name": _name(case.scenario.name, stop),
+        "name": f"{case.scenario.name[:_LONGEST_NAME]}-fitted",
         "title": f"{case.scenario.name} with the friction of a recorded stop",
-        "description": "\n".join(_account(fit, cleaning)),
+        "description": "\n".join(["Fitted to a recorded stop.", *map(str, fit.estimates)]),
         "extends": (scenario if ships else Path(os.path.relpath(scenario, folder))).as_posix(),
         "expect": case.scenario.expect,
         **dict.fromkeys(EXPANSION_KEYS),
@@ -113,14 +109,10 @@ def fitted_yaml(
         _assign(content, key, yaml.safe_load(value))
     _assign(content, "rail.friction", friction_of(fit, case.scenario))
     _assign(content, "rail.friction_over_time", None)
-    if cleaning is not None:
-        _assign(content, "rail.cleaning", _numbers_of(cleaning.in_force))
     if (variation := case.scenario.rail.variation_in_force) is not None:
         numbers = {dotted(key): value.text for key, value in quantities_in(variation)}
         # What the rail was is fitted: nothing of it is left to chance.
         _assign(content, "rail.variation", numbers | {"spread": "0 %"})
-    if stop is not None:
-        _assign(content, "initial_speed", stop[1])
     if fit.pad_factor is not None:
         content.setdefault("brake", {})["system"] = _with_pads(case.scenario, fit.pad_factor.value)
     text: str = yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=110)
@@ -143,37 +135,6 @@ def friction_of(fit: Fit, scenario: Scenario) -> float | dict[str, Any]:
     places = [min(0.0, fit.breaks[0] - 1.0), *fit.breaks]
     points = [{"position": f"{p:g} m", "friction": mu} for p, mu in zip(places, levels, strict=True)]
     return {"points": points, "interpolation": "steps"}
-
-
-def _name(scenario: str, stop: tuple[str, str] | None) -> str:
-    if stop is None:
-        return f"{scenario[:_LONGEST_NAME]}-fitted"
-    half = _LONGEST_NAME // 2
-    return f"{scenario[:half]}-fitted-{stop[0][:half]}"
-
-
-def _numbers_of(section: Section) -> dict[str, Any]:
-    """Return a section as a scenario would have it, without sources, which a scenario does not describe."""
-    values = {
-        name: value
-        for name, field in type(section).model_fields.items()
-        if (value := getattr(section, name)) is not None and value != field.default
-    }
-    return {name: _plain(value) for name, value in values.items()}
-
-
-def _plain(value: object) -> Any:
-    if isinstance(value, Section):
-        return _numbers_of(value)
-    if isinstance(value, Quantity):
-        return float(value) if value.unit == "1" else value.text
-    return value
-
-
-def _account(fit: Fit, cleaning: CleaningFit | None) -> list[str]:
-    pads = [] if fit.pad_factor is None else [fit.pad_factor]
-    cleaned = [] if cleaning is None else [cleaning.estimate]
-    return ["Fitted to a recorded stop.", *(str(estimate) for estimate in (*fit.friction, *pads, *cleaned))]
 
 
 def _assign(content: dict[str, Any], key: str, value: Any) -> None:
@@ -205,25 +166,6 @@ def fit_document(fit: Fit, agreement: Agreement, choices: dict[str, str]) -> dic
         "fit": asdict(fit),
         "agreement": asdict(agreement),
         "preparation": choices,
-    }
-    form: dict[str, Any] = evaluation.json_form(document)
-    return form
-
-
-def cleaning_document(
-    fit: CleaningFit, names: Sequence[str], agreements: Sequence[Agreement], choices: Sequence[dict[str, str]]
-) -> dict[str, Any]:
-    """Return the cleaning and what belongs to each stop: its fit, agreement and preparation; NaN as None."""
-    stops = zip(names, fit.stops, agreements, choices, strict=True)
-    document = {
-        "schema": SCHEMA,
-        "determined": fit.determined,
-        "cleaning": asdict(fit.estimate),
-        "in_force": _numbers_of(fit.in_force),
-        "stops": [
-            {"name": name, "fit": asdict(each), "agreement": asdict(agreement), "preparation": choice}
-            for name, each, agreement, choice in stops
-        ],
     }
     form: dict[str, Any] = evaluation.json_form(document)
     return form

@@ -173,9 +173,3 @@ def _torque(recording: Recording, scenario: Scenario, part: slice, width: int) -
             samples = [_smoothed(np.asarray(recording[name])[part], width) for name in names]
             return np.asarray(factor * np.array(samples))
     return None
-
-
-def initial_speed(stop: field_data.RecordedStop) -> float:
-    """Return the speed of the train at the brake command, m/s: the mean of the first samples."""
-    time = np.asarray(stop.recording[TIME])
-    return float(np.mean(stop.recording["speed"][time <= _SMOOTHING]))

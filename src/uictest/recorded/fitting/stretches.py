@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
 
@@ -13,7 +12,6 @@ from numpy.typing import NDArray
 
 from uictest import rig
 from uictest.recorded.fitting.balances import Balances
-from uictest.recorded.fitting.least_squares import Groups
 
 Array = NDArray[np.float64]
 Standing = Literal["found", "at least", "not reached"]
@@ -132,125 +130,11 @@ class RailUnderStop:
         s = balances.samples
         self._cleaned = None
         if balances.scenario.rail.cleaning_in_force is not None:
-            self._cleaned = rig.RecordedRail(balances.scenario, s.time, s.speed, s.place, s.load)
+            self._cleaned = rig.RecordedRail(balances.scenario, s.time, s.speed, s.place, s.load, s.slip)
 
-    def found(self, levels: Array) -> Array:
-        """Return the friction of the rail as found under each wheelset, (4, n), from the free stretches'."""
+    def met(self, levels: Array) -> tuple[Array, Array | None]:
+        """Return friction and cleaned share under each wheelset, (4, n), by the friction of the free ones."""
         every = np.full(len(self.stretches.breaks) + 1, HIGHEST)
         every[self.free] = levels
-        return np.asarray(every[self._number])
-
-    def met(
-        self, levels: Array, energy: float, recovered_friction: float, slip: Array | None = None
-    ) -> tuple[Array, Array]:
-        """Return friction and cleaned share under each wheelset, (4, n), where sliding cleans the rail.
-
-        Args:
-            levels: friction of the free stretches as found.
-            energy: Wc, J/m.
-            recovered_friction: mur.
-            slip: slip speeds, m/s, (4, n); None: as recorded.
-        """
-        assert self._cleaned is not None
-        recorded = self.stretches.balances.samples.slip
-        return self._cleaned.met(
-            self.found(levels), recorded if slip is None else slip, energy, recovered_friction
-        )
-
-    def met_as_stated(self, levels: Array) -> tuple[Array, Array | None]:
-        """Return friction and cleaned share under each wheelset, (4, n), with the cleaning as stated."""
-        cleaning = self.stretches.balances.scenario.rail.cleaning_in_force
-        if cleaning is None:
-            return self.found(levels), None
-        return self.met(levels, float(cleaning.energy), float(cleaning.recovered_friction))
-
-
-_UNCLEANED_SHARE = 0.7
-"""Friction of the rail as found to begin with, over that of a rail which nothing cleans; chosen."""
-_LONGEST_DELAY = 0.05
-"""s by which speed sensors of wheelsets may answer later than that of the train, or earlier; chosen."""
-_GAIN_ERROR = 0.01
-"""Standard deviation to which the brake force of each wheelset is known, share; chosen."""
-_LOWEST_GAIN, _HIGHEST_GAIN = 0.8, 1.2
-"""Span of the brake force of a wheelset that a fit may find, over the stated one; chosen."""
-_WHEELSETS = 4
-_KEPT = 8
-"""Impulses of the rail that are kept: of the point that a gradient is taken at, and of its neighbours."""
-
-
-@dataclass(frozen=True, eq=False)
-class CleanedStop:
-    """One stop on a rail that sliding cleans: its unknowns are the friction of the free stretches, the delay
-    of the wheel speeds in s and, where brake forces are recorded, a factor on that of each wheelset.
-    """
-
-    rail: RailUnderStop
-
-    @property
-    def levels(self) -> int:
-        """How many of the unknowns are frictions; they come first."""
-        return len(self.rail.free)
-
-    @cached_property
-    def start(self) -> list[float]:
-        """Values of the unknowns to begin with."""
-        friction = [_UNCLEANED_SHARE * level for level in self.rail.stretches.start]
-        return [*friction, 0.0, *[1.0] * self._gains]
-
-    @property
-    def bounds(self) -> tuple[list[float], list[float]]:
-        """Lowest and highest values of the unknowns."""
-        lowest = [*[LOWEST] * self.levels, -_LONGEST_DELAY, *[_LOWEST_GAIN] * self._gains]
-        return lowest, [*[HIGHEST] * self.levels, _LONGEST_DELAY, *[_HIGHEST_GAIN] * self._gains]
-
-    def known(self, x: Array) -> Array:
-        """Return by how many standard deviations the factors on the brake forces differ from one."""
-        return np.asarray((x[self.levels + 1 :] - 1.0) / _GAIN_ERROR)
-
-    def residuals(self, x: Array, energy: float, recovered_friction: float) -> Groups:
-        """Return the residuals of the balances."""
-        of_rail = tuple(x[: self.levels + 1].tolist())
-        balances, by_rail = self._by_rail(of_rail, energy, recovered_friction)
-        factors = x[self.levels + 1 :][:, None] if self._gains else 1.0
-        return balances.residuals_by(by_rail, factors)
-
-    def largest_share(self, x: Array, energy: float, recovered_friction: float) -> float:
-        """Return the cleaned share of the cleanest rail under a sliding wheelset."""
-        _, share = self.rail.met(x[: self.levels], energy, recovered_friction)
-        return float(np.max(share, where=self._balances.samples.sliding, initial=0.0))
-
-    @property
-    def _balances(self) -> Balances:
-        return self.rail.stretches.balances
-
-    @property
-    def _gains(self) -> int:
-        return 0 if self._balances.samples.torque is None else _WHEELSETS
-
-    @cached_property
-    def _by_rail(self) -> Callable[[tuple[float, ...], float, float], tuple[Balances, Array]]:
-        """Levels and delay, energy and recovered friction: the balances and the impulse of the rail.
-
-        A gradient varies one unknown at a time: most leave those of the rail under this stop as they are.
-        """
-
-        @lru_cache(_KEPT)
-        def found(of_rail: tuple[float, ...], energy: float, recovered: float) -> tuple[Balances, Array]:
-            *levels, delay = of_rail
-            balances = self._without_delay(delay)
-            met = self.rail.met(np.array(levels), energy, recovered, balances.samples.slip)
-            return balances, balances.rail_impulse(*met)
-
-        return found
-
-    @cached_property
-    def _without_delay(self) -> Callable[[float], Balances]:
-        """The balances with wheel speeds that are read later by a delay, which few of the unknowns change."""
-
-        @lru_cache(_KEPT)
-        def read_earlier(delay: float) -> Balances:
-            s = self._balances.samples
-            wheels = np.array([np.interp(s.time + delay, s.time, each) for each in s.wheel_speed])
-            return replace(self._balances, samples=replace(s, wheel_speed=wheels, slip=s.speed - wheels))
-
-        return read_earlier
+        found = np.asarray(every[self._number])
+        return (found, None) if self._cleaned is None else self._cleaned.met(found)

@@ -91,12 +91,14 @@ class _Cleaning(Section):
     @property
     def response(self) -> float:
         """Cleaned share per contact loss of a wheelset and metre, where little is cleaned, m/J."""
-        return self.response_to(self.energy)
+        return 1.0 / self.energy if self.loss == "wheelset" else 1.0 / _CONTACTS / self.energy
 
     @property
     def spent_share(self) -> float:
         """Share of the rail that earlier stops have cleaned."""
-        return self.spent_share_with(self.energy)
+        if self.spent is None:
+            return 0.0
+        return self.law.settled_share(float(self.spent), float(self.response), self.law_numbers)
 
     @property
     def law(self) -> RailLaw:
@@ -124,16 +126,6 @@ class _Cleaning(Section):
         for name in self._named[1:]:
             message = f"two laws are named: {quoted(self._named[0])} and {quoted(name)}"
             yield Inconsistency((name,), message, "keep one of them")
-
-    def response_to(self, energy: float) -> float:
-        """The same for another energy, J/m."""
-        return 1.0 / energy if self.loss == "wheelset" else 1.0 / _CONTACTS / energy
-
-    def spent_share_with(self, energy: float) -> float:
-        """The same for another energy, J/m."""
-        if self.spent is None:
-            return 0.0
-        return self.law.settled_share(float(self.spent), float(self.response_to(energy)), self.law_numbers)
 
 
 def _section_of(law: RailLaw) -> type[Section]:
