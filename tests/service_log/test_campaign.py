@@ -1,4 +1,4 @@
-"""What a log of a night shows of wheelsets and rail: defects are told, and a sound train tells nothing."""
+"""What the stops of a log of a night show together: dry and wet ones, and the friction of each."""
 
 import csv
 import json
@@ -12,7 +12,7 @@ import pytest
 
 import uictest
 from tests.service_log import logs
-from uictest.analysis.logged_stops import LogSurvey
+from uictest.analysis.logged_stops import StopsTogether
 from uictest.cli.entry import execute
 from uictest.core.recording import Recording, read_parquet
 from uictest.recorded.field_data import judge_recording, load_map, stop_in
@@ -21,9 +21,9 @@ from uictest.recorded.service_log import find_stops, write_stops
 MAP = load_map("uictest")[0]
 
 
-def judged(folder, stops, *arguments, forces=True, begin=0.0):
+def judged(folder, stops, *arguments):
     """Run `uictest log` over a log of stops, and return the folder of the run."""
-    logs.write_log(stops, folder / "night.parquet", begin, forces)
+    logs.write_log(stops, folder / "night.parquet")
     (folder / "night.yaml").write_text(logs.CONDITIONS, "utf-8")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
@@ -37,59 +37,10 @@ def rows(run, name):
     return list(csv.DictReader(path.read_text("utf-8").splitlines())) if path.is_file() else []
 
 
-def told(run):
-    return {(row["wheelset"], row["finding"]) for row in rows(run, "findings")}
-
-
-@pytest.fixture(name="sound", scope="module")
-def _sound(tmp_path_factory):
+@pytest.fixture(name="night", scope="module")
+def _night(tmp_path_factory):
     dry = "stop-0001 or stop-0002 or stop-0003"
-    return judged(tmp_path_factory.mktemp("sound"), logs.night(1), "--dry", dry, begin=1.75e9)
-
-
-@pytest.fixture(name="defective", scope="module")
-def _defective(tmp_path_factory):
-    """Wheelset 1 fills through a third, 2 is 1.2 % smaller, 3 has no exhaust, 4 has a slow valve."""
-    settings = logs.own(2, wheel_radius="0.4248 m") | logs.faults(
-        (1, "fill-valve", "blocked", "70 %"),
-        (3, "vent-valve", "stuck-closed", ""),
-        (4, "wsp-valve", "slow", "150 ms"),
-    )
-    return judged(tmp_path_factory.mktemp("defective"), logs.night(2, settings=settings))
-
-
-def test_a_sound_train_tells_nothing(sound):
-    assert told(sound) == set()
-    assert "no wheelset stands out" in (sound / "index.html").read_text("utf-8")
-
-
-def test_each_defect_is_told_with_its_wheelset(defective):
-    findings = told(defective)
-    assert {
-        ("2", "reads fast: small wheel or sensor"),
-        ("3", "does not vent"),
-        ("4", "vents late"),
-    } <= findings
-    assert ("1", "brakes late") in findings
-    beyond = {wheelset for wheelset, _ in findings}
-    assert beyond == {"1", "2", "3", "4"}
-    assert ("1", "vents late") not in findings
-    assert ("2", "vents late") not in findings
-
-
-def test_a_small_wheel_reads_fast_by_what_its_radius_lacks(defective):
-    (row,) = [each for each in rows(defective, "findings") if each["finding"].startswith("reads fast")]
-    low, high = map(float, re.search(r"\((\S+) to (\S+)\)", row["difference"]).groups())
-    assert low <= 100.0 * (0.43 / 0.4248 - 1.0) <= high + 0.05
-
-
-def test_the_stops_that_show_a_finding_are_named_and_linked(defective):
-    (row,) = [each for each in rows(defective, "findings") if each["finding"] == "does not vent"]
-    names = re.findall(r"stop-\d+", row["stops"])
-    assert names
-    assert all(int(name.removeprefix("stop-")) > 3 for name in names), "dry stops have no vents"
-    page = (defective / "index.html").read_text("utf-8")
-    assert f'">{names[0]}</a>' in page
+    return judged(tmp_path_factory.mktemp("night"), logs.night(1), "--dry", dry)
 
 
 def test_the_friction_of_every_slippery_stop_is_that_of_its_rail(tmp_path):
@@ -103,9 +54,9 @@ def test_the_friction_of_every_slippery_stop_is_that_of_its_rail(tmp_path):
         assert float(row["friction"]) == pytest.approx(truth, rel=0.02)
 
 
-def test_no_friction_is_found_of_a_rail_that_sliding_cleans(sound):
+def test_no_friction_is_found_of_a_rail_that_sliding_cleans(night):
     """Every second slippery stop of the night: one coefficient says twice the friction of its rail."""
-    slippery = rows(sound, "friction")[3:]
+    slippery = rows(night, "friction")[3:]
     assert [row["standing"] for row in slippery] == ["found", "not one"] * 5 + ["found"]
     for row in slippery[1::2]:
         assert row["friction"] == ""
@@ -120,81 +71,49 @@ def test_a_rail_that_is_as_good_has_a_k_wet_of_one_from_whatever_speed(tmp_path)
     assert float(row["value"]) == pytest.approx(0.0, abs=2.0), "%; 10 % by the squares of the speeds"
 
 
-def test_adhesion_is_not_seen_where_the_brake_never_reached_the_limit(tmp_path):
-    run = judged(tmp_path, [logs.simulated(logs.DRY, 80.0, k) for k in (1, 2)])
-    seen = rows(run, "adhesion_by_speed")
-    assert seen
-    assert {row["median"] for row in seen} == {"not seen"}
-    assert {row["windows"] for row in seen} == {"0"}
-
-
-def test_the_adhesion_that_is_seen_lies_below_the_friction(sound):
-    largest = max(float(row["friction"]) for row in rows(sound, "friction") if row["standing"] == "found")
-    medians = [float(row["median"]) for row in rows(sound, "adhesion_by_speed") if row["windows"] != "0"]
-    assert medians
-    assert 0.0 < min(medians) <= max(medians) < largest
-
-
-def test_every_stop_stands_once_in_the_map_and_every_window_in_both_distributions(sound):
-    (row,) = rows(sound, "outcomes_over_speed_and_friction")
-    assert row.pop("initial_speed") == "80"
-    assert sum(map(int, re.findall(r"\d+", " ".join(row.values())))) == 14
-    by_speed, by_place = (rows(sound, f"adhesion_by_{name}") for name in ("speed", "place"))
-    for wheelset in "1234":
-        counts = [
-            sum(int(each["windows"]) for each in own if each["wheelset"] == wheelset)
-            for own in (by_speed, by_place)
-        ]
-        assert counts[0] == counts[1] > 0
-
-
-def test_without_forces_only_the_mean_of_all_wheelsets_is_seen(tmp_path):
-    run = judged(tmp_path, [logs.simulated(logs.wet(0.08), 80.0, 3)], forces=False)
-    assert {row["wheelset"] for row in rows(run, "adhesion_by_speed")} == {"0"}
-
-
-def test_every_format_has_the_campaign(defective, monkeypatch):
-    results = json.loads((defective / "results.json").read_text("utf-8"))
-    names = {table["name"] for table in results["campaign"]["tables"]}
-    assert {"findings", "wheelsets", "adhesion_by_speed", "friction"} <= names
-    (defective / "index.html").unlink()
-    assert execute(["report", str(defective), "--format", "html,md,xlsx"]) == 0
+def test_every_format_has_the_campaign(night):
+    results = json.loads((night / "results.json").read_text("utf-8"))
+    names = [table["name"] for table in results["campaign"]["tables"]]
+    assert names == ["dry_stops", "friction", "wet_series", "wet_stops"]
+    (night / "index.html").unlink()
+    assert execute(["report", str(night), "--format", "html,md,xlsx"]) == 0
     for name in ("index.html", "summary.md"):
-        assert "does not vent" in (defective / name).read_text("utf-8")
-    with ZipFile(defective / "report.xlsx") as book:
-        assert "findings" in book.read("xl/workbook.xml").decode()
+        assert "Friction of the rail, stop by stop" in (night / name).read_text("utf-8")
+    with ZipFile(night / "report.xlsx") as book:
+        assert "Log wet series" in book.read("xl/workbook.xml").decode()
 
 
-def test_stops_named_as_dry_are_judged_on_a_dry_rail_and_make_the_reference(sound):
-    results = json.loads((sound / "results.json").read_text("utf-8"))
+def test_the_stops_that_a_table_names_are_linked(night):
+    page = (night / "index.html").read_text("utf-8")
+    assert re.search(r'<td class="why"><a href="#[^"]+">stop-0004</a></td>', page)
+
+
+def test_stops_named_as_dry_are_judged_on_a_dry_rail_and_make_the_reference(night):
+    results = json.loads((night / "results.json").read_text("utf-8"))
     rails = [each["settings"]["rail"] for each in results["subjects"].values()]
     assert rails == ["dry"] * 3 + ["wet"] * 11
-    (dry,) = rows(sound, "dry_stops")
+    (dry,) = rows(night, "dry_stops")
     assert (dry["dry_stops"], dry["accepted"]) == ("3", "3 of 3")
-    wet = rows(sound, "wet_stops")
+    wet = rows(night, "wet_stops")
     assert len(wet) == 11
     assert all(float(row["extension_percent"]) > 0.0 for row in wet)
 
 
-def test_k_wet_is_that_of_the_stops(sound):
+def test_k_wet_is_that_of_the_stops(night):
     measures = {
         case["id"]: case["measures"]
-        for case in json.loads((sound / "results.json").read_text("utf-8"))["cases"]
+        for case in json.loads((night / "results.json").read_text("utf-8"))["cases"]
     }
     names = [f"stop-{k:04d}" for k in range(1, 15)]
-    speeds = [3.6 * read_parquet(sound / "recordings" / f"{name}.parquet")["speed"][0] for name in names]
+    speeds = [3.6 * read_parquet(night / "recordings" / f"{name}.parquet")["speed"][0] for name in names]
     lengths = [
         measures[name]["deceleration_distance_m"] * (80.0 / speed) ** 2
         for name, speed in zip(names, speeds, strict=True)
     ]
     increase = 100.0 * (np.mean(lengths[3:]) / np.mean(lengths[:3]) - 1.0)
-    (row,) = [each for each in rows(sound, "wet_series") if each["measure"] == "k_wet"]
+    (row,) = [each for each in rows(night, "wet_series") if each["measure"] == "k_wet"]
     assert float(row["value"]) == pytest.approx(100.0 / (100.0 + increase), rel=1e-9)
     assert float(row["low"]) < float(row["value"]) < float(row["high"])
-
-
-def test_a_log_with_dates_has_its_drift_per_day(sound):
-    assert {row["unit"] for row in rows(sound, "drift")} == {"% per day"}
 
 
 def test_a_selection_of_dry_stops_that_is_empty_is_refused(tmp_path, capsys, monkeypatch):
@@ -251,8 +170,8 @@ def test_a_log_without_a_stop_leaves_reports_that_say_so(tmp_path, capsys, monke
         (lambda table: table.__setitem__("place", "nowhere"), "campaign.0.tables.0.place"),
     ],
 )
-def test_a_document_that_was_changed_by_hand_is_refused_with_its_place(sound, tmp_path, capsys, change, told):
-    document = json.loads((sound / "results.json").read_text("utf-8"))
+def test_a_document_that_was_changed_by_hand_is_refused_with_its_place(night, tmp_path, capsys, change, told):
+    document = json.loads((night / "results.json").read_text("utf-8"))
     change(document["campaign"]["tables"][0])
     (tmp_path / "results.json").write_text(json.dumps(document), "utf-8")
     assert execute(["report", str(tmp_path), "--format", "html"]) == 4
@@ -268,11 +187,11 @@ def _recorded(tmp_path_factory):
     return stop_in(min(write_stops(log, MAP, folder / "stops")), MAP), case
 
 
-def surveyed(stop, case):
+def shown_by(stop, case):
     result, _ = judge_recording(case, stop)
-    survey = LogSurvey({}, 0, vehicle_known=True)
-    survey.add(case, stop, result)
-    return survey.campaign([result])
+    together = StopsTogether(0, vehicle_known=True)
+    together.add(case, stop, result)
+    return together.campaign([result])
 
 
 @pytest.mark.parametrize(
@@ -286,14 +205,14 @@ def test_whatever_a_record_lacks_the_rest_is_said(recorded, lacking):
     stop, case = recorded
     kept = {name: own for name, own in stop.recording.channels.items() if not name.startswith(lacking)}
     recording = Recording(kept, {name: stop.recording.units[name] for name in kept})
-    names = {table.name for table in surveyed(replace(stop, recording=recording), case).tables}
-    assert {"findings", "friction", "wet_stops"} <= names
+    names = {table.name for table in shown_by(replace(stop, recording=recording), case).tables}
+    assert {"friction", "wet_stops"} <= names
 
 
 def test_the_friction_of_a_stop_stands_beside_its_place_on_the_line(recorded):
     stop, case = recorded
     (table,) = [
-        each for each in surveyed(replace(stop, place=12_345.0), case).tables if each.name == "friction"
+        each for each in shown_by(replace(stop, place=12_345.0), case).tables if each.name == "friction"
     ]
     assert [row["place_m"] for row in table.data.rows] == [12_345.0]
 
@@ -303,13 +222,13 @@ def test_a_stop_of_a_few_samples_has_no_friction(recorded, samples):
     stop, case = recorded
     kept = {name: own[:samples] for name, own in stop.recording.channels.items()}
     short = replace(stop, recording=Recording(kept, stop.recording.units), standstill=None)
-    (table,) = [each for each in surveyed(short, case).tables if each.name == "friction"]
+    (table,) = [each for each in shown_by(short, case).tables if each.name == "friction"]
     assert [row["standing"] for row in table.data.rows] != ["found"]
 
 
-def test_the_table_of_stops_begins_with_those_that_fail(sound):
-    stops = list(csv.DictReader((sound / "stops.csv").read_text("utf-8").splitlines()))
-    results = json.loads((sound / "results.json").read_text("utf-8"))["cases"]
+def test_the_table_of_stops_begins_with_those_that_fail(night):
+    stops = list(csv.DictReader((night / "stops.csv").read_text("utf-8").splitlines()))
+    results = json.loads((night / "results.json").read_text("utf-8"))["cases"]
     assert [row["outcome"] for row in stops] == sorted(
         (each["outcome"] for each in results), key=["fail", "inconclusive", "pass"].index
     )

@@ -1,7 +1,6 @@
-"""Groups of stops with known truth: means, outliers, drift."""
+"""Groups of stops with known truth: means, outliers, K_wet."""
 
 from dataclasses import replace
-from itertools import product
 
 import numpy as np
 import pytest
@@ -9,7 +8,6 @@ from hypothesis import given, strategies as st
 
 import uictest
 from tests.service_log import logs
-from uictest.analysis.logged_stops.drift import drifts
 from uictest.analysis.logged_stops.stop_groups import (
     LoggedStop,
     dry_table,
@@ -20,12 +18,13 @@ from uictest.analysis.logged_stops.wet_stops import extensions, series_table, we
 from uictest.judging.evaluation import CaseResult
 
 KMH = 1.0 / 3.6
+CASE, *_ = uictest.load(logs.SCENARIO)
 
 
-def stop(number, speed, distance, *, dry=True, time=float("nan")):
+def stop(number, speed, distance, *, dry=True):
     measures = {"braking_distance_m": distance}
     result = CaseResult(f"stop-{number:04d}", "s.yaml", {}, "pass", "pass", measures=measures)
-    return LoggedStop(result, speed, dry, time)
+    return LoggedStop(result, speed, dry, CASE)
 
 
 def distances(deceleration, speeds):
@@ -151,54 +150,3 @@ def test_k_wet_of_a_log_with_one_dry_stop_has_no_interval_and_says_why(k_wet):
     assert row["value"] == pytest.approx(1.0 / 1.2, rel=0.1)
     assert row["low"] is None
     assert row["remark"] == "no 95 % interval: one dry stop shows no scatter"
-
-
-def drift_of(lengths, days=None):
-    times = np.full(len(lengths), np.nan) if days is None else 1.7e9 + 86_400.0 * np.asarray(days)
-    stops = [stop(k, 120.0, own, time=time) for k, (own, time) in enumerate(zip(lengths, times, strict=True))]
-    (found,) = drifts(stops, {})
-    return found
-
-
-def test_a_brake_that_gets_worse_from_day_to_day_is_told():
-    days = np.arange(12.0)
-    noise = np.random.default_rng(4).normal(0.0, 2.0, 12)
-    found = drift_of(500.0 * (1.0 + 0.01 * days) + noise, days)
-    assert found.told
-    assert found.over == "day"
-    assert found.low < 100.0 * 5.0 / 527.5 < found.high, "5 m a day, of 527.5 m in the middle"
-
-
-def test_a_slope_is_no_steeper_for_small_groups():
-    """Five speeds, two stops each ten days apart, the second 10 % longer: 10 of 105 % of their mean."""
-    stops = [
-        stop(k, speed, speed**2 / 20.0 * factor, time=1.7e9 + 86_400.0 * day)
-        for k, (speed, (factor, day)) in enumerate(product(range(60, 160, 20), [(1.0, 0.0), (1.1, 10.0)]))
-    ]
-    (found,) = drifts(stops, {})
-    assert found.change == pytest.approx(100.0 * 0.1 / 1.05)
-
-
-def test_wet_stops_from_other_speeds_are_no_drift():
-    """Nothing changes with time but from where the train braked."""
-    draw = np.random.default_rng(5)
-    stops = [
-        stop(k, speed, distance * draw.normal(1.0, 0.01), dry=False, time=1.7e9 + 86_400.0 * k)
-        for k, (speed, distance) in enumerate([(80.0, 275.0)] * 6 + [(140.0, 960.0)] * 6)
-    ]
-    assert not any(found.told for found in drifts(stops, {}))
-
-
-def test_without_dates_the_order_counts_and_few_stops_say_nothing():
-    assert drift_of([500.0, 502.0, 499.0, 501.0, 500.0]).over == "stop"
-    assert np.isnan(drift_of([500.0, 520.0, 540.0, 560.0]).slope)
-
-
-def test_stops_without_drift_hardly_ever_tell_one():
-    """One row has 95 %: of 400 intervals 20 miss, and more than 45 do with a chance below 1e-6."""
-    draw = np.random.default_rng(11)
-    wrong = sum(
-        found.low > 0.0 or found.high < 0.0
-        for found in (drift_of(draw.normal(500.0, 10.0, 10)) for _ in range(400))
-    )
-    assert wrong <= 45

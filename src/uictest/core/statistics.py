@@ -66,23 +66,6 @@ def proportion_interval(successes: int, trials: int, confidence: float = 0.95) -
     return float(low), float(high)
 
 
-def difference_interval(
-    first: tuple[float, float, float], second: tuple[float, float, float]
-) -> tuple[float, float]:
-    """Return the interval of the second of two independent estimates less the first, each (value, low, high).
-
-    MOVER of Zou and Donner (Statist. Med. 27 (2008) 1693): the lower end is d - sqrt((v2 - l2)^2 +
-    (u1 - v1)^2). For two means with Student's t it holds with few values too; that of Welch (1947), with 3
-    beside 20, misses four times as often as stated at 99.5 % (simulated). NaN at both ends where an interval
-    is missing, or neither has a width: it would feign certainty.
-    """
-    (v1, l1, u1), (v2, l2, u2) = first, second
-    below, above = math.hypot(v2 - l2, u1 - v1), math.hypot(u2 - v2, v1 - l1)
-    if not (below > 0.0 or above > 0.0):
-        return math.nan, math.nan
-    return v2 - v1 - below, v2 - v1 + above
-
-
 def ratio_interval(
     value: float, interval: tuple[float, float], mean: float, half_width: float
 ) -> tuple[float, float]:

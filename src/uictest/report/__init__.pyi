@@ -195,7 +195,6 @@ from .traces.trace import (
     trace_of as trace_of,
     trace_of_stop as trace_of_stop,
 )
-from .traces.vent_cycles import VentCycle as VentCycle, vent_cycles as vent_cycles
 from .verdict_sentences import (
     CASE_WORDS as CASE_WORDS,
     DIFFERS as DIFFERS,

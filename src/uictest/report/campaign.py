@@ -12,8 +12,8 @@ from uictest.core.document import Cell, Column, Data, Lines, Table
 from uictest.judging import evaluation
 from uictest.report.verdict_sentences import number
 
-Place = Literal["first", "map", "detail"]
-"""Where a table stands: first, before the stops; as a map behind that; behind the stops."""
+Place = Literal["first", "detail"]
+"""Where a table stands: before the stops, or behind them."""
 Digits = int | Literal["significant"] | None
 STOPS: Final = "stops"
 """Key of the column that names stops, separated by commas."""
@@ -26,15 +26,13 @@ class CampaignColumn(NamedTuple):
     """A column: its key for programs, its heading for people, and how many digits of its numbers they see.
 
     `digits` is None for a column of texts, of which long ones may wrap; `significant` where the rows have
-    numbers of different size. Where a terminal is too narrow the highest `rank` is left
-    out first, without ranks the last one.
+    numbers of different size.
     """
 
     key: str
     heading: str
     digits: Digits = None
     wraps: bool = False
-    rank: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +81,7 @@ def _column(column: CampaignColumn, place: int) -> Column[Sequence[Cell]]:
     return Column(
         heading=column.heading,
         text=_text_of(place, column.digits),
-        rank=place if column.rank is None else column.rank,
+        rank=place,
         right=column.digits is not None,
         wraps=column.wraps,
     )
@@ -117,7 +115,7 @@ class Campaign:
         return [*lines, *(table.document() for place in _PLACES for table in self.at(place))]
 
 
-_PLACES: Final[tuple[Place, ...]] = ("first", "map", "detail")
+_PLACES: Final[tuple[Place, ...]] = ("first", "detail")
 
 
 def file_name(table: CampaignTable) -> str:

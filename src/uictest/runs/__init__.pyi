@@ -27,7 +27,6 @@ from .recorded import (
     stops_of_series as stops_of_series,
 )
 from .recorded_files import (
-    STOPS_OF_LOG as STOPS_OF_LOG,
     CaseOfStop as CaseOfStop,
     RecordedFile as RecordedFile,
     each_file as each_file,

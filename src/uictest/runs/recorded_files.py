@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final, TypeVar
+from typing import TypeVar
 
 from uictest.core import recording
 from uictest.core.recording import formats
@@ -21,8 +21,6 @@ CaseOfStop = Callable[[str, float], scenario.Case]
 Result = TypeVar("Result")
 _UNKNOWN_SPEED = 120.0 * KILOMETRE_PER_HOUR
 """m/s, for the scenario of a record whose speed cannot be used; its result is an error at any speed."""
-STOPS_OF_LOG: Final = "stops.csv"
-"""File in the folder of a run that says where in a log its stops lie."""
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 _LONGEST_NAME = 80
 """Letters of the name of a stop; chosen: names of files made of it stay below 255."""

@@ -1,4 +1,4 @@
-"""What the stops of a log show together: wheelsets beside their neighbours, the rail, groups of stops."""
+"""What the stops of a log show together: groups of dry and wet stops, the friction of each."""
 
 import lazy_loader
 

@@ -35,15 +35,13 @@ class LoggedStop:
         result: of the stop.
         speed: at the brake command, km/h.
         dry: whether it is judged as one on a dry rail.
-        time: recorded at the brake command, s; NaN where it is not known.
-        case: that it was judged as; None where the result was read back.
+        case: that it was judged as.
     """
 
     result: CaseResult
     speed: float
     dry: bool
-    time: float = math.nan
-    case: Case | None = None
+    case: Case
 
     @property
     def nominal(self) -> float | None:
@@ -79,15 +77,13 @@ class LoggedStop:
 
 
 def dry_groups(stops: Sequence[LoggedStop]) -> dict[float, list[LoggedStop]]:
-    """Return the groups of the dry stops that may be a reference: no wheelset is vented or locks in them."""
-    return speed_groups([stop for stop in stops if stop.dry and not stop.slid])
+    """Return the dry stops that may be a reference, by their nominal speed, km/h.
 
-
-def speed_groups(stops: Sequence[LoggedStop]) -> dict[float, list[LoggedStop]]:
-    """Return the stops with a distance by their nominal speed, km/h."""
+    They have a distance, and no wheelset is vented or locks in them.
+    """
     groups: dict[float, list[LoggedStop]] = {}
     for stop in stops:
-        if stop.nominal is not None and math.isfinite(stop.distance):
+        if stop.dry and not stop.slid and stop.nominal is not None and math.isfinite(stop.distance):
             groups.setdefault(stop.nominal, []).append(stop)
     return dict(sorted(groups.items()))
 

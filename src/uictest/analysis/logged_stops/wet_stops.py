@@ -36,7 +36,7 @@ def wet_series(stops: Sequence[LoggedStop]) -> judged_series.SeriesResult | None
     """Return the wet stops as a series beside the dry ones; None without wet stops in a speed group."""
     dry = [stop for group in references(stops).values() for stop in group]
     wet = [stop for stop in stops if stop.grouped and not stop.dry]
-    ordered = [stop for stop in (*dry, *wet) if stop.case is not None]
+    ordered = [*dry, *wet]
     if all(stop.dry for stop in ordered):
         return None
     planned = series_plans.series_of("log", [_planned(stop) for stop in ordered])
@@ -51,7 +51,6 @@ def _from_nominal_speed(stop: LoggedStop) -> CaseResult:
 
 
 def _planned(stop: LoggedStop) -> series_plans.PlannedStop:
-    assert stop.case is not None
     speed = yaml.parse_quantity(f"{stop.nominal:g} km/h", "speed")
     scenario = stop.case.scenario.model_copy(update={"initial_speed": speed})
     case = replace(stop.case, scenario=scenario, id=stop.result.id, path=Path(stop.case.path))

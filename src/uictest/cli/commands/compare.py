@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import Annotated
 import typer
 
 from uictest import report, runs
-from uictest.analysis import comparison, logged_stops
+from uictest.analysis import comparison
 from uictest.cli.options import (
     CalibratedBy,
     Jobs,
@@ -66,8 +65,7 @@ def compare(
 ) -> ExitCode:
     """Compare two runs or two recordings. Exit 1 if anything is out of tolerance.
 
-    With --over, compare the variants of one run, stop by stop under the same noise. Two runs of 'log' are
-    compared group by group, unpaired; the exit code does not depend on the result then.
+    With --over, compare the variants of one run, stop by stop under the same noise.
     """
     if overrides and not firm:
         raise typer.BadParameter("goes with --firm, which runs stops anew", param_hint="--set")
@@ -81,9 +79,6 @@ def compare(
         raise typer.BadParameter("give a second run or recording, or --over KEY", param_hint="B")
     if channels and page is None:
         raise typer.BadParameter("there is no --html page to draw on", param_hint="--channel")
-    if logs := _two_logs(first, second):
-        _require_nothing_of_pairs(tolerance, channels, page)
-        return compare_logs(*logs, shown)
     compared = _compared(first, second, tolerances_of(tolerance), None if page is None else channels or [])
     if shown is PlainFormat.JSON:
         data(comparison.comparison_json(compared))
@@ -97,36 +92,6 @@ def compare(
             message(f"uictest: not drawn: {line}")
     message(f"uictest: {comparison.verdict_line(compared)}")
     return ExitCode.MET if compared.agrees else ExitCode.MISSED
-
-
-def _two_logs(first: Path, second: Path) -> tuple[report.RunContent, report.RunContent] | None:
-    """Return two runs if both are of logs; None where they are not, or cannot be read."""
-    places = [runs.run_folder(place) for place in (first, second)]
-    if not all((place / runs.STOPS_OF_LOG).is_file() for place in places):
-        return None
-    try:
-        one, other = map(report.read_run, places)
-    except (OSError, ValueError):
-        return None  # said where runs are compared
-    return (one, other) if one.campaign and other.campaign else None
-
-
-def _require_nothing_of_pairs(*stated: object) -> None:
-    if any(stated):
-        raise typer.BadParameter("two logs have no pairs: leave out --tolerance, --channel and --html")
-
-
-def compare_logs(first: report.RunContent, second: report.RunContent, shown: PlainFormat) -> ExitCode:
-    """Print how the stops of two logs differ. Exit 5 where no group of stops is on both sides."""
-    table = logged_stops.compare_logs(first, second)
-    if shown is PlainFormat.JSON:
-        data(json.dumps(logged_stops.logs_form(first.name, second.name, table), indent=2, allow_nan=False))
-    else:
-        for line in report.titled_lines([table.document()], terminal_width(sys.stdout)):
-            data(line)
-    told = sum(row["finding"] not in ("", "not told apart") for row in table.data.rows)
-    message(f"uictest: {told} of {report.counted(len(table.rows), 'quantity', 'quantities')} told apart")
-    return ExitCode.MET if table.rows else ExitCode.NOTHING_SELECTED
 
 
 def _require_one_run(second: Path | None, *others: Sequence[str] | None) -> None:

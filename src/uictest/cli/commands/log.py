@@ -90,20 +90,19 @@ def log(
         )
     request = campaign.RecordingRequest("all")
     passed_over = [_sentence(event) for event in found.passed_over]
-    times = {name: event.time for name, event in named.items()}
     known = scenario is not None or _states_vehicle(overrides or ())
-    survey = logged_stops.LogSurvey(times, len(passed_over), vehicle_known=known)
-    batch = runs.recorded_batch(stops, context.obj, request, strict=strict, observe=survey.add)
-    batch = batch._replace(passed_over=passed_over, together=survey.campaign)
+    together = logged_stops.StopsTogether(len(passed_over), vehicle_known=known)
+    batch = runs.recorded_batch(stops, context.obj, request, strict=strict, observe=together.add)
+    batch = batch._replace(passed_over=passed_over, together=together.campaign)
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
     published = run_display.publish_and_show(batch, output, ("html",), junit, display)
     if published is None:
         return ExitCode.INTERRUPTED
     places = {file.name: math.nan if file.stop is None else file.stop.place for file in stops.files}
     table = logged_stops.stops_table(named, found.passed_over, published.content.ranked, places)
-    file_system.write(published.place, runs.STOPS_OF_LOG, report.csv_text(*table))
+    file_system.write(published.place, "stops.csv", report.csv_text(*table))
     if not named:
-        message(f"uictest: {survey.without_stop}")
+        message(f"uictest: {together.without_stop}")
         return ExitCode.NOTHING_SELECTED
     if shown is options.Format.TEXT and not quiet:
         _show_together(published.content.campaign)

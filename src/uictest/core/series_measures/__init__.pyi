@@ -8,10 +8,8 @@ from .estimate import (
 )
 from .measure import (
     CountedStop as CountedStop,
-    Figure as Figure,
     Rail as Rail,
     SeriesMeasure as SeriesMeasure,
     SpeedStops as SpeedStops,
-    largest_of_wheelsets as largest_of_wheelsets,
     of_stop as of_stop,
 )

@@ -89,7 +89,6 @@ from .parts.named_file import (
 )
 from .parts.pad import PadLaw as PadLaw
 from .parts.rail import (
-    Cleaning as Cleaning,
     CreepCurve as CreepCurve,
     FrictionProfile as FrictionProfile,
     RailCondition as RailCondition,

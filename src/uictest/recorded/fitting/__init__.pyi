@@ -1,4 +1,3 @@
-from .balances import Balances as Balances
 from .fit import (
     Fit as Fit,
     balances_of as balances_of,
@@ -6,7 +5,6 @@ from .fit import (
     fit_stop as fit_stop,
 )
 from .outputs import (
-    Agreement as Agreement,
     agreement as agreement,
     fit_document as fit_document,
     fitted_yaml as fitted_yaml,

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from uictest.core.recording.formats import UnreadableError
 from uictest.recorded.service_log.signals import Array, Before, Rows
 
-EARLIEST_DATE: Final = 946_684_800.0
+_EARLIEST_DATE: Final = 946_684_800.0
 """s: 2000-01-01 as Unix time; a clock that shows less counts from somewhere else."""
 _LARGEST_OVERLAP = 3.0
 """s by which a clock may have been put right between two files, less than a stop takes; chosen."""
@@ -59,7 +59,7 @@ class FileClock:
         """Note the next rows."""
         # A recorder may begin with a default date, until its clock is put right.
         right = rows.time if self._rows else rows.time[int(steps_of_clock(rows.time)[-1:].sum()) :]
-        dated = right[right > EARLIEST_DATE]
+        dated = right[right > _EARLIEST_DATE]
         self.dates = np.concatenate((self.dates, dated))[[0, -1]] if len(dated) else self.dates
         self._rows += len(rows.time)
         self._repeated += int(np.count_nonzero(~(np.abs(np.diff(rows.time)) > 0.0)))

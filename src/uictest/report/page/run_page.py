@@ -18,7 +18,6 @@ from uictest.report.difference import (
     differences_table,
     not_compared_sentences,
 )
-from uictest.report.page.campaign_view import cell_class, shade
 from uictest.report.page.case_view import CaseView, case_view, plots_json
 from uictest.report.page.findings import (
     MOST_FINDINGS,
@@ -61,8 +60,6 @@ def page_html(content: RunContent) -> str:
         narrow=NARROW,
         **_of_series(content),
         stops_key=STOPS,
-        cell_class=cell_class,
-        shade=shade,
         maps=maps_of(content.results),
         requirements=verified_requirements(content.results, content.series),
         requirement_tones=REQUIREMENT_TONES,

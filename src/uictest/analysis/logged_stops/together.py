@@ -7,16 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 from uictest import report
-from uictest.analysis.logged_stops.drift import drift_table, drifts
-from uictest.analysis.logged_stops.neighbours import (
-    FEWEST,
-    NeighbourDifference,
-    compared_table,
-    findings_table,
-    neighbour_differences,
-    sliding_sentence,
-)
-from uictest.analysis.logged_stops.rail_tables import rail_tables
+from uictest.analysis.logged_stops.friction import StopOnRail, friction_of, friction_table
 from uictest.analysis.logged_stops.stop_groups import (
     LoggedStop,
     dry_groups,
@@ -36,51 +27,40 @@ DRY: Final = "dry"
 """Name of the condition of a dry rail."""
 
 
-class LogSurvey:
-    """What the stops of a log show.
+class StopsTogether:
+    """What the stops of a log show together.
 
     Args:
-        times: of the brake commands by the name of the stop, s as recorded.
         passed_over: how many applications of the brake are no stops.
         vehicle_known: whether the conditions state vehicle and brake: without, nothing is said of the rail.
     """
 
-    def __init__(self, times: Mapping[str, float], passed_over: int, *, vehicle_known: bool) -> None:
-        self._times, self._passed_over = times, passed_over
-        self._vehicle_known = vehicle_known
-        self._signs: list[service_log.WheelsetSigns] = []
-        self._uses: list[service_log.RailUse] = []
+    def __init__(self, passed_over: int, *, vehicle_known: bool) -> None:
+        self._passed_over, self._vehicle_known = passed_over, vehicle_known
         self._stops: list[LoggedStop] = []
+        self._on_rail: list[StopOnRail] = []
 
     def add(self, case: Case, stop: field_data.RecordedStop, result: CaseResult) -> None:
         """Observe one judged stop."""
         speed = float(stop.recording["speed"][0]) / KILOMETRE_PER_HOUR
         dry = case.scenario.rail.condition.name == DRY
-        self._stops.append(LoggedStop(result, speed, dry, self._times.get(case.id, math.nan), case))
-        self._signs.append(service_log.wheelset_signs(stop, result, case.scenario))
+        self._stops.append(LoggedStop(result, speed, dry, case))
         if self._vehicle_known:
-            self._uses.append(service_log.rail_use(case.id, stop, case.scenario))
+            friction = friction_of(stop, case.scenario)
+            self._on_rail.append(StopOnRail(case.id, speed, stop.place, friction))
 
     def campaign(self, results: Sequence[CaseResult]) -> report.Campaign:
         """Return what the stops observed show together; `results` are those of all."""
         if not results:
             return report.Campaign((self.without_stop,))
-        differences = neighbour_differences(self._signs)
-        findings = findings_table(self._signs, differences)
         series = wet_series(self._stops)
-        friction = {use.stop: use.friction for use in self._uses if use.standing == "found"}
-        drifting = drift_table(drifts(self._stops, friction))
-        speeds = {stop.result.id: stop.speed for stop in self._stops}
         return report.Campaign(
-            tuple(self._sentences(findings, differences, series, drifting)),
+            (*self._group_sentences(series), self._rail_sentence()),
             (
-                findings,
                 dry_table(self._stops),
-                *rail_tables(self._uses, results, speeds),
+                *((friction_table(self._on_rail),) if self._on_rail else ()),
                 *((series_table(series),) if series else ()),
                 wet_table(self._stops, series),
-                drifting,
-                compared_table(differences),
             ),
         )
 
@@ -91,34 +71,6 @@ class LogSurvey:
             applied = report.counted(self._passed_over, "application")
             return f"no stop found: {applied} of the brake passed over, each with its reason"
         return "no stop found: by the channels of the map, the brake is never applied"
-
-    def _sentences(
-        self,
-        findings: report.CampaignTable,
-        differences: Sequence[NeighbourDifference],
-        series: SeriesResult | None,
-        drifting: report.CampaignTable,
-    ) -> Iterator[str]:
-        compared = max((each.difference.stops for each in differences), default=0)
-        if findings.rows:
-            yield f"{report.counted(len(findings.rows), 'finding')} on wheelsets"
-        elif compared >= FEWEST:
-            told = {each.sign for each in differences if each.difference.stops >= FEWEST}
-            missing = len(service_log.SIGNS) - len(told)
-            rest = (
-                f"; {missing} of {len(service_log.SIGNS)} numbers have fewer than {FEWEST} stops to compare"
-            )
-            yield f"no wheelset stands out from its neighbours{rest if missing else ''}"
-        if compared < FEWEST:
-            counted = report.counted(compared, "stop")
-            yield f"wheelsets are not told apart: {counted} to compare them in, {FEWEST} are needed"
-        if sliding := sliding_sentence(differences):
-            yield sliding
-        yield from self._group_sentences(series)
-        yield self._rail_sentence()
-        for row in drifting.data.rows:
-            if row["finding"] == "drifts":
-                yield f"{row['quantity']}: {row['change']:+.1f} % from the first stop to the last"
 
     def _group_sentences(self, series: SeriesResult | None) -> Iterator[str]:
         groups = dry_groups(self._stops)
@@ -146,13 +98,14 @@ class LogSurvey:
     def _rail_sentence(self) -> str:
         if not self._vehicle_known:
             return "the rail is not examined: state vehicle and brake with --scenario"
-        found = [use.friction for use in self._uses if use.standing == "found"]
-        seen = f"friction found in {len(found)} of {report.counted(len(self._uses), 'stop')}"
-        if several := sum(use.standing == "not one" for use in self._uses):
+        frictions = [each.friction for each in self._on_rail]
+        found = [each.value for each in frictions if each.standing == "found"]
+        seen = f"friction found in {len(found)} of {report.counted(len(frictions), 'stop')}"
+        if several := sum(each.standing == "not one" for each in frictions):
             seen += f", no single one in {several}"
         if found:
             return f"{seen}: {min(found):.3f} to {max(found):.3f}"
-        return f"{seen}: {'; '.join(dict.fromkeys(use.remark for use in self._uses))}"
+        return f"{seen}: {'; '.join(dict.fromkeys(each.remark for each in frictions))}"
 
 
 def stops_table(
