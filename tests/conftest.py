@@ -58,7 +58,6 @@ _LONGEST = (
     "rig/backends/test_compiled.py",
     "service_log/test_campaign.py",
     "service_log/test_found_stops.py",
-    "cli/commands/test_compare_firm.py",
     "docs/test_pictures.py",
     "cli/test_signals.py",
     "report/test_index_browser.py",

@@ -39,7 +39,7 @@ from .escaping import (
     printable as printable,
     xml_text as xml_text,
 )
-from .firmness_sentences import FirmPair as FirmPair, firmness_lines as firmness_lines
+from .firmness_sentences import firmness_lines as firmness_lines
 from .formats import (
     IN_EVERY_RUN as IN_EVERY_RUN,
     draws_stops as draws_stops,

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from uictest.core.document import Cell, Column, Document, Lines, Table
+from uictest.core.document import Cell, Column, Table
 from uictest.report.escaping import printable
 
 if TYPE_CHECKING:
@@ -58,51 +57,6 @@ def firmness_property(result: CaseResult | SeriesResult) -> dict[str, str]:
         return {"firmness": "not_shown"}  # what was varied came to another outcome
     turns = [f"{each.key} {each.side} {each.value or each.stands_to}" for each in firmness.turned_by]
     return {"firmness": ": ".join(filter(None, (firmness.status, ", ".join(turns))))}
-
-
-class FirmPair(NamedTuple):
-    """How firm it is which of two stops, named by the ids of their cases, comes to less."""
-
-    first: str
-    second: str
-    firmness: Firmness
-    undecided: Sequence[str]
-    """Quantities in which neither stop comes to less at the nominal values, or that are not known."""
-
-    def document(self) -> Document:
-        """Return which comes to less of each quantity, what turns that, and the numbers by their effect."""
-        told = [
-            f"{self.second} against {self.first}, under the same noise and the same draws",
-            *map(self._sentence, self.firmness.criteria),
-        ]
-        lines = [*map(printable, told), *self.remarks()]
-        return Document("Firm or not", [Lines(lines), firmness_table(self.firmness)])
-
-    def remarks(self) -> list[str]:
-        """Return what is not decided, which draws do not count, and what was run otherwise."""
-        neither = (f"{each}: neither comes to less, or one came to no standstill" for each in self.undecided)
-        return [printable(each) for each in (*neither, *_remarks(self.firmness))]
-
-    def quantities(self) -> Table:
-        """Return a row for each quantity, with A and B for the first and the second stop."""
-        return Table(_QUANTITIES, [(each, self.firmness) for each in self.firmness.criteria])
-
-    def _sentence(self, verdict: VerdictFirmness) -> str:
-        words = _lesser(self.first, self.second)
-        by = "" if verdict.margin is None else f" by {_percent(abs(verdict.margin))} of {self.first}"
-        said = (
-            f"{verdict.criterion}: {words[verdict.nominal]}{by}, which is {_status(verdict, self.firmness)}"
-        )
-        return "; ".join([said, *_turns(_worded(verdict, words))])
-
-
-def _lesser(first: str, second: str) -> Mapping[str, str]:
-    """Return in words what the statuses of a quantity say."""
-    return {"pass": f"less with {first}", "fail": f"less with {second}", "same": "the same"}
-
-
-def _worded(verdict: VerdictFirmness, words: Mapping[str, str]) -> VerdictFirmness:
-    return replace(verdict, turned_by=tuple(replace(turn, to=words[turn.to]) for turn in verdict.turned_by))
 
 
 def _status(verdict: VerdictFirmness, firmness: Firmness) -> str:
@@ -211,34 +165,6 @@ _COLUMNS: Final[Sequence[Column[_Row]]] = (
     Column(heading="mark", text=lambda row: row.number.mark, rank=4),
     Column(heading="why this range", text=lambda row: row.number.reason, rank=5, wraps=True),
 )
-
-
-_Quantity = tuple["VerdictFirmness", "Firmness"]
-_SIDES: Final = {"pass": "A", "fail": "B", "same": "neither"}
-_AB: Final = _lesser("A", "B")
-_QUANTITIES: Final[Sequence[Column[_Quantity]]] = (
-    Column(heading="quantity", text=lambda row: row[0].criterion, literal=True),
-    Column(heading="less with", text=lambda row: _SIDES[row[0].nominal]),
-    Column(heading="B - A\n% of A", text=lambda row: _share(row[0].margin), right=True),
-    Column(
-        heading="firm or not",
-        text=lambda row: _WORDS[row[0].status].partition(":")[0],
-        tone=lambda row: "good" if row[0].status == "firm" else "odd",
-    ),
-    Column(heading="stands in\n% of draws", text=lambda row: _share(row[0].share), right=True),
-    Column(heading="draws", text=lambda row: str(row[0].counted), right=True),
-    Column(
-        heading="calibrated\n%",
-        text=lambda row: "" if row[0].calibrated is None else _share(row[0].calibrated.share),
-        right=True,
-    ),
-    Column(heading="what turns it", text=lambda row: "; ".join(_reasons(row[0])), wraps=True),
-)
-
-
-def _reasons(verdict: VerdictFirmness) -> Iterator[str]:
-    _, _, noise = _WORDS[verdict.status].partition(": ")
-    yield from filter(None, (noise, *_turns(_worded(verdict, _AB))))
 
 
 def firmness_rows(name: str, firmness: Firmness) -> Iterator[dict[str, Cell]]:

@@ -7,7 +7,6 @@ from .batch import (
 )
 from .drawing import with_traces as with_traces
 from .errors import InvalidInputError as InvalidInputError
-from .firm_pairs import firm_pairs as firm_pairs, firm_pairs_json as firm_pairs_json
 from .observer import Advance as Advance, Observer as Observer, available_processors as available_processors
 from .publishing import (
     Published as Published,

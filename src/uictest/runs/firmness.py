@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from itertools import chain
 from typing import Final
 
 import numpy as np
 
 from uictest import controllers, rig
-from uictest.analysis.firmness import Drawn, Effort, FirmnessStudy, HoldDraws, compared, drawn
+from uictest.analysis.firmness import Drawn, Effort, FirmnessStudy, HoldDraws, drawn
 from uictest.judging import series as judging_series
 from uictest.judging.evaluation import CaseResult, Firmness, RepeatedStop, Repeats
 from uictest.plans import scenario, series as series_plans, sweeps
@@ -61,21 +60,6 @@ class FirmnessRun:
             return [drawn(each.outcome, each.criteria) for [each] in results]
 
         return self._study([stops], stops.numbers, judge, case.scenario.judged_by)
-
-    def of_pair(self, first: scenario.Case, second: scenario.Case) -> Firmness:
-        """Return how firm it is which of two stops comes to less; both have the same draws.
-
-        Its criteria are the quantities, its margins the differences as shares of the first stop.
-        """
-        sides = [_VariedStops.of(campaign.Stop(each).alone, self) for each in (first, second)]
-        numbers = {identity: number for side in sides for identity, number in side.numbers.items()}
-
-        def judge(columns: Sequence[Column], seeds: Sequence[int]) -> list[Drawn]:
-            taken = dict(zip(numbers, columns, strict=True))
-            one, other = (side.results(taken, seeds) for side in sides)
-            return [compared(*pair) for pair in zip(chain(*one), chain(*other), strict=True)]
-
-        return self._study(sides, numbers, judge, ())
 
     def of_series(self, planned: series_plans.Series) -> Firmness:
         """Return how firm the verdicts of a series are; a number that several of its cases have is one."""
@@ -266,12 +250,6 @@ def stops_of_case(case: scenario.Case, settings: campaign.RunSettings) -> int:
     """Return how many stops are run for a case before turning values are searched."""
     numbers = {identity for car in case.cars for identity in _numbers_of(car)}
     return EFFORT.stops(len(numbers)) + _calibrating_stops(settings)
-
-
-def stops_of_pair(first: scenario.Case, second: scenario.Case, settings: campaign.RunSettings) -> int:
-    """Return how many stops are run for two cases before turning values are searched."""
-    numbers = {_identity(each) for case in (first, second) for each in sweeps.ranged_numbers(case.scenario)}
-    return 2 * EFFORT.stops(len(numbers)) + _calibrating_stops(settings)
 
 
 def stops_of_series(planned: series_plans.Series, settings: campaign.RunSettings) -> int:

@@ -12,23 +12,16 @@ import typer
 from uictest import report, runs
 from uictest.analysis import comparison
 from uictest.cli.options import (
-    CalibratedBy,
-    Jobs,
     ListFormat,
-    Overrides,
     PlainFormat,
     ToleranceTexts,
     Verbose,
     argument,
-    calibration,
     option,
     tolerances_of,
 )
 from uictest.cli.output import ExitCode, data, message, terminal_width
-from uictest.cli.progress import TerminalObserver
 from uictest.core import files
-from uictest.report import page as pages
-from uictest.running import campaign
 
 
 def compare(
@@ -46,16 +39,6 @@ def compare(
             "Compare the variants of run A that differ in KEY, such as controller. May be repeated.",
         ),
     ] = None,
-    firm: Annotated[
-        bool,
-        option(
-            "--firm",
-            "With --over, of a scenario A: whether numbers nobody measured turn which variant is better.",
-        ),
-    ] = False,
-    calibrated_by: CalibratedBy = None,
-    overrides: Overrides = None,
-    jobs: Jobs = "auto",  # type: ignore[assignment]  # typer hands the text to the option's parser
     page: Annotated[
         Path | None,
         option("--html FILE", "Also write a page, with overlay plots of A and B."),
@@ -67,11 +50,6 @@ def compare(
 
     With --over, compare the variants of one run, stop by stop under the same noise.
     """
-    if overrides and not firm:
-        raise typer.BadParameter("goes with --firm, which runs stops anew", param_hint="--set")
-    if firm:
-        settings = campaign.RunSettings(jobs=jobs, calibration=calibration(calibrated_by, firm=firm))
-        return compare_firmly(first, second, over or (), overrides or (), settings, shown, page)
     if over:
         _require_one_run(second, tolerance, channels)
         return compare_variants(first, over, shown, page)
@@ -155,40 +133,6 @@ def compare_variants(place: Path, keys: Sequence[str], shown: PlainFormat, page:
     counts = report.counted(groups, "group of stops", "groups of stops")
     message(f"uictest: {counts} of {report.counted(len(compared) + 1, 'variant')} paired")
     return ExitCode.MET if groups else ExitCode.NOTHING_SELECTED
-
-
-def compare_firmly(
-    place: Path,
-    second: Path | None,
-    keys: Sequence[str],
-    overrides: Sequence[str],
-    settings: campaign.RunSettings,
-    shown: PlainFormat,
-    page: Path | None,
-) -> ExitCode:
-    """Print how firm it is which variant of a scenario is better; the exit code does not depend on it."""
-    if not keys:
-        raise typer.BadParameter(
-            "say which variants: --over KEY, such as --over controller", param_hint="--firm"
-        )
-    if second is not None:
-        raise typer.BadParameter("takes one scenario; leave B out", param_hint="--firm")
-    if not runs.why_no_run(place):
-        raise runs.InvalidInputError(
-            f"{place}: --firm runs stops anew: name a scenario, not the folder of a run"
-        )
-    cases = runs.load_cases([place], overrides)
-    pairs = []
-    for pair in runs.firm_pairs(cases, keys, settings, TerminalObserver()):
-        pairs.append(pair)
-        if shown is PlainFormat.TEXT:
-            for line in report.document_lines(pair.document(), terminal_width(sys.stdout)):
-                data(line)
-    if shown is PlainFormat.JSON:
-        data(runs.firm_pairs_json(pairs))
-    if page is not None:
-        files.write_to(page, pages.firm_pairs_html(place.name, pairs))
-    return ExitCode.MET
 
 
 def _run(folder: Path) -> report.RunContent:

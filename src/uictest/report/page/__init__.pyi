@@ -1,6 +1,5 @@
 from .axis import spanned as spanned
 from .case_view import plot_data as plot_data, plots_json as plots_json, sampling_text as sampling_text
-from .firm_pairs import firm_pairs_html as firm_pairs_html
 from .forest import Effect as Effect, forest as forest
 from .links import case_anchor as case_anchor, fragment as fragment, series_anchor as series_anchor
 from .plot import (
