@@ -14,7 +14,6 @@ from statistics import median
 from typing import Any
 
 import machine
-import numpy as np
 from stops import SCENARIOS
 from timing import seconds
 
@@ -50,23 +49,6 @@ def rig() -> Stop:
         while not stepped.stopped:
             inputs = stepped.step(hold=FILLING, vent=FILLING)
         return inputs.cycle
-
-    return run
-
-
-def environment() -> Stop:
-    """Return the stop stepped by the gymnasium environment."""
-    from uictest.gym import RigEnv
-
-    env, action = RigEnv(STOP), np.zeros(4, np.int64)
-
-    def run() -> int:
-        env.reset(seed=1)
-        cycles, ended = 0, False
-        while not ended:
-            _, _, terminated, truncated, _ = env.step(action)
-            ended, cycles = terminated or truncated, cycles + 1
-        return cycles
 
     return run
 
@@ -113,8 +95,6 @@ def main(turns: int) -> None:
     print(machine.description("numba", "numpy"))
     with tempfile.TemporaryDirectory() as folder:
         candidates: dict[str, Stop] = {"machine code": machine_code(), "uictest.Rig": rig()}
-        with contextlib.suppress(ImportError):
-            candidates["gymnasium"] = environment()
         with contextlib.suppress(ImportError):
             candidates["FMU by FMPy"] = fmu(folder)
         times: dict[str, list[float]] = {name: [] for name in candidates}

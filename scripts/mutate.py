@@ -45,7 +45,6 @@ _TESTS = {
         ),
         *("test_ensemble.py", "test_record.py", "test_units.py", "rig", "evaluation", "history"),
     ),
-    "gym": ("stepping",),
     "judging": ("evaluation", "series"),
     "plans": ("scenario", "series", "sweeps/plan", "validation", "faults", "library", "templates", "rig"),
     "recorded": ("field_data", "fitting", "service_log"),

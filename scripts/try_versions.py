@@ -21,7 +21,7 @@ from pathlib import Path
 from packaging.requirements import Requirement
 
 REPOSITORY = Path(__file__).parents[1]
-EXTRAS = ("figures", "mdf", "tdms", "mat", "fmu", "gym", "dask")
+EXTRAS = ("figures", "mdf", "tdms", "mat", "fmu", "dask")
 TOOLS = ("hypothesis", "jsonschema", "junitparser", "openpyxl", "pytest")
 """What the tests below need besides, in any version."""
 TESTS = (

@@ -7,7 +7,6 @@ from .loading import (
 from .recorded import Validation as Validation, evaluate as evaluate, validate as validate
 from .results import Results as Results
 from .running import run as run
-from .stepped_rig import RigState as RigState
 from .stepping import Rig as Rig
 from .sweeping import SweepResults as SweepResults, sweep as sweep
 from .train_stepping import TrainRig as TrainRig
