@@ -63,7 +63,6 @@ _LONGEST = (
     "report/test_index_browser.py",
     "fmu/test_building.py",
     "studies/field/test_search.py",
-    "sweeps/summaries/test_tails.py",
     "cli/sweep/test_publishing.py",
     "sweeps/running/test_external.py",
     "selftest/test_selftest.py",

@@ -44,7 +44,7 @@ def test_a_sweep_and_its_parent_may_ship(workplace, call):
         "vary: {matrix: {rig.compensation: [none, full]}}\n"
     )
     call("sweep", "own.sweep.yaml", "--dry-run", code=0)
-    call("sweep", "dry-120-k-dry", "--dry-run", code=0)
+    call("sweep", "slide-80-sensitivity", "--dry-run", code=0)
 
 
 @pytest.mark.parametrize(

@@ -99,7 +99,6 @@ def _document(text):
         },
         "distributions": [
             {"measure": text, "unit": text, "cases": 4, "minimum": 1.0, "mean": 2.0, "maximum": 3.0}
-            | {"edges": [1.0, 2.0, 3.0], "counts": {"pass": [2, 1], "fail": [0, 1]}}
         ],
         "trends": [
             {"parameter": f"brake.{text}", "values": ["80 %", "90 %"], "measure": text, "unit": text}

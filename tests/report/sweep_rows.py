@@ -1,4 +1,4 @@
-"""Sweeps with the rows of all their cases, of which everything on a map or a scatter plot is known."""
+"""Sweeps with the rows of all their cases, of which everything on a map is known."""
 
 import numpy as np
 import pyarrow as pa
@@ -25,8 +25,7 @@ def write_rows(folder, rows):
 def sweep_result(values, cases, **changes):
     """Return the result of a sweep over some values of its parameters."""
     outcomes = dict.fromkeys(("pass", "fail", "invalid", "inconclusive", "error", "skipped"), 0)
-    distribution = {"cases": cases, "minimum": 0.0, "mean": 0.5, "maximum": 1.0, "edges": [0.0, 1.0]}
-    distribution |= {"counts": {"pass": [cases]}}
+    distribution = {"cases": cases, "minimum": 0.0, "mean": 0.5, "maximum": 1.0}
     rates = {
         key: [{"value": value, "cases": 1, "met": 1, "outcomes": outcomes} for value in own]
         for key, own in values.items()

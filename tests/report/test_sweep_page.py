@@ -3,9 +3,11 @@
 from dataclasses import replace
 
 from uictest.report.page import sweep_page_html
+from uictest.report.sweep.folder import SweepContent
 from uictest.report.traces.trace import trace_of
 
 from .builders import HOSTILE, make_recording, make_result
+from .sweep_rows import DRAWN, drawn_rows, sweep_result, write_rows
 from .test_page import Page
 
 
@@ -21,8 +23,17 @@ def test_what_was_asked_comes_before_the_maps(make_sweep):
     text = Page(sweep_page_html(make_sweep())).text
     asked = [text.index(heading) for heading in ("Frontier along", "What the measures depend on", "Maps")]
     assert asked == sorted(asked)
-    # How often a value of a list occurs is chosen, not found.
-    assert "Distributions" not in text
+
+
+def test_of_a_sample_the_outcomes_are_mapped_and_the_measures_drawn_as_trends(tmp_path):
+    write_rows(tmp_path, drawn_rows(60, failing=(7, 8, 9)))
+    ends = {"minimum": [1.0, 2.0], "mean": [2.0, 3.0], "maximum": [3.0, 4.0]}
+    trend = {"parameter": "gain", "values": DRAWN["gain"], "measure": "braking distance", "unit": "m"}
+    result = sweep_result(DRAWN, 60, trends=[{**trend, "cases": [30, 30], **ends}])
+    page = Page(sweep_page_html(SweepContent(tmp_path, result, {})))
+    figures = [attributes.get("id") for tag, attributes in page.elements if tag == "figure"]
+    assert [each for each in figures if each] == ["map-met-rail.friction-gain"]
+    assert "braking distance, m; n = 30" in page.text
 
 
 def test_the_controllers_under_test_are_named_as_on_the_page_of_a_run(make_sweep):

@@ -130,7 +130,7 @@ def show_annotations(content: report.SweepContent) -> None:
 
 
 def result_lines(result: report.SweepResult, width: int | None = None) -> Iterator[str]:
-    """Yield maps, met cases by parameter, sensitivities, tails and the frontier, a blank line between them.
+    """Yield maps, met cases by parameter, sensitivities and the frontier, a blank line between them.
 
     Maps and tables keep to `width` characters, None for any width.
     """

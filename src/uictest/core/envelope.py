@@ -9,7 +9,7 @@ RESULT: Final = "uictest/result/2"
 MANIFEST: Final = "uictest/manifest/2"
 _SHOWN: Final = 80
 """Characters that a reader is shown of an entry."""
-Kind = Literal["run", "sweep", "validation", "comparison", "variants", "k-dry"]
+Kind = Literal["run", "sweep", "validation", "comparison", "variants"]
 _EARLIER: Final[Mapping[str, tuple[str, Kind]]] = {
     "uictest/result/1": (RESULT, "run"),
     "uictest/sweep-result/1": (RESULT, "sweep"),

@@ -122,7 +122,7 @@ from .sweep.result import (
     Frontier as Frontier,
     FrontierScan as FrontierScan,
     MapAxis as MapAxis,
-    MeasureHistogram as MeasureHistogram,
+    MeasureRange as MeasureRange,
     MissedCase as MissedCase,
     OutcomeCount as OutcomeCount,
     SobolIndex as SobolIndex,
@@ -139,13 +139,6 @@ from .sweep.sweep_sentences import (
     sweep_annotations as sweep_annotations,
     sweep_suite as sweep_suite,
     sweep_tally as sweep_tally,
-)
-from .sweep.tails import (
-    DrawCount as DrawCount,
-    KDry as KDry,
-    KDryLevel as KDryLevel,
-    MeasureQuantiles as MeasureQuantiles,
-    Quantile as Quantile,
 )
 from .sweep.values import (
     DrawnInterval as DrawnInterval,

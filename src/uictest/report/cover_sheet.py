@@ -86,14 +86,6 @@ def height_of_bars(bars: int) -> int:
     return min(max(_HEIGHT, 80 + _HEIGHT_OF_A_BAR * bars), _TALLEST)
 
 
-def histogram_chart(workbook: Workbook, title: str, bins: Cells, plotted: Sequence[Plotted]) -> Chart:
-    """Return a chart with a column for each bin, in which the plotted stand on each other."""
-    chart = workbook.add_chart({"type": "column", "subtype": "stacked"})
-    for each in plotted:
-        chart.add_series(_series(bins, each) | {"gap": 10})
-    return _finish(chart, title, legend=len(plotted) > 1)
-
-
 def line_chart(workbook: Workbook, title: str, values: Cells, plotted: Sequence[Plotted]) -> Chart:
     """Return a chart with a line over the values for each of the plotted, the first one strong."""
     chart = workbook.add_chart({"type": "line"})

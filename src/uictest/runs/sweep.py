@@ -103,7 +103,6 @@ def publish(
     frontier = None if request.search is None else _frontier(request, summary, request.search, observer)
     worst = _run_worst(request, summary, store.folder)
     result = replace(summary.result, frontier=frontier, worst=worst.results, subjects=worst.subjects)
-    result = with_nominal_stops(request, result)
     if request.firm:
         result = replace(result, nominal=_nominal_with_firmness(request, observer))
     document = report.write_sweep_result(store.folder, result, request.selection.plan.file)
@@ -161,24 +160,6 @@ def _frontier(
     return report.Frontier(search.key, tuple(scans))
 
 
-def with_nominal_stops(request: SweepRequest, result: report.SweepResult) -> report.SweepResult:
-    """Return the result of a sweep with K_dry over the nominal deceleration, where the file states none.
-
-    A note names each nominal case without a deceleration. Raises KeyboardInterrupt if interrupted.
-    """
-    if not result.k_dry or result.k_dry[0].nominal_is_stated:
-        return result
-    stops = _nominal_stops(request)
-    tables = zip(result.k_dry, stops, strict=True)
-    k_dry = tuple(table.over((stop.measures or {}).get(table.measure)) for table, stop in tables)
-    notes = [
-        f"no K_dry: the nominal case {stop.id} has no {table.measure}: {stop.outcome}, {stop.reason}"
-        for table, stop in zip(k_dry, stops, strict=True)
-        if table.nominal is None
-    ]
-    return replace(result, k_dry=k_dry, notes=(*result.notes, *notes))
-
-
 def _nominal_with_firmness(request: SweepRequest, observer: Observer) -> tuple[evaluation.CaseResult, ...]:
     """Return the result of the case that is varied, of a train those of all cars, with how firm each is.
 
@@ -205,12 +186,6 @@ def _nominal_cases(base: scenario.Case) -> list[scenario.Case]:
         )
         for number, own in enumerate(train.scenarios, start=1)
     ]
-
-
-def _nominal_stops(request: SweepRequest) -> Sequence[evaluation.CaseResult]:
-    plan = sweeps.nominal_plan(request.selection.plan)
-    cases = summaries.full_cases(plan, range(plan.size))
-    return campaign.run_cases(cases, _settings(request, cases, campaign.RecordingRequest("none"))).whole()
 
 
 def _settings(

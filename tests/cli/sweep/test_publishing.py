@@ -6,9 +6,7 @@ import re
 import shlex
 from pathlib import Path
 
-import pyarrow.parquet as pq
 import pytest
-import yaml
 
 FOLDER = Path("reports/pads")
 TEXT = """\
@@ -122,80 +120,3 @@ def test_a_case_in_error_is_3_and_a_row_and_not_drawn(call, pads):
     page = (FOLDER / "index.html").read_text()
     assert 'class="word word-odd"' in page
     assert page.count('<details class="stop"') == 3
-
-
-K_DRY = """\
-schema: uictest/scenario/1
-name: pads
-extends: scenarios/stop.yaml
-vary:
-  sample:
-    size: 32
-    parameters:
-      brake.system.disc.pad_friction: {uniform: [0.36, 0.40]}
-  k_dry: {measure: mean_deceleration}
-"""
-
-
-@pytest.fixture
-def k_dry(scenario, two_worst_cases):
-    """A sweep of 32 stops on dry rail for K_dry."""
-    scenario("stop", "rail: {condition: dry}\n")
-    Path("pads.sweep.yaml").write_text(K_DRY)
-    return Path("pads.sweep.yaml")
-
-
-def test_k_dry_is_a_share_of_the_nominal_stop_and_may_be_asked_for_anew(call, k_dry):
-    call("sweep", k_dry)
-    (table,) = yaml.safe_load((FOLDER / "k_dry.yaml").read_text())["tables"]
-    answer = call("run", "scenarios/stop.yaml", "--report", "csv", "-o", "alone", "--format", "json")
-    (case,) = json.loads(answer.out)["cases"]
-    assert table["nominal_mps2"] == case["measures"]["mean_deceleration_mps2"]
-    assert table["nominal_from"] == "nominal case"
-    draws = sorted(pq.read_table(FOLDER / "summary.parquet")["mean_deceleration_mps2"].to_pylist())
-    # Of 32 draws the smallest bounds 10 %, and the eleventh 50 %, with 95 % confidence.
-    factors = [level["k_dry"] for level in table["levels"][:3]]
-    assert factors == [draws[10] / table["nominal_mps2"], draws[0] / table["nominal_mps2"], None]
-    chunks = sorted(path.name for path in (FOLDER / "chunks").iterdir())
-    (before,) = yaml.safe_load((FOLDER / "k_dry.yaml").read_text())["tables"]
-    text, _, request = k_dry.read_text().rpartition("k_dry:")
-    k_dry.write_text(f"{text}k_dry:{request.rstrip().rstrip('}')}, confidence: 80 %}}\n")
-    assert "32 of 32 cases are already finished" in call("sweep", k_dry).err
-    (after,) = yaml.safe_load((FOLDER / "k_dry.yaml").read_text())["tables"]
-    assert (before["confidence"], after["confidence"]) == ("95 %", "80 %")
-    assert after["levels"][0]["draws_needed"] < before["levels"][0]["draws_needed"]
-    assert sorted(path.name for path in (FOLDER / "chunks").iterdir()) == chunks
-    k_dry.write_text(k_dry.read_text().replace("0.36", "0.365"))
-    answer = call("sweep", k_dry)
-    assert (answer.code, "the cases that the sweep file asks for" in answer.err) == (4, True)
-
-
-def test_shards_and_an_interrupted_sweep_give_the_same_k_dry(call, k_dry):
-    call("sweep", k_dry, "-o", "whole")
-    whole = Path("whole/pads/k_dry.yaml").read_text()
-    for number in (1, 2):
-        call("sweep", k_dry, "--shard", f"{number}/2", "-o", f"shard{number}")
-    call("sweep", k_dry, "-o", "merged", "--merge", "shard1/pads", "--merge", "shard2/pads")
-    assert Path("merged/pads/k_dry.yaml").read_text() == whole
-    next(iter(sorted(Path("whole/pads/chunks").iterdir()))).unlink()
-    assert "16 of 32 cases are already finished" in call("sweep", k_dry, "-o", "whole").err
-    assert Path("whole/pads/k_dry.yaml").read_text() == whole
-
-
-def test_a_nominal_case_without_a_deceleration_is_named(call, k_dry):
-    call("sweep", k_dry, "--set", "simulation.maximum_duration=2 s")
-    (table,) = yaml.safe_load((FOLDER / "k_dry.yaml").read_text())["tables"]
-    assert table["nominal_mps2"] is None
-    assert table["draws_without_value"] == 32
-    assert {level["k_dry"] for level in table["levels"]} == {None}
-    notes = json.loads((FOLDER / "sweep.json").read_text())["notes"]
-    assert any("no K_dry: the nominal case pads[pad_friction=nominal] has no mean" in note for note in notes)
-
-
-def test_check_warns_of_a_range_beside_the_nominal(call, k_dry):
-    k_dry.write_text(K_DRY.replace("0.36", "0.39"))
-    warning = call("check", k_dry).err
-    assert "pad_friction: the scenario's own 0.38 lies OUTSIDE the range 0.39 .. 0.4" in warning
-    assert "K_dry is a share of a stop that is never drawn" in warning
-    k_dry.write_text(K_DRY.replace("0.36", "0.39").replace("deceleration}", "deceleration, nominal: 1 m/s2}"))
-    assert "OUTSIDE" not in call("check", k_dry).err

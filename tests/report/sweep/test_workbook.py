@@ -11,7 +11,7 @@ from ..builders import HOSTILE, make_result
 
 openpyxl = pytest.importorskip("openpyxl")
 
-SHEETS = ["Summary", "Cases", "Maps", "Rates", "Distributions", "Trends"]
+SHEETS = ["Summary", "Cases", "Maps", "Rates", "Trends"]
 SHEETS += ["Frontier", "Sensitivity", "Worst cases", "Provenance"]
 
 
@@ -101,17 +101,11 @@ def test_a_damaged_summary_is_no_summary_and_nothing_stays_behind(make_sweep, tm
     assert [path.name for path in tmp_path.iterdir()] == ["sweep"]
 
 
-def test_the_summary_draws_the_first_distribution_and_the_first_trend_in_the_same_bytes_each_time(make_sweep):
+def test_the_summary_draws_the_first_trend_in_the_same_bytes_each_time(make_sweep):
     content = make_sweep()
     workbook = _read(content, _rows(4))
     assert sweep_workbook_bytes(content) == sweep_workbook_bytes(content)
-    distribution, trend = workbook["Summary"]._charts
-    histogram = content.result.distributions[0]
-    rows = _table(workbook["Distributions"])[: len(histogram.edges) - 1]
-    assert [row["from"] for row in rows] == list(histogram.edges[:-1])
-    for each, (outcome, counts) in zip(distribution.series, histogram.counts.items(), strict=True):
-        assert [row[outcome] or 0 for row in rows] == list(counts)
-        assert _cells(workbook, each.val.numRef.f) == [row[outcome] for row in rows]
+    (trend,) = workbook["Summary"]._charts
     means = _cells(workbook, trend.series[0].val.numRef.f)
     assert means == list(content.result.trends[0].mean)
 

@@ -18,6 +18,7 @@ sample:
     brake.command: {triangular: [80 %, 100 %, 100 %]}
     initial_speed: {normal: {mean: 30 km/h, deviation: 1 km/h, lower: 28 km/h, upper: 32 km/h}}
     rig.topology: {choice: [one-caliper, four-caliper]}
+    vehicle.wheelsets.2.brake_force: {uniform: [90 %, 95 %]}
 """
 
 
@@ -32,7 +33,13 @@ def test_the_ends_are_those_of_the_draws(load):
 
 def test_only_samples_for_sensitivities_have_ranges_that_lie_around_the_nominal_or_beside(load):
     inside = {each.key: each.contains_nominal for each in drawn_ranges(load(TEXT))}
-    assert inside == {"rail.friction": False, "brake.command": True, "initial_speed": True}
+    # A wheelset without a brake force of its own has the regular one.
+    assert inside == {
+        "rail.friction": False,
+        "brake.command": True,
+        "initial_speed": True,
+        "vehicle.wheelsets.2.brake_force": False,
+    }
     sentences = list(map(str, drawn_ranges(load(TEXT))))
     assert sentences[0] == "rail.friction: the scenario's own 0.1 lies OUTSIDE the range 0.11 .. 0.15"
     assert list(drawn_ranges(load(TEXT.replace("saltelli", "random")))) == []

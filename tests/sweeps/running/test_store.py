@@ -50,7 +50,7 @@ def test_changed_inputs_are_rejected_by_name(store):
     assert store.manifest() == changed
 
 
-def test_requests_of_the_summary_change_the_manifest_and_keep_the_chunks(tmp_path):
+def test_a_comment_in_the_sweep_file_changes_the_manifest_and_keeps_the_chunks(tmp_path):
     study = ChunkStore(tmp_path / "study")
     before = {"file": "a/b.sweep.yaml", "cases_sha256": "c", "inputs": {"b.sweep.yaml": "1", "x.yaml": "2"}}
     study.open(before, restart=False)

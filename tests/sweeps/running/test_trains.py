@@ -101,7 +101,6 @@ def test_a_train_that_cannot_run_is_an_error_of_its_cars_alone(loaded):
         ("matrix: {train.1.count: [1, 2]}\n", "the cars of a train and their number cannot vary"),
         ("matrix: {vehicle.load: [empty]}\n", "vehicles of their own"),
         ("matrix: {simulation.time_step: [survey]}\n", "what the survey step does to trains is not known"),
-        ("matrix: {rail.friction: [0.1]}\nquantiles: [{of: braking_distance_m}]\n", "quantile"),
         (
             "sample: {method: saltelli, size: 4, parameters: {rail.friction: {uniform: [0.1, 0.2]}}}\n",
             "sensitivities are of a car alone",

@@ -3,7 +3,7 @@
 import numpy as np
 import pyarrow as pa
 
-from uictest.analysis.summaries.histograms import ReportedMeasure
+from uictest.analysis.summaries.reported_measures import ReportedMeasure
 from uictest.analysis.summaries.tally import bins_of_plan
 from uictest.analysis.summaries.trends import TrendSums
 

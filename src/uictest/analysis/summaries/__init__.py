@@ -1,4 +1,4 @@
-"""Summarise the rows of a sweep: counts, maps, trends, histograms, sensitivities, frontiers."""
+"""Summarise the rows of a sweep: counts, maps, trends, sensitivities, frontiers."""
 
 import lazy_loader
 

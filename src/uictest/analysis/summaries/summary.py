@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from uictest.analysis import validation
 from uictest.analysis.summaries.domain import DomainTally
 from uictest.analysis.summaries.frontier import UNKNOWN, Verdicts
-from uictest.analysis.summaries.histograms import HistogramCounts, reported_measures
+from uictest.analysis.summaries.reported_measures import MeasureSums, reported_measures
 from uictest.analysis.summaries.sensitivity import sobol_sensitivities, uncertainty_note
-from uictest.analysis.summaries.tails import TailDraws
 from uictest.analysis.summaries.tally import Tally, logarithmic_keys
 from uictest.analysis.summaries.trends import MOST_VALUES, MapSums, TrendSums
 from uictest.analysis.summaries.worst import WorstCases, summary_files
@@ -25,7 +24,6 @@ from uictest.plans.scenario import named_requirements
 from uictest.plans.sweeps import Plan, drawn_ranges, each_controller, saltelli_sample
 from uictest.report import (
     MET,
-    MeasureHistogram,
     SobolSensitivity,
     SurveyStep,
     SweepDomain,
@@ -125,16 +123,23 @@ class Summary:
             self._sums.add(table)
             self._added += 1
 
+    def _add_to_trends(self) -> None:
+        """Read the chunks a second time: only now it is known which cases count."""
+        sums = self._sums
+        for table in self.store.tables(range(self.selection.chunks), sums.columns_read_twice()):
+            for trend in sums.trends:
+                trend.add(table)
+
     def result(self) -> SweepSummary:
         """Add the chunks that are left, and return what all come to. Raises OSError, MissingChunksError."""
         self.add_up_to(self.selection.chunks)
         sums, plan = self._sums, self.selection.plan
         survey = survey_step(plan, sums.repeated, self.measures)
         of_validity = None if self._domain is None else self._domain.result()
+        self._add_to_trends()
         sensitivities, notes = _sensitivities(plan, sums.sampled_columns())
         result = _result(
             sums,
-            distributions=_histograms(sums, self.selection, self.store),
             sensitivities=sensitivities,
             domain=of_validity,
             survey=survey,
@@ -145,7 +150,6 @@ class Summary:
                 *_not_judged_notes(sums.tally.outcomes),
                 *map(str, drawn_ranges(plan)),
                 *notes,
-                *_selection_notes(self.selection),
                 *(() if self.csv else (_WITHOUT_CSV,)),
             ),
         )
@@ -166,9 +170,7 @@ class _Sums:
         self.trends = [
             TrendSums(plan, each, shown) for each in bins.values() if len(each.values) <= MOST_VALUES
         ]
-        self.histograms = [HistogramCounts(measure) for measure in shown]
-        # Of a selection of cases nothing is known of the others, so that ranks have no meaning.
-        self.tails = TailDraws(plan) if selection.selected is None else None
+        self.measures = [MeasureSums(measure) for measure in shown]
         self.verdicts = np.full(plan.size, UNKNOWN, np.int8)
         self.repeated = 0
         """Cases of a survey that were repeated in regular steps."""
@@ -184,20 +186,18 @@ class _Sums:
             sweep_map.add(table)
         for trend in self.trends:
             trend.note(table)
-        for histogram in self.histograms:
-            histogram.add_range(table)
-        if self.tails is not None:
-            self.tails.add(table)
+        for measure in self.measures:
+            measure.add(table)
         indices = table.column("index").to_numpy()
         self.verdicts[indices] = table.column(MET).to_numpy(zero_copy_only=False)
         for name, values in self._columns.items():
             values[indices] = table.column(name).to_numpy(zero_copy_only=False)
 
     def columns_read_twice(self) -> list[str]:
-        """Return the columns that histograms and trends add up."""
-        measured = (column for histogram in self.histograms for column in histogram.measure.columns)
+        """Return the columns that trends add up."""
+        measured = (column for each in self.measures for column in each.measure.columns)
         texts = (text_column(trend.bins.key) for trend in self.trends)
-        return list(dict.fromkeys(("index", "outcome", *texts, *measured)))
+        return list(dict.fromkeys(("index", *texts, *measured)))
 
     def sampled_columns(self) -> Columns:
         """Return the columns that sensitivities are computed of; none without a whole Saltelli sample."""
@@ -212,7 +212,6 @@ def _moving_speed(plan: Plan) -> str:
 def _result(
     sums: _Sums,
     *,
-    distributions: tuple[MeasureHistogram, ...],
     sensitivities: tuple[SobolSensitivity, ...],
     domain: SweepDomain | None,
     survey: SurveyStep | None,
@@ -228,7 +227,7 @@ def _result(
         missed=tuple(tally.missed),
         rates={key: tally.rates(key) for key in tally.bins},
         maps=tuple(each.map() for each in sums.maps),
-        distributions=distributions,
+        distributions=tuple(each.range() for each in sums.measures if each.cases),
         trends=tuple(trend for each in sums.trends for trend in each.trends()),
         base=EffectiveParts().of(plan.base.scenario),
         varied=plan.keys,
@@ -240,28 +239,10 @@ def _result(
         subjects={},
         sensitivities=sensitivities,
         frontier=None,
-        quantiles=tuple(sums.tails.quantiles()) if sums.tails else (),
-        k_dry=tuple(sums.tails.k_dry()) if sums.tails else (),
         domain_of_validity=domain,
         survey=survey,
         notes=notes,
     )
-
-
-def _histograms(sums: _Sums, selection: CaseSelection, store: ChunkStore) -> tuple[MeasureHistogram, ...]:
-    """Return the histogram of each measure that any case has, and add to the trends.
-
-    Reads the chunks a second time.
-    """
-    with_cases = [each for each in sums.histograms if each.cases]
-    for histogram in with_cases:
-        histogram.open_bins()
-    for table in store.tables(range(selection.chunks), sums.columns_read_twice()):
-        for histogram in with_cases:
-            histogram.add(table)
-        for trend in sums.trends:
-            trend.add(table)
-    return tuple(each.histogram() for each in with_cases)
 
 
 def _requirement_notes(plan: Plan) -> Iterator[str]:
@@ -274,12 +255,6 @@ def _not_judged_notes(outcomes: Mapping[str, int]) -> Iterator[str]:
         yield f"{counted(count, 'case')} not judged, since no criterion applies: met by `expect: skipped`"
     if count := outcomes["inconclusive"]:
         yield f"{counted(count, 'case')} inconclusive, since data to judge are missing: never met"
-
-
-def _selection_notes(selection: CaseSelection) -> Iterator[str]:
-    plan = selection.plan
-    if selection.selected is not None and (plan.quantiles or plan.k_dry):
-        yield f"no quantiles and no K_dry: only {selection.size} of {counted(plan.size, 'case')} selected"
 
 
 def _sensitivities(plan: Plan, columns: Columns) -> tuple[tuple[SobolSensitivity, ...], list[str]]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.analysis.summaries.histograms import ReportedMeasure
+from uictest.analysis.summaries.reported_measures import ReportedMeasure
 from uictest.analysis.summaries.tally import ParameterBins
 from uictest.plans.sweeps import ListedGroup, Plan
 from uictest.report import MET, MapAxis, SweepMap, Trend

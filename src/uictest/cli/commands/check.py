@@ -111,13 +111,7 @@ def _load_sweep(path: Path, trusted: Sequence[Path]) -> None:
         message(f"{plan.file}: {plan.written_now}")
     for each in sweeps.drawn_ranges(plan):
         if not each.contains_nominal:
-            message(f"{plan.file}: warning: {each}; {_consequence(plan)}")
-
-
-def _consequence(plan: sweeps.Plan) -> str:
-    if plan.k_dry is not None:
-        return "K_dry is a share of a stop that is never drawn"
-    return "sensitivities hold for the range only"
+            message(f"{plan.file}: warning: {each}; sensitivities hold for the range only")
 
 
 def _show(diagnostics: Sequence[yaml.Diagnostic], shown: Format) -> None:

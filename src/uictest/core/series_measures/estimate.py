@@ -65,9 +65,8 @@ def median_of(values: Sequence[float], confidence: float) -> Estimate:
 
     95 % take at least six values.
     """
-    ranks, ranked = statistics.bound_ranks(0.5, len(values), confidence, "both"), sorted(values)
-    low = math.nan if ranks.lower is None else ranked[ranks.lower - 1]
-    high = math.nan if ranks.upper is None else ranked[-ranks.upper]
+    rank, ranked = statistics.median_rank(len(values), confidence), sorted(values)
+    low, high = (math.nan, math.nan) if rank is None else (ranked[rank - 1], ranked[-rank])
     return _estimate(median(values), low, high, confidence, "median", values)
 
 

@@ -30,7 +30,6 @@ from .firmness import (
 from .json_values import (
     Expectation as Expectation,
     Number as Number,
-    OptionalNumber as OptionalNumber,
     Outcome as Outcome,
     absent_if_empty as absent_if_empty,
     from_json_form as from_json_form,

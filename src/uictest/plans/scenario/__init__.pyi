@@ -100,7 +100,6 @@ from .parts.reading import (
     supposed_definition as supposed_definition,
 )
 from .parts.sand import Sand as Sand, Sander as Sander
-from .parts.tail_requests import KDryRequest as KDryRequest, QuantileRequest as QuantileRequest
 from .parts.track_brake import EMERGENCY as EMERGENCY, TrackBrake as TrackBrake
 from .parts.vary import (
     Distribution as Distribution,

@@ -46,7 +46,7 @@ from uictest.plans.scenario.yaml import (
     whole_file,
 )
 
-_SECTIONS_OF_SWEEPS: Final = ("grid", "ranges", "sample", "quantiles", "k_dry")
+_SECTIONS_OF_SWEEPS: Final = ("grid", "ranges", "sample")
 """Keys that a scenario has only under `vary`, and `grid`, which 0.2 had for `matrix`."""
 
 

@@ -23,7 +23,6 @@ from .nominal import (
     controllers_of as controllers_of,
     drawn_ranges as drawn_ranges,
     each_controller as each_controller,
-    nominal_plan as nominal_plan,
     programs_of as programs_of,
 )
 from .plan import (
@@ -32,7 +31,6 @@ from .plan import (
     ParameterDraw as ParameterDraw,
     Plan as Plan,
     in_survey_steps as in_survey_steps,
-    random_sample as random_sample,
     saltelli_sample as saltelli_sample,
     scenarios_with_each as scenarios_with_each,
 )

@@ -11,7 +11,6 @@ from typing import Final
 from uictest.plans import library
 from uictest.plans.scenario import (
     CAR,
-    CONDITION,
     FIXED,
     LONGEST,
     Files,
@@ -49,52 +48,8 @@ from uictest.plans.sweeps.plan import (
     Group,
     ListedGroup,
     Plan,
-    SampledGroup,
-    random_sample,
-    scenarios_with_each,
 )
 from uictest.plans.sweeps.sweep_file import SweepFile, read_sweep_file
-
-DRY: Final = "dry"
-"""Name of the rail condition that K_dry is defined for."""
-_RANDOM: Final = "a quantile is bounded from independent draws: write `sample: {method: random, ...}`"
-
-
-def reject_unsupported_tails(plan: Plan, file: SweepFile) -> None:
-    """Raise ScenarioErrors where quantiles or K_dry lack a random sample, or K_dry a dry rail.
-
-    The errors are reported at the keys of the file.
-    """
-    diagnostics = [
-        diagnose(file.tree.entries[section].key, message, file.key(section), hint)
-        for section, is_requested in (("quantiles", plan.quantiles), ("k_dry", plan.k_dry is not None))
-        if is_requested
-        for message, hint in _problems(plan, of_dry_rail=section == "k_dry")
-    ]
-    if diagnostics:
-        raise ScenarioErrors(diagnostics)
-
-
-def _problems(plan: Plan, *, of_dry_rail: bool) -> Iterator[tuple[str, str]]:
-    """Yield what is wrong and what to write instead."""
-    if plan.own_keys:
-        yield "quantiles and K_dry are of a car alone", "leave it out, or sweep a scenario without `train`"
-        return
-    last = plan.groups[-1]
-    if not isinstance(last, SampledGroup):
-        yield "the values of this sweep are listed, not drawn", _RANDOM
-    elif random_sample(plan) is None:
-        yield f"points of method {last.method} are not independent of each other", _RANDOM
-    if of_dry_rail:
-        for key in ("until", "drag"):
-            if key in plan.keys or getattr(plan.base.scenario, key) is not None:
-                yield f"K_dry is of stops to standstill, and the scenario has `{key}`", f"leave `{key}` out"
-        conditions = (scenario.rail.condition.name for scenario in scenarios_with_each(plan, CONDITION))
-        for name in dict.fromkeys(conditions):
-            if name != DRY:
-                hint = "write `rail: {condition: dry}` in the scenario, and no other condition in the sweep"
-                yield f"K_dry holds for dry rail; the rail condition is {quoted(name)}", hint
-
 
 MOST_CASES: Final = 100_000_000
 _SETS_CARS: Final = re.compile(r"train(\.\d+(\.count)?)?")
@@ -139,7 +94,7 @@ def load_sweep(
         reject_other_steps((key for group in groups for key in group.keys), survey)
     documents = (parts.files.at(path).place.document, *reader.documents)
     read = {document.display: document.sha256 for document in documents if document.sha256}
-    plan = Plan(
+    return Plan(
         name=file.name,
         title=file.title,
         file=display_name(path),
@@ -147,15 +102,11 @@ def load_sweep(
         groups=groups,
         short=short_keys([key for group in groups for key in group.keys]),
         inputs=dict(sorted({**file.base.case.inputs, **read}.items())),
-        quantiles=file.vary.quantile_requests,
-        k_dry=file.vary.k_dry,
         survey=survey is not None,
         cases_sha256=file.cases_sha256,
         written_now=file.written_now,
         own_keys=file.base.own_keys(key for group in groups for key in group.keys),
     )
-    reject_unsupported_tails(plan, file)
-    return plan
 
 
 _Axis = tuple[str, Mapping[str, Entry]]

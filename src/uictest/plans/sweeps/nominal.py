@@ -3,21 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from uictest.plans.scenario import Scenario, wheelset_value
 from uictest.plans.scenario.yaml import Quantity, parse_quantity
 from uictest.plans.sweeps.base_case import value_at
-from uictest.plans.sweeps.column import ParameterValue
-from uictest.plans.sweeps.plan import (
-    ListedGroup,
-    Plan,
-    SampledGroup,
-    random_sample,
-    saltelli_sample,
-    values_of,
-)
+from uictest.plans.sweeps.plan import Plan, saltelli_sample, values_of
 
 if TYPE_CHECKING:
     from uictest.controllers import ControllerProgram
@@ -49,30 +40,13 @@ class DrawnRange(NamedTuple):
 
 
 def drawn_ranges(plan: Plan) -> Iterator[DrawnRange]:
-    """Yield the ranges of a sample whose results refer to the nominal case; a choice from a list has none.
-
-    These are samples for sensitivities, and for K_dry unless the nominal deceleration is stated.
-    """
-    k_dry_of_nominal = plan.k_dry is not None and plan.k_dry.nominal is None
-    sample = saltelli_sample(plan) or (random_sample(plan) if k_dry_of_nominal else None)
+    """Yield the ranges of a sample for sensitivities; a choice from a list has none."""
+    sample = saltelli_sample(plan)
     for key, draw in zip(sample.keys, sample.draws, strict=True) if sample else ():
         nominal = _nominal_value(plan.base.scenario, key)
         if not draw.choices and isinstance(nominal, Quantity):
             low, high = (parse_quantity(str(bound), draw.kind) for bound in draw.distribution.bounds)
             yield DrawnRange(key, low, high, nominal)
-
-
-def nominal_plan(plan: Plan) -> Plan:
-    """Return the plan in which the scenario's own values replace those of the sample, its last group.
-
-    It has one case for each combination of the other groups, in their order.
-    """
-    *others, sample = plan.groups
-    assert isinstance(sample, SampledGroup)
-    values = [value_at(plan.base.scenario, key) for key in sample.keys]
-    texts = (each.text if isinstance(each, Quantity) else str(getattr(each, "name", each)) for each in values)
-    row = tuple(ParameterValue(text, value, "nominal") for text, value in zip(texts, values, strict=True))
-    return replace(plan, groups=(*others, ListedGroup(sample.keys, (row,))))
 
 
 def _nominal_value(scenario: Scenario, key: str) -> Any:

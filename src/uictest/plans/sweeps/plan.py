@@ -13,9 +13,7 @@ from uictest.plans.scenario import (
     CAR,
     Case,
     Distribution,
-    KDryRequest,
     Method,
-    QuantileRequest,
     Scenario,
     TrainPlace,
 )
@@ -135,12 +133,10 @@ class Plan:
     """The name of each key in case ids."""
     inputs: dict[str, str] = field(default_factory=dict)
     """SHA-256 of every file read, by the name shown to users."""
-    quantiles: tuple[QuantileRequest, ...] = ()
-    k_dry: KDryRequest | None = None
     survey: bool = False
     """Whether its cases are simulated in survey steps, except where a verdict might hang on it."""
     cases_sha256: str = ""
-    """SHA-256 of what the sweep file says of its cases, which `quantiles` and `k_dry` do not change."""
+    """SHA-256 of what the sweep file says of its cases."""
     written_now: str = ""
     """How a file of 0.2 is written now, empty for others."""
     own_keys: tuple[dict[str, str], ...] = ()
@@ -235,12 +231,6 @@ def saltelli_sample(plan: Plan) -> SampledGroup | None:
     """Return the sample of a plan that Sobol indices can be computed from, None where there is none."""
     last = plan.groups[-1]
     return last if isinstance(last, SampledGroup) and last.method == "saltelli" else None
-
-
-def random_sample(plan: Plan) -> SampledGroup | None:
-    """Return the sample of independent draws that quantiles can be bounded from, None where there is none."""
-    last = plan.groups[-1]
-    return last if isinstance(last, SampledGroup) and last.method == "random" else None
 
 
 def values_of(plan: Plan, key: str) -> tuple[ParameterValue, ...]:

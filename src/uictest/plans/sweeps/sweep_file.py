@@ -41,8 +41,6 @@ from uictest.plans.scenario.yaml import (
 )
 from uictest.plans.sweeps.base_case import SEEDS_IN_SWEEPS, BaseCase
 
-_OF_SUMMARY: Final = ("quantiles", "k_dry")
-"""Keys that say what to compute from finished cases."""
 _EXAMPLE: Final = "vary: {matrix: {rail.friction: [0.08, 0.10]}}"
 
 
@@ -90,14 +88,13 @@ def read_sweep_file(path: Path, fixed: Sequence[Override], parts: Parts) -> Swee
     if (repeat := loaded.tree.entries.get("repeat")) is not None:
         _reject_repeats(loaded, repeat.node, "repeat", "the scenario")
     _reject_ranges_in_lists(sections, "matrix", "vary.matrix")
-    content = {**plain(tree), "vary": _without_summary(sections)}
     return SweepFile(
         name=scenario.name,
         title=scenario.title,
         base=BaseCase(loaded.case, loaded.tree, parts),
         vary=validated(Vary, plain(sections), sections, ("vary",)),
         tree=sections,
-        cases_sha256=_sha256(content),
+        cases_sha256=_sha256({**plain(tree), "vary": plain(sections)}),
     )
 
 
@@ -136,7 +133,7 @@ def _of_0_2(tree: Map, fixed: Sequence[Override], parts: Parts) -> SweepFile:
         base=BaseCase(loaded.case, loaded.tree, parts),
         vary=file,
         tree=tree if lists is None else tree.with_entry("matrix", lists),
-        cases_sha256=_sha256(_without_summary(tree)),
+        cases_sha256=_sha256(plain(tree)),
         names={"matrix": "grid"},
         written_now=_written_now(reference.node.text, file.case),
     )
@@ -146,7 +143,7 @@ def _written_now(scenario: str, case: str | None) -> str:
     values = f", the values of {case}" if case else ""
     return (
         f"written as in 0.2; now a sweep is a scenario: `schema: {SCENARIO_SCHEMA}`, `extends: {scenario}`"
-        f"{values}, and under `vary` matrix (was grid), ranges, zip, sample, quantiles and k_dry"
+        f"{values}, and under `vary` matrix (was grid), ranges, zip and sample"
     )
 
 
@@ -187,10 +184,6 @@ def _reject_ranges_in_lists(tree: Map, section: str, shown: str) -> None:
     ]
     if diagnostics:
         raise ScenarioErrors(diagnostics)
-
-
-def _without_summary(sections: Map) -> dict[str, Any]:
-    return {key: value for key, value in plain(sections).items() if key not in _OF_SUMMARY}
 
 
 def _sha256(content: dict[str, Any]) -> str:

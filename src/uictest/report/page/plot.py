@@ -22,12 +22,11 @@ _ROW: Final = 20.0
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A path: its class in the style sheet, what it says at the pointer, and where it leads, if anywhere."""
+    """A path: its class in the style sheet, and what it says at the pointer."""
 
     kind: str
     path: str
     words: str = ""
-    link: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +51,6 @@ class Plot:
         y_ticks: level lines with their labels, or names of rows.
         shapes: in the frame, in the order in which they are painted.
         labels: in or beside the frame.
-        caption: below the drawing.
         across: ends of the frame in pixels.
         up: its lower and its upper end.
 
@@ -65,7 +63,6 @@ class Plot:
     y_ticks: Sequence[Tick]
     shapes: Sequence[Shape]
     labels: Sequence[Label] = ()
-    caption: str = ""
     across: tuple[float, float] = X_PIXELS
     up: tuple[float, float] = Y_PIXELS
 
@@ -85,11 +82,6 @@ def dot(x: float, y: float, radius: float = 3.0) -> str:
     """Return the path of a circle around a point."""
     half = f"a{radius:g} {radius:g} 0 1 0"
     return f"M{x - radius:.1f} {y:.1f}{half} {2 * radius:g} 0{half} {-2 * radius:g} 0z"
-
-
-def box(x: tuple[float, float], y: tuple[float, float]) -> str:
-    """Return the path of a rectangle between two pixels across and two up."""
-    return f"M{x[0]:.1f} {y[0]:.1f}H{x[1]:.1f}V{y[1]:.1f}H{x[0]:.1f}z"
 
 
 def row_at(place: int) -> float:

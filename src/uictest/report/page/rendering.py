@@ -87,7 +87,6 @@ _SCRIPTS = (
     "laid_over",
     "copying",
     "history",
-    "points",
     "anchors",
 )
 """Parts of the script of a page, in the order in which they run; they share one scope."""

@@ -109,7 +109,7 @@ def missing_interval(estimate: Estimate) -> str:
     at = percent(estimate.confidence)
     if interval(estimate) or math.isfinite(estimate.covered):
         return ""
-    needed = statistics.draws_needed(0.5, estimate.confidence, "both") if estimate.method == "median" else 2
+    needed = statistics.draws_for_median(estimate.confidence) if estimate.method == "median" else 2
     if estimate.stops < needed and estimate.method not in _SIDES:
         return f"too few for a {at} interval: {needed} are needed"
     if not estimate.dry_scatter:

@@ -15,7 +15,6 @@ from uictest.report.run_folder import read_traces, require_names
 from uictest.report.sweep.result import SweepResult, read_sweep_document, sweep_document
 from uictest.report.sweep.sweep_sentences import sweep_suite
 from uictest.report.sweep.tables import csv_tables
-from uictest.report.sweep.tail_tables import K_DRY_FILE, k_dry_yaml
 from uictest.report.traces.trace import PlotTrace
 
 
@@ -77,15 +76,7 @@ def _read_mapping(path: Path) -> dict[str, Any]:
 
 
 OF_ONE_RESULT: Final = (
-    *(
-        "map-*.csv",
-        "sensitivity.csv",
-        "frontier.csv",
-        "firmness.csv",
-        "quantiles.csv",
-        "k_dry.csv",
-        K_DRY_FILE,
-    ),
+    *("map-*.csv", "sensitivity.csv", "frontier.csv", "firmness.csv"),
     *(WITH_TEST_PROPERTIES, "index.html", "report.xlsx", "summary.md"),
 )
 """Files that not every result has, or that not every run writes."""
@@ -102,8 +93,6 @@ def write_sweep_result(folder: Path, result: SweepResult, file: str) -> str:
     texts["junit.xml"] = junit_text([sweep_suite(result, file)])
     if result.requirements or result.test_case:
         texts[WITH_TEST_PROPERTIES] = junit_text([sweep_suite(result, file, with_properties=True)])
-    if result.k_dry:
-        texts[K_DRY_FILE] = k_dry_yaml(result)
     if (folder / SWEEP_RESULTS).is_file() and (folder / SWEEP_RESULTS).read_text("utf-8") != document:
         files.remove_listed(folder, *OF_ONE_RESULT)
     for name, text in texts.items():

@@ -13,7 +13,6 @@ from uictest.judging import evaluation
 from uictest.judging.evaluation import NamedParts, Number, WrittenCaseResult, required
 from uictest.report.content import CaseDescription
 from uictest.report.sweep.limits import SurveyStep, SweepDomain
-from uictest.report.sweep.tails import KDry, MeasureQuantiles
 from uictest.report.sweep.values import SweptValue, Written
 
 MET: Final = "met"
@@ -94,8 +93,8 @@ class SweepMap:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MeasureHistogram:
-    """The distribution of a measure: cases by outcome in each of the bins between `edges`.
+class MeasureRange:
+    """Smallest, mean and largest value of a measure over the cases that have it.
 
     `columns` are the columns of the summary whose largest value the measure is.
     """
@@ -107,8 +106,6 @@ class MeasureHistogram:
     minimum: float
     mean: float
     maximum: float
-    edges: list[float]
-    counts: dict[str, list[int]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -190,7 +187,7 @@ class SweepResult:
         missed: the first cases that did not meet their expectation.
         rates: counts for each value of each parameter, by key.
         maps: of the cases met and of measures.
-        distributions: histograms of measures.
+        distributions: of measures.
         trends: measures along parameters.
         base: the parts of the case that is varied, by role; empty where an earlier version wrote the result.
         varied: keys of the parameters.
@@ -204,8 +201,6 @@ class SweepResult:
         subjects: descriptions of these cases, by id.
         sensitivities: Sobol indices.
         frontier: where the verdict flips, None where it was not searched.
-        quantiles: of measures, with bounds, where the sweep requests them.
-        k_dry: where the sweep requests it, a table for each combination of listed values.
         domain_of_validity: how many cases lie outside of what was validated; None where nobody asked.
         survey: the steps of a survey, None where all cases were simulated in their own.
         notes: sentences that every report shows.
@@ -222,7 +217,7 @@ class SweepResult:
     missed: tuple[MissedCase, ...]
     rates: Mapping[str, tuple[OutcomeCount, ...]]
     maps: tuple[SweepMap, ...]
-    distributions: tuple[MeasureHistogram, ...]
+    distributions: tuple[MeasureRange, ...]
     trends: tuple[Trend, ...]
     base: NamedParts = field(default_factory=dict)
     varied: tuple[str, ...] = ()
@@ -234,8 +229,6 @@ class SweepResult:
     subjects: Mapping[str, Annotated[CaseDescription, required("title", "tags", "settings")]]
     sensitivities: tuple[SobolSensitivity, ...]
     frontier: Frontier | None
-    quantiles: tuple[MeasureQuantiles, ...] = ()
-    k_dry: tuple[KDry, ...] = ()
     domain_of_validity: SweepDomain | None = None
     survey: SurveyStep | None = None
     nominal: tuple[WrittenCaseResult, ...] = ()

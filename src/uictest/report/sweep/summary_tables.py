@@ -1,4 +1,4 @@
-"""The result of a sweep as tables for people: rates, sensitivities, frontier, tails, notable cases."""
+"""The result of a sweep as tables for people: rates, sensitivities, frontier, notable cases."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from uictest.report.sweep.map_text import folded, is_large, short_label
 from uictest.report.sweep.result import (
     Frontier,
     FrontierScan,
-    MeasureHistogram,
+    MeasureRange,
     OutcomeCount,
     SobolSensitivity,
     SweepMap,
@@ -29,7 +29,6 @@ from uictest.report.sweep.sweep_sentences import (
     sweep_tally,
     swept_words,
 )
-from uictest.report.sweep.tail_tables import tables_left_out, tail_tables
 from uictest.report.sweep.values import SweptValue
 from uictest.report.text_tables import number_cell
 from uictest.report.verdict_sentences import tone
@@ -123,7 +122,7 @@ def _frontier_sections(frontier: Frontier) -> Iterator[Table | Lines]:
         yield Lines([f"{further} more in frontier.csv"])
 
 
-_MEASURES: Final[tuple[Column[MeasureHistogram], ...]] = (
+_MEASURES: Final[tuple[Column[MeasureRange], ...]] = (
     Column(heading="measure", text=lambda each: each.measure, literal=True),
     Column(heading="unit", text=lambda each: each.unit),
     Column(heading="cases", text=lambda each: str(each.cases), right=True),
@@ -200,12 +199,9 @@ def _firmness_sections(nominal: Sequence[evaluation.CaseResult]) -> Iterator[Tab
 
 
 def numbers_of_sweep(result: SweepResult) -> Iterator[Table | Lines]:
-    """Yield what depends on what: rates, sensitivities, tails, the frontier, and on numbers nobody knows."""
+    """Yield what depends on what: rates, sensitivities, the frontier, and on numbers nobody knows."""
     yield rates_table(result)
     yield sensitivity_table(result)
-    yield from tail_tables(result)
-    if left_out := tables_left_out(result):
-        yield Lines(left_out)
     if result.frontier is not None:
         yield from _frontier_sections(result.frontier)
     if result.nominal:

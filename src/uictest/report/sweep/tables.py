@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Final
 
 from uictest.core.document import Cell
-from uictest.report.cover_sheet import Cells, Plotted, histogram_chart, line_chart
+from uictest.report.cover_sheet import Cells, Plotted, line_chart
 from uictest.report.firmness_sentences import firmness_rows
 from uictest.report.sheet import columns_of, heading_rows
 from uictest.report.sweep.result import (
     Frontier,
-    MeasureHistogram,
     SweepMap,
     SweepResult,
     Trend,
 )
-from uictest.report.sweep.tail_tables import tail_csv_tables
 from uictest.report.text_tables import csv_text
 
 if TYPE_CHECKING:
@@ -45,7 +42,7 @@ def csv_tables(result: SweepResult) -> dict[str, str]:
         tables["frontier.csv"] = frontier_csv(result.frontier)
     if rows := list(firmness_of_nominal(result)):
         tables["firmness.csv"] = csv_text(list(rows[0]), rows)
-    return tables | tail_csv_tables(result)
+    return tables
 
 
 def rate_rows(result: SweepResult) -> Iterator[dict[str, Cell]]:
@@ -63,14 +60,6 @@ def trend_rows(trend: Trend) -> Iterator[dict[str, Cell]]:
     for value, cases, minimum, mean, maximum in zip(*columns, strict=True):
         numbers: dict[str, Cell] = {"cases": cases, "minimum": minimum, "mean": mean, "maximum": maximum}
         yield {**own, "value": value.label, **numbers}
-
-
-def distribution_rows(histogram: MeasureHistogram) -> Iterator[dict[str, Cell]]:
-    """Yield a row for each bin: its ends, and its cases by outcome."""
-    own: dict[str, Cell] = {"measure": histogram.measure, "unit": histogram.unit}
-    for place, (low, high) in enumerate(itertools.pairwise(histogram.edges)):
-        counts: dict[str, Cell] = {outcome: counts[place] for outcome, counts in histogram.counts.items()}
-        yield {**own, "from": low, "to": high, **counts}
 
 
 def sensitivity_rows(result: SweepResult, prefix: str = "") -> Iterator[dict[str, Cell]]:
@@ -125,31 +114,13 @@ def sensitivity_csv(result: SweepResult) -> str:
 
 
 SUMMARY_SHEET: Final = "Summary"
-DISTRIBUTIONS_SHEET: Final = "Distributions"
 TRENDS_SHEET: Final = "Trends"
-_ROWS_OF_A_CHART: Final = 17
 
 
 def insert_charts(workbook: Workbook, summary: Worksheet, result: SweepResult) -> None:
-    """Draw the first distribution and the first trend beside the summary; each only where there is one."""
-    charts = [
-        *(_distribution(workbook, result, each) for each in result.distributions[:1]),
-        *(_trend(workbook, each) for each in result.trends[:1]),
-    ]
-    for number, chart in enumerate(charts):
-        summary.insert_chart(1 + number * _ROWS_OF_A_CHART, 9, chart)
-
-
-def _distribution(workbook: Workbook, result: SweepResult, histogram: MeasureHistogram) -> Chart:
-    """Return the cases in each bin, by outcome. The bins are the first rows of their sheet."""
-    columns = columns_of(row for each in result.distributions for row in distribution_rows(each))
-    cells = _first_rows(DISTRIBUTIONS_SHEET, columns, len(histogram.edges) - 1)
-    plotted = [
-        Plotted(outcome, cells[outcome], "good" if outcome == "pass" else "bad")
-        for outcome in histogram.counts
-    ]
-    title = f"Cases by {_words(histogram.measure)}, {histogram.unit} (lower end of each bin)"
-    return histogram_chart(workbook, title, cells["from"], plotted)
+    """Draw the first trend beside the summary, where there is one."""
+    for each in result.trends[:1]:
+        summary.insert_chart(1, 9, _trend(workbook, each))
 
 
 def _trend(workbook: Workbook, trend: Trend) -> Chart:

@@ -1,4 +1,4 @@
-"""The workbook of a sweep: counts, cases, maps, trends, frontier, sensitivities, tails, worst cases."""
+"""The workbook of a sweep: counts, cases, maps, trends, frontier, sensitivities, worst cases."""
 
 from __future__ import annotations
 
@@ -13,10 +13,8 @@ from uictest.report.sweep.map_text import write_maps
 from uictest.report.sweep.result import SweepResult
 from uictest.report.sweep.sweep_sentences import notable_cases, swept_words
 from uictest.report.sweep.tables import (
-    DISTRIBUTIONS_SHEET,
     SUMMARY_SHEET,
     TRENDS_SHEET,
-    distribution_rows,
     firmness_of_nominal,
     frontier_rows,
     insert_charts,
@@ -24,7 +22,6 @@ from uictest.report.sweep.tables import (
     sensitivity_rows,
     trend_rows,
 )
-from uictest.report.sweep.tail_tables import k_dry_rows, quantile_rows
 
 
 def sweep_workbook_bytes(content: SweepContent, most_cases: int = MOST_CASES) -> bytes:
@@ -53,12 +50,9 @@ def _tables(content: SweepContent) -> dict[str, list[Row]]:
     result = content.result
     return {
         "Rates": list(rate_rows(result)),
-        DISTRIBUTIONS_SHEET: [row for each in result.distributions for row in distribution_rows(each)],
         TRENDS_SHEET: [row for trend in result.trends for row in trend_rows(trend)],
         "Frontier": list(frontier_rows(result.frontier, "at ")) if result.frontier else [],
         "Sensitivity": list(sensitivity_rows(result, "at ")),
-        "Quantiles": list(quantile_rows(result, "at ")),
-        "K_dry": list(k_dry_rows(result, "at ")),
         "Firmness": list(firmness_of_nominal(result)),
         "Worst cases": list(_worst(result)),
         "Parameters": list(_parameters(result)),

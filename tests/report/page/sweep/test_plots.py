@@ -1,8 +1,6 @@
-"""The plots of a sweep: every line, bar, band and interval lies where its numbers are, and says them."""
+"""The plots of a sweep: every line and band lies where its numbers are, and says them."""
 
-import math
 import re
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,19 +8,12 @@ from pydantic import TypeAdapter
 
 from uictest.report import (
     Frontier,
-    MeasureHistogram,
     OutcomeCount,
-    SobolIndex,
-    SobolSensitivity,
     Trend,
     WrittenValue,
 )
-from uictest.report.page.sweep.bar_plots import histogram_plot, sobol_plots
 from uictest.report.page.sweep.line_plots import MOST_LINES, cell_lines, frontier_plot, trend_plot
 from uictest.report.sweep.map_cells import CellAxis, MapCells
-from uictest.report.sweep.tails import DrawCount, MeasureQuantiles, Quantile
-
-from ...sweep_rows import DRAWN, sweep_result
 
 NAN = float("nan")
 
@@ -39,12 +30,6 @@ def start(shape):
 
 def of_kind(plot, kind):
     return [shape for shape in plot.shapes if kind in shape.kind.split()]
-
-
-def value_at(plot, pixel):
-    """Return what the labels of the axis across say of a pixel."""
-    (x0, first), *_, (x1, last) = plot.x_ticks
-    return float(first) + (pixel - x0) / (x1 - x0) * (float(last) - float(first))
 
 
 def axis(key, *texts):
@@ -141,48 +126,6 @@ def test_what_has_no_common_axis_is_not_drawn(values):
     assert trend_of(values, [1.0, 2.0][: len(values)]) is None
 
 
-def histogram(**changes):
-    counts = {"pass": [3, 0], "fail": [1, 2]}
-    ends = {"minimum": 0.0, "mean": 1.0, "maximum": 2.0}
-    form = {"measure": "slide", "unit": "1", "cases": 6, "edges": [0.0, 1.0, 2.0], "counts": counts, **ends}
-    return of_json(MeasureHistogram, form | changes)
-
-
-def test_bars_stack_to_the_cases_of_their_bin():
-    plot = histogram_plot(histogram(), sweep_result(DRAWN, 6))
-    heights = {}
-    for shape in plot.shapes:
-        upper = float(re.search(r"V([\d.]+)", shape.path).group(1))
-        heights[shape.words] = start(shape)[1] - upper
-    bottom, top = plot.up
-    per_case = (bottom - top) / 4
-    assert heights == pytest.approx(
-        {"0 to 1: 3 pass": 3 * per_case, "0 to 1: 1 fail": per_case, "1 to 2: 2 fail": 2 * per_case}, abs=0.2
-    )
-
-
-def test_quantiles_stand_in_the_distribution_of_their_measure():
-    def quantile(level, estimate, upper):
-        return Quantile(level=level, side="upper", draws_needed=9, estimate=estimate, lower=None, upper=upper)
-
-    table = MeasureQuantiles(
-        measure="maximum_slide_1",
-        unit="1",
-        circumstances={},
-        confidence=0.95,
-        sample=DrawCount(draws=6, without_value=0),
-        quantiles=(quantile(0.5, 0.5, 1.0), quantile(0.99, 1.5, 2.0), quantile(0.9999, None, None)),
-    )
-
-    result = replace(sweep_result(DRAWN, 6), quantiles=(table,))
-    plot = histogram_plot(histogram(columns=("maximum_slide_1",)), result)
-    lines = of_kind(plot, "quantile")
-    assert [value_at(plot, start(shape)[0]) for shape in lines] == pytest.approx([0.5, 1.5], abs=0.01)
-    assert lines[1].words == "99 %: 1.5, bound at most 2"
-    assert [label.text for label in plot.labels] == ["50 %", "99 %"]
-    assert of_kind(histogram_plot(histogram(columns=("braking_distance_m",)), result), "quantile") == []
-
-
 def scan(command, speed, low, high):
     flips = [{"low": low, "high": high, "met_at_low": False}]
     return {"circumstances": {"command": command, "speed": speed}, "flips": flips, "note": ""}
@@ -223,57 +166,3 @@ def test_a_window_has_a_line_at_each_end_and_a_gap_where_nothing_flips():
 
 def test_a_frontier_over_no_other_number_is_a_table_only():
     assert frontier(scan("a", "b", "1", "2")) is None
-
-
-def sensitivity(measure, key, first, total, at=""):
-    return SobolSensitivity(measure, {"seed": WrittenValue(at)} if at else {}, key, first, total)
-
-
-def ends_of(shape):
-    """Return where a bar, or an interval, begins and ends across."""
-    return start(shape)[0], float(re.findall(r"H([\d.]+)", shape.path)[-1])
-
-
-def test_indices_and_their_intervals_lie_at_their_numbers():
-    first, total = SobolIndex(0.3, 0.1, 0.45), SobolIndex(0.6, 0.5, 0.8)
-    small = SobolIndex(-0.05, -0.1, 0.02)
-    (plot,) = sobol_plots(
-        [sensitivity("met", "friction", first, total), sensitivity("met", "mass", small, small)]
-    )
-    assert plot.title == "cases met"
-    assert [label.text for label in plot.labels] == ["friction", "mass"]
-    bars, intervals = of_kind(plot, "index"), of_kind(plot, "interval-line")
-    for bar, interval, index in zip(bars, intervals, (first, total, small, small), strict=True):
-        ends = [value_at(plot, at) for shape in (bar, interval) for at in ends_of(shape)]
-        assert ends == pytest.approx([0.0, index.value, index.low, index.high], abs=2e-3)
-        assert "l" not in interval.path  # an arrow
-    assert bars[0].words == "alone: 0.30, 95 % confidence 0.10 to 0.45"
-
-
-def test_an_interval_that_leaves_the_axis_has_an_arrow():
-    (plot,) = sobol_plots([sensitivity("met", "a", SobolIndex(0.7, -3.0, 1.0), SobolIndex(1.0, 0.0, 3.1))])
-    below, above = (shape.path for shape in of_kind(plot, "interval-line"))
-    assert [path.count("l") for path in (below, above)] == [2, 2]
-    assert below.index("l") < below.index("H")
-    assert above.index("l") > above.index("H")
-    assert value_at(plot, ends_of(of_kind(plot, "interval-line")[1])[1]) == pytest.approx(2.0, abs=0.01)
-
-
-def test_each_measure_and_each_listed_value_has_its_own_drawing():
-    index = SobolIndex(0.5, 0.4, 0.6)
-    plots = sobol_plots(
-        [
-            sensitivity(measure, key, index, index, seed)
-            for measure in ("braking_distance_m", "met")
-            for seed in ("1", "2")
-            for key in ("a", "b")
-        ]
-    )
-    titles = [f"{name}, at seed = {n}" for name in ("braking distance, m", "cases met") for n in (1, 2)]
-    assert [(plot.title, len(of_kind(plot, "index"))) for plot in plots] == [(title, 4) for title in titles]
-
-
-def test_an_index_that_does_not_exist_has_no_bar():
-    nothing = SobolIndex(math.nan, math.nan, math.nan)
-    (plot,) = sobol_plots([sensitivity("met", "a", nothing, SobolIndex(0.5, 0.4, 0.6))])
-    assert len(of_kind(plot, "index")) == len(of_kind(plot, "interval-line")) == 1

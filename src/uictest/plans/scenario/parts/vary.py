@@ -1,4 +1,4 @@
-"""What a sweep varies: lists, ranges and distributions of values, and what is computed from its draws."""
+"""What a sweep varies: lists, ranges and distributions of values."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from uictest.plans.scenario.parts.tail_requests import KDryRequest, QuantileRequest, Quantiles
 from uictest.plans.scenario.yaml import (
     DecimalQuantity,
     DecimalQuantityField,
@@ -233,14 +232,3 @@ class Vary(Model):
     )
     zip: Lists | None = optional("Lists of equal length by dotted key; values at the same place go together.")
     sample: Sample | None = optional("Values drawn from distributions.")
-    quantiles: Quantiles | None = optional(
-        "Quantiles of a measure over the draws of a random sample, or a list of such."
-    )
-    k_dry: KDryRequest | None = optional(
-        "K_dry by confidence level (EBCL), from the draws of a random sample."
-    )
-
-    @property
-    def quantile_requests(self) -> tuple[QuantileRequest, ...]:
-        """The quantiles as a list, whether the file has one request or several."""
-        return (self.quantiles,) if isinstance(self.quantiles, QuantileRequest) else self.quantiles or ()

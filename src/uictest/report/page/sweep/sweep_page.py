@@ -1,4 +1,4 @@
-"""The page of a sweep as HTML: maps, points, distributions, sensitivities, frontier, and worst stops."""
+"""The page of a sweep as HTML: maps, lines, sensitivities, frontier, and worst stops."""
 
 from __future__ import annotations
 
@@ -10,11 +10,8 @@ from uictest.report.page.case_view import case_view, plots_json
 from uictest.report.page.overview import shown_parts
 from uictest.report.page.plot import Plot
 from uictest.report.page.rendering import load_template, render
-from uictest.report.page.sweep.bar_plots import SOBOL_KEY, STACKED, histogram_plot, is_spread, sobol_plots
 from uictest.report.page.sweep.line_plots import cell_lines, frontier_plot, trend_plot
 from uictest.report.page.sweep.maps import maps_of_pair
-from uictest.report.page.sweep.panels import PanelsOfPoints, panels_of_points
-from uictest.report.page.sweep.scatter import is_sampled, scatter
 from uictest.report.part_wording import controller_text
 from uictest.report.sweep.cases import ReportedColumns, SummaryRows, reported_columns
 from uictest.report.sweep.folder import SweepContent
@@ -33,15 +30,13 @@ from uictest.report.sweep.sweep_sentences import (
     sweep_tally,
     swept_words,
 )
-from uictest.report.sweep.tail_tables import tables_left_out, tail_tables
+from uictest.report.sweep.values import DrawnInterval
 
 _TEMPLATE: Final = "sweep.html.j2"
 
 
 def load_sweep_page() -> None:
-    """Load what a page takes besides its content: templates, and Arrow's functions for points."""
-    import pyarrow.acero  # noqa: F401 - groups the points
-
+    """Load what a page takes besides its content."""
     load_template(_TEMPLATE)
 
 
@@ -60,10 +55,10 @@ def sweep_page_html(content: SweepContent) -> str:
         if case.id in content.traces
     ]
     keys = {view.result.id: view.fragment for view in drawn}
-    sampled = is_sampled(result)
+    sampled = _is_sampled(result)
     cells = _cells(content)
     units = {measure.name: measure.unit for measure in reported_columns(result)}
-    # The points of a sample show what its measures depend on.
+    # A cell of a sample has few cases, and values of its own: what a parameter does, its trends show.
     lines = [] if sampled else [cell_lines(each, units, result.logarithmic) for each in cells]
     maps = [
         maps_of_pair(
@@ -89,19 +84,9 @@ def sweep_page_html(content: SweepContent) -> str:
         maps=[each for each in maps if each],
         maps_left_out=maps_left_out(content),
         lines=[each for each in lines if each],
-        points=_points(content, keys) if sampled else None,
         rates={} if len(result.varied) == 2 and maps and maps[0] else _rates(result),
         frontier=frontier and (frontier_plot(frontier, result.logarithmic), frontier_table(frontier)),
-        trends={} if sampled or any(lines) else _trends(result),
-        sobol_plots=list(sobol_plots(result.sensitivities)),
-        sobol_key=SOBOL_KEY,
-        # How often a value of a list occurs is chosen, not found.
-        histograms=[
-            histogram_plot(each, result) for each in result.distributions if sampled and is_spread(each)
-        ],
-        outcomes=[("bar-" + outcome, outcome) for outcome in STACKED if result.outcomes.get(outcome)],
-        tails=list(tail_tables(result)),
-        tails_left_out=tables_left_out(result),
+        trends={} if any(lines) else _trends(result),
         notable=notable_table(result),
         sensitivities=sensitivity_table(result),
         drawn=drawn,
@@ -130,9 +115,10 @@ def _rates(result: SweepResult) -> dict[str, Sequence[OutcomeCount]]:
     return {key: counts for key, counts in result.rates.items() if len(counts) <= _MOST_VALUES}
 
 
-def _points(content: SweepContent, fragments: Mapping[str, str]) -> PanelsOfPoints | None:
-    rows = SummaryRows(content.folder)
-    return panels_of_points(scatter(content.result, rows, fragments), fragments) if rows.exists else None
+def _is_sampled(result: SweepResult) -> bool:
+    """Return whether any parameter was drawn from a distribution of numbers."""
+    values = (count.value for counts in result.rates.values() for count in counts)
+    return any(isinstance(value, DrawnInterval) for value in values)
 
 
 def _trends(result: SweepResult) -> dict[str, list[Plot]]:
