@@ -52,10 +52,8 @@ class TransferFunction:
 
     @property
     def poles(self) -> NDArray[np.complex128]:
-        """Poles in the z plane, by python-control."""
-        import control
-
-        return np.asarray(control.poles(self.system))
+        """Poles in the z plane."""
+        return np.asarray(np.roots([1.0, *self.denominator]), dtype=np.complex128)
 
     def response(self, frequencies: Samples) -> NDArray[np.complex128]:
         """Complex gain at frequencies in Hz, by python-control."""
