@@ -8,21 +8,14 @@ from uictest.judging import evaluation
 
 FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan"))
 VERSIONS = {"uictest": "0.1.0", "numpy": "2.0.0"}
+PARTS = {"controller": evaluation.EffectivePart("controller", "controller", "threshold", None, ())}
 
 
-def part(kind, name):
-    """A part whose id follows from its name."""
-    return evaluation.EffectivePart(kind, kind, name, None, ())
-
-
-PARTS = {"vehicle": part("vehicle", "coach"), "controller": part("controller", "threshold")}
-
-
-def case(case_id, outcome="pass", distance=470.0, expect="pass", parts=PARTS):
+def case(case_id, outcome="pass", distance=470.0, expect="pass"):
     """A judged stop with a vehicle and a controller."""
     measures = FIGURES | {"braking_distance_m": distance}
     file = "scenarios/dry.yaml"
-    return evaluation.CaseResult(case_id, file, {}, expect, outcome, measures=measures, parts=parts)
+    return evaluation.CaseResult(case_id, file, {}, expect, outcome, measures=measures, parts=PARTS)
 
 
 @pytest.fixture

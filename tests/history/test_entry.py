@@ -1,60 +1,63 @@
 import json
-from dataclasses import replace
 
 import pytest
 from hypothesis import given, strategies as st
 
 from uictest import report
-from uictest.judging.evaluation import RepeatedStop, Repeats
-from uictest.runs.history.entry import ENTRY, CaseEntry, RunEntry, _written, entry_of, read_entry
+from uictest.judging import evaluation
+from uictest.runs.history.entry import ENTRY, RunEntry, entry_of, read_entry
 
 from .conftest import case
 
-STOPS = tuple(RepeatedStop(seed, "pass") for seed in range(3))
 words = st.sampled_from(report.CASE_WORDS)
 names = st.text(st.characters(codec="utf-8"), min_size=1, max_size=20)
+distances = st.floats(-1e9, 1e9)
 entries = st.builds(
     RunEntry,
-    name=names,
+    run=names,
     complete=st.booleans(),
     results_bytes=st.integers(0, 2**40),
     baseline=names,
+    subject=names,
+    controllers=names,
     counts=st.dictionaries(words, st.integers(1, 10**6)),
     series=st.dictionaries(words, st.integers(1, 100)),
-    cases=st.lists(
-        st.builds(
-            CaseEntry, names, words, st.none() | st.floats(-1e9, 1e9), st.lists(names, max_size=3).map(tuple)
-        )
-    ),
+    distances=st.none() | st.tuples(distances, distances),
 )
 
 
 @given(entry=entries)
 def test_what_is_read_is_what_was_written(entry):
-    assert read_entry(_written(entry).model_dump_json(by_alias=True).encode()) == entry
+    assert read_entry(entry.model_dump_json(by_alias=True).encode()) == entry
 
 
 def test_counts_and_distances_are_those_of_the_results():
-    results = case("a"), case("b", "fail", float("nan")), case("c", "fail", expect="fail"), case("d")
+    results = case("a"), case("b", "fail", float("nan")), case("c", "fail", 480.0, expect="fail"), case("d")
     entry = entry_of(report.RunContent("", results), 10)
     assert entry.counts == {"pass": 2, "expected fail": 1, "fail": 1}
-    assert [each.distance for each in entry.cases] == [470.0, None, 470.0, 470.0]
-    assert list(entry.cases[0].parts_by_kind) == ["vehicle", "controller", "expect"]
+    assert entry.distances == (470.0, 480.0)
+    assert entry_of(report.RunContent("", [case("b", "fail", float("nan"))]), 10).distances is None
+
+
+def test_the_subject_is_what_was_run_with_its_controllers():
+    files = [f"tests/{name}.yaml" for name in ("slip-120", "dry-120", "slip-120", "low", "wet")]
+    results = [evaluation.CaseResult(str(n), file, {}, "pass", "pass") for n, file in enumerate(files)]
+    manifest = report.RunManifest(versions={"uictest": "0.1.0"})
+    entry = entry_of(report.RunContent("", [*results, case("a")], manifest), 10)
+    assert entry.subject == "slip-120, dry-120, low and 2 more"
+    assert entry.controllers == "threshold (built into uictest 0.1.0)"
 
 
 @pytest.mark.parametrize(
     ("change", "complaint"),
     [
-        ({"schema": "uictest/index-entry/2"}, "schema"),
+        ({"schema": "uictest/index/2"}, "schema"),
         ({"run": 3}, "run"),
         ({"counts": {"splendid": 1}}, "no verdict 'splendid'"),
         ({"counts": {"pass": -1}}, "counts.pass"),
-        ({"cases": [["a", "pass", None, [99]]]}, "found number 99"),
-        ({"parts": ["x"], "cases": [["a", "pass", None, [1]]]}, "there are 1 parts, found number 1"),
-        ({"cases": [["a", "splendid", None, []]]}, "no verdict 'splendid'"),
-        ({"cases": [["a", "pass", "far", []]]}, "cases.0.2"),
-        ({"cases": [["a", "pass", float("inf"), []]]}, "cases.0.2"),
-        ({"cases": 3}, "cases"),
+        ({"distances": [470.0]}, "distances"),
+        ({"distances": ["far", 470.0]}, "distances.0"),
+        ({"distances": [470.0, float("inf")]}, "distances.1"),
         ({"more": 1}, "more"),
     ],
 )
@@ -72,20 +75,8 @@ def test_what_is_no_entry_is_rejected():
 
 def test_a_folder_whose_name_is_no_text_has_an_entry_all_the_same():
     """A file name of other bytes than UTF-8 holds lone surrogates, which no JSON file can."""
-    entry = RunEntry("run-\udcff", True, 1, "old-\udcff", {}, {}, ())
-    text = _written(entry).model_dump_json(by_alias=True).encode()
-    assert (read_entry(text).name, read_entry(text).baseline) == (r"run-\udcff", r"old-\udcff")
-
-
-def test_how_a_stop_is_repeated_stands_among_what_it_was_run_with():
-    rules = {"all": Repeats("all", STOPS), "share": Repeats("at_least", STOPS, required_share=0.6)}
-    results = [replace(case(name), repeats=repeats) for name, repeats in rules.items()]
-    cases = entry_of(report.RunContent("", results), 10).cases
-    parts = [entry.parts_by_kind["repeat"] for entry in cases]
-    assert parts == [["repeat/3-all"], ["repeat/3-at_least-0.6"]]
-
-
-def test_without_its_cases_an_entry_has_the_same_head(publish):
-    text = (publish(case("a"), case("b", "fail")) / ENTRY).read_bytes()
-    whole, head = read_entry(text), read_entry(text, with_cases=False)
-    assert (head.counts, head.name, head.cases) == (whole.counts, whole.name, ())
+    baseline = report.BaselineComparison("old-\udcff", "00")
+    results = [evaluation.CaseResult("a", "stop-\udcff.csv", {}, "pass", "pass")]
+    entry = entry_of(report.RunContent("run-\udcff", results, baseline=baseline), 1)
+    read = read_entry(entry.model_dump_json(by_alias=True).encode())
+    assert (read.run, read.baseline, read.subject) == (r"run-\udcff", r"old-\udcff", r"stop-\udcff")

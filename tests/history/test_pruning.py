@@ -64,7 +64,7 @@ REASONS = [
     (_replace_by_a_link, NOT_OURS.format("summary.csv")),
     (lambda run: (run / "mine").mkdir(), NOT_OURS.format("mine")),
     (lambda run: (run / "recordings").mkdir(), NOT_OURS.format("recordings")),
-    (lambda run: (run / files.LIST).unlink(), "it has no SHA256SUMS: an earlier version wrote it"),
+    (lambda run: (run / files.LIST).unlink(), "it has no SHA256SUMS"),
     (lambda run: (run.parent / "accepted").symlink_to(run.name), "the link accepted refers to it"),
     (lambda run: (run.parent / "a.csv").symlink_to(run / "summary.csv"), "the link a.csv refers to it"),
 ]

@@ -11,13 +11,18 @@ from uictest.runs.history.run_in_folder import started_in
 
 from .conftest import case
 
+CONTROLLERS = [
+    {"name": "slip-band", "version": "uictest 1", "kind": ""},
+    {"name": "x", "version": "", "kind": "c"},
+]
 SWEEP = {"schema": "uictest/result/2", "kind": "sweep", "name": "study", "cases": 3, "met": 2}
+SWEEP |= {"controllers": CONTROLLERS}
 
 
 def sweep(folder, **changes):
     folder.mkdir(parents=True)
     manifest = {"schema": "uictest/manifest/2", "kind": "sweep", "sweep": "study"}
-    manifest |= {"file": "study.sweep.yaml", "cases": 3}
+    manifest |= {"file": "sweeps/study.sweep.yaml", "cases": 3, "inputs": {"../stop.yaml": "00"}}
     (folder / "manifest.json").write_text(json.dumps(manifest))
     document = SWEEP | {"outcomes": {"pass": 2, "fail": 1}} | changes
     (folder / "sweep.json").write_text(json.dumps(document))
@@ -35,11 +40,11 @@ def reason_of(found):
 
 
 def test_a_run_is_read_with_its_manifest_and_its_counts(publish):
-    run = run_of(read_folder(publish(case("a"), case("b", "fail"), command=("run", "a b.yaml"))))
-    assert (run.kind, run.command[1:]) == ("run", ("run", "a b.yaml"))
+    run = run_of(read_folder(publish(case("a"), case("b", "fail", 480.0), inputs={"a b.yaml": "00"})))
+    assert (run.kind, run.inputs, run.subject) == ("run", {"a b.yaml": "00"}, "dry")
     assert (run.counts, run.not_met) == ({"pass": 1, "fail": 1}, 1)
     assert run.page == f"{run.name}/index.html"
-    assert [each.id for each in run.cases] == ["a", "b"]
+    assert run.distances == (470.0, 480.0)
     of_recordings = run_of(read_folder(publish(command=("evaluate", "stop.csv"), formats=())))
     assert (of_recordings.kind, of_recordings.page) == ("evaluate", "")
 
@@ -55,12 +60,13 @@ def test_a_renamed_run_keeps_its_start_and_a_link_to_it_is_no_run_of_its_own(pub
     assert reason_of(read_folder(reports)) == "not of uictest: there is no manifest.json"
 
 
-def test_a_run_of_an_earlier_version_is_read_from_its_results(publish):
-    folder = publish(case("a"), case("b", "fail"))
+def test_a_run_without_an_entry_as_an_accepted_baseline_is_listed_without_a_verdict(publish):
+    folder = publish(case("a"), inputs={"a.yaml": "00"})
     with_entry = run_of(read_folder(folder))
     (folder / ENTRY).unlink()
     without = run_of(read_folder(folder))
-    assert (without.counts, without.cases) == (with_entry.counts, with_entry.cases)
+    assert (without.counts, without.note) == ({}, "there is no index-entry.json")
+    assert without.inputs == with_entry.inputs
     assert abs((without.started - with_entry.started).total_seconds()) <= 1.0
 
 
@@ -68,6 +74,8 @@ def test_a_sweep_is_read_with_its_counts_if_it_is_finished_and_no_earlier_one(tm
     folder = sweep(tmp_path / "study")
     run = run_of(read_folder(folder))
     assert (run.kind, run.counts, run.not_met) == ("sweep", {"pass": 2, "fail": 1}, 1)
+    assert (run.subject, run.controllers) == ("study", "slip-band (built into uictest 1), x")
+    assert run.inputs == {"sweeps/../stop.yaml": "00"}
     (folder / "sweep.json").unlink()
     assert "not finished" in reason_of(read_folder(folder))
     assert "earlier run" in reason_of(read_folder(sweep(tmp_path / "other", cases=4)))
@@ -129,15 +137,6 @@ def test_a_damaged_folder_is_no_run_and_the_reason_is_given(publish, file, damag
     else:
         damage(folder / file)
     assert reason in reason_of(read_folder(folder))
-
-
-def test_damaged_results_of_an_earlier_version_are_damaged(publish):
-    folder = publish()
-    (folder / ENTRY).unlink()
-    (folder / "results.json").write_text("{")
-    assert reason_of(read_folder(folder)).startswith("damaged: ")
-    _make_a_pipe(folder / "results.json")
-    assert "results.json is no file" in reason_of(read_folder(folder))
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,6 @@ from studies.writing import write_figures, write_pages
 from uictest import report, runs
 
 from .builders import make_result
-from .chromium import run, wait
 from .test_accessibility import appearances, assert_fit_for_all, shown
 
 
@@ -72,32 +71,3 @@ def test_the_pages_of_studies_break_no_rule_of_accessibility(browser, study_page
     for page in (study_page, study_page.parents[1] / "index.html"):
         shown(browser, page, scheme, width)
         assert_fit_for_all(browser)
-
-
-def test_the_cases_are_filtered(browser, index):
-    shown(browser, index)
-    visible = "return [...document.querySelectorAll('.history tbody tr')].filter((row) => !row.hidden).length"
-    assert run(browser, visible) == 2
-    search = "const box = document.querySelector('.history-filter [name=text]'); box.value = 'SLIP';"
-    run(browser, f"{search} box.dispatchEvent(new Event('input', {{bubbles: true}}))")
-    assert run(browser, visible) == 1
-    assert run(browser, "return document.querySelector('.count').textContent") == "1 of 2 shown"
-
-
-def test_a_mark_opens_the_case_in_its_run(browser, index):
-    shown(browser, index)
-    run(
-        browser,
-        """
-        const strip = document.querySelector('svg.strip');
-        const {left, top, width} = strip.getBoundingClientRect();
-        strip.dispatchEvent(new MouseEvent('click',
-          {bubbles: true, clientX: left + width * 1.5 / 4, clientY: top + 5}));
-        """,
-    )
-    address = wait(browser, "return location.hash && location.href")
-    second = sorted(
-        (path.parent for path in index.parent.glob("*/index-entry.json")),
-        key=lambda folder: (folder / "index-entry.json").stat().st_mtime_ns,
-    )[1]
-    assert address == f"{second.as_uri()}/index.html#case-slip-120"

@@ -65,6 +65,7 @@ from .manifest import (
 )
 from .page.links import may_replace as may_replace
 from .part_wording import (
+    controller_text as controller_text,
     deviation_text as deviation_text,
     domain_lines as domain_lines,
     interval_text as interval_text,

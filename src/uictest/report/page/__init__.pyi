@@ -1,7 +1,7 @@
 from .axis import spanned as spanned
 from .case_view import plot_data as plot_data, plots_json as plots_json, sampling_text as sampling_text
 from .forest import Effect as Effect, forest as forest
-from .links import case_anchor as case_anchor, fragment as fragment, series_anchor as series_anchor
+from .links import case_anchor as case_anchor, fragment as fragment
 from .plot import (
     ROW_PIXELS as ROW_PIXELS,
     Plot as Plot,

@@ -86,7 +86,6 @@ _SCRIPTS = (
     "comparison",
     "laid_over",
     "copying",
-    "history",
     "anchors",
 )
 """Parts of the script of a page, in the order in which they run; they share one scope."""
@@ -99,7 +98,7 @@ _STYLES = (
     "stops",
     "drawings",
     "laid_over",
-    "history",
+    "runs",
     "studies",
     "narrow",
     "print",

@@ -30,17 +30,15 @@ def json_object(path: Path) -> dict[str, Any]:
 
 
 def bytes_of(path: Path) -> bytes:
-    """Return the content of a regular file that is not too large. Raises UnreadableError, OSError."""
-    require_file(path)
+    """Return the content of a regular file that is not too large. Raises UnreadableError, OSError.
+
+    Anything else could block for ever, or have no end.
+    """
+    if not path.is_file():
+        raise UnreadableError(f"{path.name} is no file")
     if (size := path.stat().st_size) > _LARGEST:
         raise UnreadableError(f"{path.name} of {size >> 20} MB is not read")
     return path.read_bytes()
-
-
-def require_file(path: Path) -> None:
-    """Raise UnreadableError for anything but a regular file: it could block for ever, or have no end."""
-    if not path.is_file():
-        raise UnreadableError(f"{path.name} is no file")
 
 
 def exists(path: Path) -> bool:

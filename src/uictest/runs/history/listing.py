@@ -11,8 +11,6 @@ from uictest.runs.history.run_in_folder import ListedRun, Unlisted, read_folder
 
 FOLDERS_READ: Final = 500
 """Folders that are read, the newest ones by their time of change."""
-CASES_READ: Final = 40
-"""Folders of which the cases are read: the newest ones. Of the others the counts are read."""
 
 
 class Listing(NamedTuple):
@@ -37,7 +35,7 @@ def list_runs(parent: Path) -> Listing:
     folders = sorted(_folders(parent), key=_changed, reverse=True)
     hidden = [folder for folder in folders if folder.name.startswith(".")]
     visible = [folder for folder in folders if folder not in set(hidden)]
-    read = _read(visible[:FOLDERS_READ])
+    read = [read_folder(folder) for folder in visible[:FOLDERS_READ]]
     listed = [each for each in read if isinstance(each, ListedRun)]
     return Listing(
         runs=sorted(listed, key=lambda run: (run.started, run.order, run.name), reverse=True),
@@ -56,13 +54,3 @@ def _changed(folder: Path) -> tuple[float, str]:
         return folder.stat().st_mtime, folder.name
     except OSError:
         return 0.0, folder.name
-
-
-def _read(folders: Sequence[Path]) -> list[ListedRun | Unlisted]:
-    """Return what the folders hold, and the cases of as many runs as are shown."""
-    read: list[ListedRun | Unlisted] = []
-    with_cases = 0
-    for folder in folders:
-        read.append(found := read_folder(folder, with_cases=with_cases < CASES_READ))
-        with_cases += isinstance(found, ListedRun) and bool(found.cases)
-    return read

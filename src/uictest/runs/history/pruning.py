@@ -127,9 +127,7 @@ def _of_links(parent: Path) -> Iterator[_Reference]:
 
 def _of_run(run: ListedRun) -> list[_Reference]:
     """Return the paths that a run refers to: its baseline, and what it was computed from."""
-    # The inputs of a sweep are named relative to its file.
-    above = Path(run.command[2]).parent if run.kind == "sweep" else Path()
-    inputs = [_Reference(run.name, above / name, sha256) for name, sha256 in run.inputs.items()]
+    inputs = [_Reference(run.name, Path(name), sha256) for name, sha256 in run.inputs.items()]
     return [*inputs, *([_Reference(run.name, Path(run.baseline))] if run.baseline else [])]
 
 
@@ -139,7 +137,7 @@ def _remove(folder: Path) -> str:
         files.remove_run(folder.parent, folder.name)
     except files.ForeignFileError as error:
         if not os.path.lexists(folder / str(error)):
-            return f"it has no {error}: an earlier version wrote it"
+            return f"it has no {error}"
         return f"it holds {error}, which uictest did not write"
     except files.FolderInUseError as error:
         return f"it is in use by {error}"

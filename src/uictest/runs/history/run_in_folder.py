@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
@@ -13,14 +13,13 @@ from pydantic import BaseModel, ConfigDict, Field, NonNegativeInt, ValidationErr
 
 from uictest import report
 from uictest.core import envelope
-from uictest.runs.history.entry import ENTRY, CaseEntry, RunEntry, entry_of, read_entry
+from uictest.runs.history.entry import ENTRY, RunEntry, read_entry
 from uictest.runs.history.foreign_files import (
     UnreadableError,
     bytes_of,
     exists,
     first_problem,
     json_object,
-    require_file,
     shown,
 )
 
@@ -35,8 +34,6 @@ _OTHERS: Final[Mapping[str, tuple[Kind, Callable[[Mapping[str, Any]], bool]]]] =
     "studies.json": ("studies", lambda content: str(content.get("schema")).startswith("uictest/studies/")),
 }
 """File that names what a folder without manifest holds -> its kind, and whether its content is of that."""
-_LARGEST_RESULTS: Final = 2 << 20
-"""Size of the largest results.json that is read where a run has no entry, bytes."""
 _STARTED: Final = re.compile(r"(?:fit-|validation-)?(\d{8}T\d{6}Z)-[0-9a-f]{8}(?:-\d+)?")
 
 
@@ -48,16 +45,16 @@ class ListedRun:
         name: of the folder.
         kind: what wrote it.
         started: when it started; of a sweep and of studies, when the result was written.
-        command: the words of its command line; empty where unknown.
-        versions: program or package -> version.
+        subject: what was run, by name; empty where it is not known.
+        controllers: the controllers under test with their versions; empty where none is known.
         inputs: file that was read -> its SHA-256.
         page: its file to open, relative to the folder of all runs; empty where there is none.
         complete: False where selected cases are missing.
         counts: number of cases by word or outcome.
         not_met: number of cases and series that are not as expected.
         series: number of series by word.
+        distances: shortest and longest braking distance, m; None where none is known.
         baseline: folder that it was compared with; empty without one.
-        cases: the cases, none where they are not known.
         note: what readers should know, e.g. why there are no counts.
         order: when the results of a run or a sweep were written, ns; sorts what started in the same second.
 
@@ -66,16 +63,16 @@ class ListedRun:
     name: str
     kind: Kind
     started: datetime
-    command: Sequence[str] = ()
-    versions: Mapping[str, str] = field(default_factory=dict)
+    subject: str = ""
+    controllers: str = ""
     inputs: Mapping[str, str] = field(default_factory=dict)
     page: str = ""
     complete: bool = True
     counts: Mapping[str, int] = field(default_factory=dict)
     not_met: int = 0
     series: Mapping[str, int] = field(default_factory=dict)
+    distances: tuple[float, float] | None = None
     baseline: str = ""
-    cases: Sequence[CaseEntry] = ()
     note: str = ""
     order: int = 0
 
@@ -87,52 +84,46 @@ class Unlisted(NamedTuple):
     reason: str
 
 
-def read_folder(folder: Path, *, with_cases: bool = True) -> ListedRun | Unlisted:
-    """Return what a folder holds, or why it is no run. Raises nothing for what stands in the folder.
-
-    `with_cases=False` leaves the cases of a run unread.
-    """
+def read_folder(folder: Path) -> ListedRun | Unlisted:
+    """Return what a folder holds, or why it is no run. Raises nothing for what stands in the folder."""
     try:
         if folder.is_symlink():
             return Unlisted(folder.name, f"a link to {folder.readlink()}")
-        return _read(folder, with_cases=with_cases)
+        return _read(folder)
     except UnreadableError as error:
         return Unlisted(folder.name, str(error))
     except OSError as error:
         return Unlisted(folder.name, f"cannot be read: {error.strerror or error}")
 
 
-def _read(folder: Path, *, with_cases: bool) -> ListedRun:
+def _read(folder: Path) -> ListedRun:
     if not exists(folder / MANIFEST):
         return _other(folder)
     manifest = json_object(folder / MANIFEST)
     if envelope.is_of(manifest, envelope.MANIFEST, "run"):
-        return _run(folder, manifest, with_cases=with_cases)
+        return _run(folder, manifest)
     if envelope.is_of(manifest, envelope.MANIFEST, "sweep"):
         return _sweep(folder, manifest)
     raise UnreadableError(f"not of uictest: {MANIFEST} has {envelope.head_of(manifest)}")
 
 
-def _run(folder: Path, content: Mapping[str, Any], *, with_cases: bool) -> ListedRun:
+def _run(folder: Path, content: Mapping[str, Any]) -> ListedRun:
     try:
         manifest = report.read_manifest({"manifest": content})
     except ValueError as error:
         raise UnreadableError(f"{MANIFEST} is damaged: {error}") from error
     if not exists(folder / report.RESULTS):
         raise UnreadableError(f"damaged: there is no {report.RESULTS}")
-    entry, note = _entry(folder, with_cases=with_cases)
-    evaluated = manifest.command[1:2] == ("evaluate",)
+    kind: Kind = "evaluate" if manifest.command[1:2] == ("evaluate",) else "run"
+    entry = _entry(folder)
     return ListedRun(
         folder.name,
-        "evaluate" if evaluated else "run",
-        (started_in(entry.name) if entry else None) or _started(folder, report.RESULTS),
-        manifest.command,
-        manifest.versions,
-        manifest.inputs,
-        _page(folder),
-        **({} if entry is None else _of_entry(entry)),
-        note=note,
+        kind,
+        (started_in(entry.run) if entry else None) or _started(folder, report.RESULTS),
+        inputs=manifest.inputs,
+        page=_page(folder),
         order=(folder / report.RESULTS).stat().st_mtime_ns,
+        **({"note": f"there is no {ENTRY}"} if entry is None else _of_entry(entry)),
     )
 
 
@@ -143,22 +134,16 @@ def _of_entry(entry: RunEntry) -> dict[str, Any]:
         for word, count in counts.items()
         if report.tone(word) != "good"
     )
-    return {
-        "complete": entry.complete,
-        "counts": entry.counts,
-        "series": entry.series,
-        "not_met": not_met,
-        "baseline": entry.baseline,
-        "cases": entry.cases,
-    }
+    names = ("complete", "subject", "controllers", "counts", "series", "distances", "baseline")
+    return {**{name: getattr(entry, name) for name in names}, "not_met": not_met}
 
 
-def _entry(folder: Path, *, with_cases: bool) -> tuple[RunEntry | None, str]:
-    """Return the entry of a run, from its results where there is none; else why there is none."""
+def _entry(folder: Path) -> RunEntry | None:
+    """Return the entry of a run; an accepted baseline has none."""
     if not exists(folder / ENTRY):
-        return _entry_from_results(folder) if with_cases else (None, "of an earlier version; not read")
+        return None
     try:
-        entry = read_entry(bytes_of(folder / ENTRY), with_cases=with_cases)
+        entry = read_entry(bytes_of(folder / ENTRY))
     except ValueError as error:
         raise UnreadableError(f"{ENTRY} is damaged: {error}") from error
     size = (folder / report.RESULTS).stat().st_size
@@ -166,19 +151,7 @@ def _entry(folder: Path, *, with_cases: bool) -> tuple[RunEntry | None, str]:
         raise UnreadableError(
             f"{report.RESULTS} is not what the run wrote: {size} bytes, expected {entry.results_bytes}"
         )
-    return entry, ""
-
-
-def _entry_from_results(folder: Path) -> tuple[RunEntry | None, str]:
-    require_file(folder / report.RESULTS)
-    size = (folder / report.RESULTS).stat().st_size
-    if size > _LARGEST_RESULTS:
-        return None, f"of an earlier version; its {report.RESULTS} of {size >> 20} MB is not read"
-    try:
-        content = report.read_run(folder)
-    except ValueError as error:
-        raise UnreadableError(f"damaged: {error}") from error
-    return entry_of(content, size), ""
+    return entry
 
 
 def _sweep(folder: Path, manifest: Mapping[str, Any]) -> ListedRun:
@@ -194,24 +167,42 @@ def _sweep(folder: Path, manifest: Mapping[str, Any]) -> ListedRun:
         raise UnreadableError(
             f"a sweep that is not finished: {report.SWEEP_RESULTS} is of an earlier run of it"
         )
+    # Inputs are named relative to the sweep file.
+    above = Path(str(manifest.get("file", ""))).parent
     return ListedRun(
         folder.name,
         "sweep",
         _written(folder / report.SWEEP_RESULTS),
-        ("uictest", "sweep", str(manifest.get("file", ""))),
-        _texts(manifest.get("versions")),
-        _texts(manifest.get("inputs")),
-        _page(folder),
+        subject=head.name,
+        controllers=", ".join(
+            report.controller_text(each.name, each.version, built_in=not each.kind)
+            for each in head.controllers
+        ),
+        inputs={str(above / name): digest for name, digest in _texts(manifest.get("inputs")).items()},
+        page=_page(folder),
         counts={word: count for word, count in head.outcomes.items() if count},
         not_met=head.cases - head.met,
         order=(folder / report.SWEEP_RESULTS).stat().st_mtime_ns,
     )
 
 
+_OF_INDEX: Final = ConfigDict(extra="ignore", strict=True)
+
+
+class _SweptController(BaseModel):
+    """A controller in the result of a sweep; kind empty if it is built in."""
+
+    model_config = _OF_INDEX
+
+    name: str
+    version: str
+    kind: str
+
+
 class _SweepHead(BaseModel):
     """What the index needs of the result of a sweep."""
 
-    model_config = ConfigDict(extra="ignore", strict=True)
+    model_config = _OF_INDEX
 
     form: str = Field(alias="schema")
     kind: str = ""
@@ -219,6 +210,7 @@ class _SweepHead(BaseModel):
     cases: NonNegativeInt
     met: NonNegativeInt
     outcomes: dict[str, NonNegativeInt]
+    controllers: list[_SweptController]
 
 
 def _other(folder: Path) -> ListedRun:
