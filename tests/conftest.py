@@ -75,7 +75,6 @@ _LONGEST = (
     "report/test_laid_over_browser.py",
     "report/test_page_numbers.py",
     "rig/bench/test_identified_air.py",
-    "history/test_entry.py",
 )
 """Files that take longest. They begin first, lest one process works on them while the others are done.
 

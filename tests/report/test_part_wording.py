@@ -19,7 +19,6 @@ from uictest.report import (
 from uictest.report.formats.csv import FORMAT as CSV, summary_table
 from uictest.report.formats.junit import FORMAT as JUNIT
 from uictest.report.formats.md import FORMAT as MARKDOWN, markdown_summary
-from uictest.report.formats.xlsx import parameter_rows
 from uictest.report.page import page_html, sweep_page_html
 from uictest.report.page.overview import shown_parts
 from uictest.report.part_wording import changed_parameters, controllers_text, part_sentences, slide_speed
@@ -198,10 +197,6 @@ def test_tables_and_summaries_say_what_was_changed():
     assert row["changed_parameters"] == CHANGE
     assert "3 km/h" in markdown_summary(make_content(result))
     assert CHANGE in "".join(case_annotations(result))
-    rows = {each["parameter"]: each for each in parameter_rows([result.parts])}
-    slip, hold = rows["controller.slip_threshold"], rows["controller.hold_limit"]
-    assert (slip["value"], slip["unit"], slip["library"], slip["mark"]) == (0.8, "m/s", "1.146 m/s", "user")
-    assert (hold["differs"], hold["source"]) == (False, "A surrogate.")
 
 
 def test_junit_says_it_of_a_case_that_is_met_and_of_one_that_is_not():

@@ -2,7 +2,7 @@
 
 import pytest
 
-from uictest.report.requirements import requirement_matrix, requirements_of, verified_requirements
+from uictest.report.requirements import requirements_of, verified_requirements
 
 from .builders import make_result, make_verdict
 
@@ -91,10 +91,3 @@ def test_a_testcase_stands_for_its_own_requirements_and_those_of_criteria_that_a
     not_applicable = make_verdict(id="x", status="not_applicable", requirements=("BR-9",))
     verdicts = (make_verdict(requirements=("BR-2", "BR-1")), not_applicable)
     assert requirements_of(make_result(requirements=("BR-1",), criteria=verdicts)) == ("BR-1", "BR-2")
-
-
-def test_the_matrix_says_how_many_cases_a_sheet_cannot_hold():
-    results = [make_result(id=f"case-{n}", requirements=("BR-1",)) for n in range(4)]
-    (row,) = requirement_matrix(verified_requirements(results), most=7)
-    head = {"requirement id": "BR-1", "overall status": "met", "tested in": 4, "not met in": 0}
-    assert row == {**head, "cases left out": 2, "case-0": "pass", "case-1": "pass"}

@@ -80,7 +80,7 @@ def test_every_format_has_the_campaign(night):
     for name in ("index.html", "summary.md"):
         assert "Friction of the rail, stop by stop" in (night / name).read_text("utf-8")
     with ZipFile(night / "report.xlsx") as book:
-        assert "Log wet series" in book.read("xl/workbook.xml").decode()
+        assert "campaign_wet_series" in book.read("xl/workbook.xml").decode()
 
 
 def test_the_stops_that_a_table_names_are_linked(night):

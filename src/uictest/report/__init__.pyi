@@ -63,6 +63,7 @@ from .manifest import (
     run_manifest as run_manifest,
     without_machine as without_machine,
 )
+from .measure_heading import measure_heading as measure_heading
 from .page.links import may_replace as may_replace
 from .part_wording import (
     controller_text as controller_text,
@@ -94,7 +95,6 @@ from .series.series_sentences import (
     series_word as series_word,
 )
 from .series.tables import series_table as series_table
-from .sheet import sheet_column as sheet_column
 from .sweep import LARGEST_CSV as LARGEST_CSV, every_case as every_case
 from .sweep.folder import (
     SWEEP_RESULTS as SWEEP_RESULTS,

@@ -9,7 +9,6 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from openpyxl import load_workbook
 
 from uictest.analysis.validation import read_validation
 from uictest.running.campaign import train_blocks
@@ -220,7 +219,7 @@ def validated(validate, made_once):
 
 def test_cases_outside_of_what_was_validated_are_flagged(call, validated):
     changes = ("--set", "initial_speed=30 km/h,40 km/h")
-    answer = call("run", "scenarios/stop.yaml", *changes, "--validated", validated, "--report", "html,xlsx")
+    answer = call("run", "scenarios/stop.yaml", *changes, "--validated", validated, "--report", "html")
     assert answer.code == 0
     flags = [line for line in answer.out.splitlines() if line.startswith("outside")]
     why = "initial_speed 40 km/h > 31 km/h"
@@ -239,10 +238,6 @@ def test_cases_outside_of_what_was_validated_are_flagged(call, validated):
     assert page.count(flag) == 1
     said = [each.text or "" for each in ElementTree.parse(folder / "junit.xml").iter("system-out")]
     assert sum(flag in text for text in said) == 1
-    workbook = load_workbook(folder / "report.xlsx", read_only=True)
-    cells = {name: [cell for row in workbook[name].values for cell in row] for name in ("Cover", "Cases")}
-    assert count in cells["Cover"]
-    assert cells["Cases"].count(flag) == 1
 
 
 def test_without_the_option_nothing_is_said_and_results_with_a_domain_are_read_back(call, validated):
@@ -359,7 +354,7 @@ NOTE = (
 
 
 def test_a_sweep_counts_and_names_the_cases_outside(call, validated, study):
-    answer = call("sweep", study, "--validated", validated, "--report", "csv,html,xlsx")
+    answer = call("sweep", study, "--validated", validated, "--report", "csv,html")
     assert answer.code in (0, 1)
     assert f"note: {NOTE}" in answer.out
     folder = Path("reports/study")
@@ -372,8 +367,6 @@ def test_a_sweep_counts_and_names_the_cases_outside(call, validated, study):
     counts = [(each["deviation"]["key"], each["cases"]) for each in found["conditions"]]
     assert counts == [(speed, 2), (command, 2)]
     assert NOTE in unescape((folder / "index.html").read_text("utf-8"))
-    workbook = load_workbook(folder / "report.xlsx", read_only=True)
-    assert "outside" in next(workbook["Cases"].values)
 
 
 def test_another_validation_simulates_nothing_again(call, validated, study):

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.report import MapAxis, SweepMap, WrittenValue
-from uictest.report.sweep.map_text import fold, folded, is_large, short_label
+from uictest.report.sweep.map_text import MOST_SHOWN, fold, folded, is_large, short_label
 
 
 def _map(rows, columns):
@@ -27,7 +27,7 @@ def test_a_small_map_stays_as_it_is():
 def test_folded_cells_hold_every_case_once(rows, columns, most):
     shown = folded(_map(rows, columns), most)
     assert max(len(shown.rows), len(shown.columns)) <= most
-    assert is_large(_map(rows, columns), most) == (max(rows, columns) > most)
+    assert is_large(_map(rows, columns)) == (max(rows, columns) > MOST_SHOWN)
     assert sum(map(sum, shown.cases)) == sum(range(rows * columns))
     assert len(shown.cases) == len(shown.means) == len(shown.rows)
     assert {len(row) for row in shown.means} == {len(shown.columns)}

@@ -34,11 +34,11 @@ from uictest.report import (
     furthest_out,
     is_verdict,
     listed,
+    measure_heading,
     number,
     printable,
     relative_percent,
     relative_text,
-    sheet_column,
     shown_unit,
     side_text,
     turn,
@@ -52,7 +52,7 @@ def quantity_title(difference: Difference) -> str:
     if not difference.case:
         return channel_title(difference.quantity)
     measure, wheelset = _without_wheelset(difference.quantity)
-    heading = sheet_column(measure).heading
+    heading = measure_heading(measure).words
     if heading == difference.quantity:
         return heading
     title = heading.capitalize()
@@ -62,7 +62,7 @@ def quantity_title(difference: Difference) -> str:
 def in_page_units(difference: Difference) -> Difference:
     """Return a difference of measures in the units of every page: kN, and shares in %."""
     measure, _ = _without_wheelset(difference.quantity)
-    own = sheet_column(measure).unit if difference.case else ""
+    own = measure_heading(measure).unit if difference.case else ""
     unit = shown_unit(measure, own or difference.unit)
     if unit == difference.unit or not {unit, difference.unit} <= SIZES.keys():
         return difference

@@ -158,7 +158,7 @@ def wheelset_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str
 
 
 def criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
-    """Yield one row per case and criterion; with its sensitivity, which a file has no column for."""
+    """Yield one row per case and criterion."""
     for result in results:
         for verdict in result.criteria:
             yield {
@@ -169,7 +169,6 @@ def criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[st
                 REQUIREMENTS: "; ".join(verdict.requirements),
                 **criterion_share_cells(verdict),
                 "definition": definition_sentence(verdict),
-                "sensitivity": "; ".join(map(str, verdict.sensitivity)),
             }
 
 

@@ -1,5 +1,5 @@
 from .junit import series_suite as series_suite
-from .rows import series_sheets as series_sheets, series_tables as series_tables
+from .rows import series_tables as series_tables
 from .series_sentences import (
     series_explanation as series_explanation,
     series_tally as series_tally,

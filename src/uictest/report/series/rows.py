@@ -1,4 +1,4 @@
-"""Tables of series as rows: for CSV files and for sheets of a workbook."""
+"""Tables of series for programs."""
 
 from __future__ import annotations
 
@@ -7,32 +7,11 @@ from collections.abc import Iterator, Sequence
 from uictest.core.document import Cell, Data
 from uictest.core.series_measures import SERIES_MEASURES, Estimate
 from uictest.judging.series import SeriesResult, observed_stops
-from uictest.report.series.series_sentences import series_word
 from uictest.report.verdict_sentences import definition_sentence
 
 Row = dict[str, Cell]
 ALL_SPEEDS = "all"
 _ESTIMATE = ("low", "high", "confidence", "method", "stops", "smallest", "largest", "covered", "dry_stops")
-
-
-def series_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
-    """Yield one row per series: word, outcome, share of stops that count."""
-    for result in results:
-        yield {
-            "series": result.id,
-            "title": result.title,
-            "file": result.file,
-            **{f"parameters.{key}": text for key, text in result.parameters.items()},
-            "verdict": series_word(result),
-            "outcome": result.outcome,
-            "expect": result.expect,
-            "met": result.met,
-            "wet_stops": result.wet_stops.run,
-            "wet_stops_counted": result.wet_stops.counted,
-            "test_case": result.test_case,
-            "requirements": "; ".join(result.requirements),
-            "reason": result.reason,
-        }
 
 
 def measure_rows(results: Sequence[SeriesResult]) -> Iterator[Row]:
@@ -103,16 +82,4 @@ def series_tables(results: Sequence[SeriesResult]) -> dict[str, Data]:
         "series": Data.of(list(measure_rows(results))),
         "series-criteria": Data.of(list(criterion_rows(results))),
         "series-stops": Data.of(list(stop_rows(results))),
-    }
-
-
-def series_sheets(results: Sequence[SeriesResult]) -> dict[str, list[Row]]:
-    """Return the rows of the sheets of series by name; none without any series."""
-    if not results:
-        return {}
-    return {
-        "Series": list(series_rows(results)),
-        "Series criteria": list(criterion_rows(results)),
-        "Series measures": list(measure_rows(results)),
-        "Series stops": list(stop_rows(results)),
     }

@@ -1,4 +1,4 @@
-"""The cases of a sweep in summary.parquet: read in batches, and written on a sheet."""
+"""The cases of a sweep in summary.parquet, read in batches."""
 
 from __future__ import annotations
 
@@ -10,56 +10,19 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.core.document import Cell
 from uictest.core.measures import column_unit
 from uictest.core.units import SIZES
-from uictest.report.sheet import Row, Styles, heading_rows, write_table
-from uictest.report.sweep import SUMMARY, every_case
+from uictest.report.sweep import SUMMARY
 from uictest.report.sweep.result import OutcomeCount, SweepResult
 from uictest.report.sweep.values import DrawnInterval
-from uictest.report.verdict_sentences import outcome_word
+from uictest.report.workbook import Rows
 
 if TYPE_CHECKING:
     import pyarrow as pa
-    import pyarrow.parquet as pq
-    from xlsxwriter.worksheet import Worksheet
-
-MOST_CASES: Final = 100_000
-"""Cases that a workbook has: a spreadsheet would take minutes to open a larger one."""
-
-_ON_A_SHEET: Final = 1024
-
-
-def write_cases(sheet: Worksheet, folder: Path, styles: Styles, most: int) -> None:
-    """Write a row per case, in the order of the sweep; where there are too many, those not met come first.
-
-    Raises OSError, and ValueError where the file cannot be read.
-    """
-    import pyarrow.parquet as pq
-
-    with pq.ParquetFile(folder / SUMMARY) as summary:
-        # The id leads: it is the column that stays in sight.
-        columns = sorted(summary.schema_arrow.names, key=lambda name: name != "id")
-        cases = summary.metadata.num_rows
-        written = write_table(sheet, columns, _rows(summary, by_verdict=cases > most), styles, most)
-    if written < cases:
-        sheet.write_string(heading_rows(columns) + written, 0, left_out(cases, written))
-
-
-def left_out(cases: int, written: int) -> str:
-    """Return which cases a workbook lacks."""
-    in_file = f"are in {every_case(cases)} only"
-    return f"{cases - written} of {cases} cases {in_file}; those not met stand first here"
-
-
-def _rows(summary: pq.ParquetFile, *, by_verdict: bool) -> Iterator[Row]:
-    for shown_verdict in (False, True) if by_verdict else (None,):
-        for batch in summary.iter_batches(_ON_A_SHEET):
-            for row in batch.to_pylist():
-                if shown_verdict is None or row["met"] == shown_verdict:
-                    yield row | {"met": outcome_word(row["outcome"], met=row["met"])}
-
 
 _AT_ONCE: Final = 65_536
+_ROWS_AT_ONCE: Final = 1024
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +72,20 @@ class SummaryRows:
                 raise ValueError(f"{self.folder / SUMMARY}: no column {missing[0]!r}")
             for batch in summary.iter_batches(_AT_ONCE, columns=list(columns)):
                 yield pa.Table.from_batches([batch])
+
+    def table(self) -> Rows:
+        """Return all columns, and the rows as they are read. Raises OSError, ValueError where none can be."""
+        import pyarrow.parquet as pq
+
+        with pq.ParquetFile(self.folder / SUMMARY) as summary:
+            return summary.schema_arrow.names, self._rows()
+
+    def _rows(self) -> Iterator[dict[str, Cell]]:
+        import pyarrow.parquet as pq
+
+        with pq.ParquetFile(self.folder / SUMMARY) as summary:
+            for batch in summary.iter_batches(_ROWS_AT_ONCE):
+                yield from batch.to_pylist()
 
     def columns_of(self, keys: Sequence[str], measures: Sequence[ReportedColumns]) -> list[str]:
         """Return the columns of parameters, verdicts and measures."""

@@ -14,7 +14,8 @@ from uictest.report.junit import WITH_TEST_PROPERTIES, junit_text
 from uictest.report.run_folder import read_traces, require_names
 from uictest.report.sweep.result import SweepResult, read_sweep_document, sweep_document
 from uictest.report.sweep.sweep_sentences import sweep_suite
-from uictest.report.sweep.tables import csv_tables
+from uictest.report.sweep.tables import sweep_tables
+from uictest.report.text_tables import csv_text
 from uictest.report.traces.trace import PlotTrace
 
 
@@ -89,7 +90,8 @@ def write_sweep_result(folder: Path, result: SweepResult, file: str) -> str:
     `file` is the sweep file as shown to users. Raises OSError.
     """
     document = evaluation.to_json(sweep_document(result))
-    texts = csv_tables(result) | {SWEEP_RESULTS: document}
+    texts = {f"{name}.csv": csv_text(*table) for name, table in sweep_tables(result).items()}
+    texts[SWEEP_RESULTS] = document
     texts["junit.xml"] = junit_text([sweep_suite(result, file)])
     if result.requirements or result.test_case:
         texts[WITH_TEST_PROPERTIES] = junit_text([sweep_suite(result, file, with_properties=True)])

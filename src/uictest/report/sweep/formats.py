@@ -76,9 +76,11 @@ def append_sweep_step_summary(content: SweepContent) -> None:
 
 
 def _workbook(content: SweepContent) -> bytes:
-    from uictest.report.sweep.workbook import sweep_workbook_bytes
+    from uictest.report.sweep.cases import SummaryRows
+    from uictest.report.sweep.tables import sweep_tables
+    from uictest.report.workbook import workbook_bytes
 
-    return sweep_workbook_bytes(content)
+    return workbook_bytes({"summary": SummaryRows(content.folder).table(), **sweep_tables(content.result)})
 
 
 _ONE_FILE: Final[Mapping[str, tuple[str, Callable[[SweepContent], bytes]]]] = MappingProxyType(

@@ -14,7 +14,7 @@ from uictest.report.counts import counted
 from uictest.report.escaping import argument, printable
 from uictest.report.github import annotation
 from uictest.report.junit import suite_properties, test_properties
-from uictest.report.sheet import sheet_column
+from uictest.report.measure_heading import measure_heading
 from uictest.report.sweep.result import Circumstances, Flip, MissedCase, OutcomeCount, SweepResult
 from uictest.report.sweep.values import DrawnInterval, SweptValue, range_label
 from uictest.report.verdict_sentences import counts_text, explanation, outcome_word, result_word
@@ -72,7 +72,7 @@ def circumstances_words(circumstances: Circumstances) -> str:
 
 def measure_words(column: str) -> str:
     """Return the name of a column of measures for readers, e.g. `braking distance, m`."""
-    words, unit = sheet_column(column).heading.replace("_", " "), column_unit(column)
+    words, unit = measure_heading(column).words.replace("_", " "), column_unit(column)
     return words if unit == "1" else f"{words}, {unit}"
 
 

@@ -1,0 +1,40 @@
+"""What a column of measures is called for people, and its unit."""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+
+_SHARES: Final = frozenset({"narrowest_margin", "share", "share_low", "share_high", "share_met"})
+"""Columns that are no measures and hold shares."""
+
+
+class MeasureHeading(NamedTuple):
+    """The name of a column in words and its unit, empty where it has none of its own."""
+
+    words: str
+    unit: str = ""
+
+
+def measure_heading(name: str) -> MeasureHeading:
+    """Return how a column is shown: a measure in words with its unit, others under their name.
+
+    The number of a wheelset (`..._3`) may follow the name of a measure.
+    """
+    measure, end = _without_wheelset(name)
+    column = STOP_COLUMNS.get(measure) or WHEELSET_COLUMNS.get(measure)
+    if column is None:
+        return MeasureHeading(name.replace("_", " "), "%") if name in _SHARES else MeasureHeading(name)
+    in_unit = f"_{column.unit.lower().replace('/', 'p')}"
+    words = f"{measure.removesuffix(in_unit)}{end}".replace("_", " ")
+    pure = "" if column.whole or measure.endswith("_residual") else "%"
+    return MeasureHeading(words, pure if column.unit == "1" else column.unit)
+
+
+def _without_wheelset(name: str) -> tuple[str, str]:
+    """Return a name without the number of a wheelset, and that."""
+    stem, _, last = name.rpartition("_")
+    if name in STOP_COLUMNS or name in WHEELSET_COLUMNS or not stem:
+        return name, ""
+    return (stem, f"_{last}") if last.isdigit() else (name, "")
