@@ -21,16 +21,17 @@ SCENARIO = Path(__file__).parent.parent / "scenarios" / "slide-80.yaml"
 MOST_MEMORY = 1.0
 """GB that a sweep may take at most, of any size."""
 _SWEEP = """\
-schema: uictest/sweep/1
+schema: uictest/scenario/1
 name: growth
-scenario: {scenario}
-case: slide-80[compensation=full]
-sample:
-  method: random
-  size: {cases}
-  parameters:
-    rail.friction: {{uniform: [0.08, 0.16]}}
-    brake.command: {{uniform: [80 %, 100 %]}}
+extends: {scenario}
+rig: {{compensation: full}}
+vary:
+  sample:
+    method: random
+    size: {cases}
+    parameters:
+      rail.friction: {{uniform: [0.08, 0.16]}}
+      brake.command: {{uniform: [80 %, 100 %]}}
 """
 
 

@@ -16,6 +16,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from statistics import median
+from textwrap import indent
 from typing import Any
 
 import machine
@@ -33,10 +34,11 @@ SIMULATED = 256
 TARGET = 300.0
 """us per case for assembling, judging and writing together."""
 _HEAD = """\
-schema: uictest/sweep/1
+schema: uictest/scenario/1
 name: judging
-scenario: {scenario}
-case: slide-80[compensation=full]
+extends: {scenario}
+rig: {{compensation: full}}
+vary:
 """
 SWEEPS = {
     "friction and command drawn": """\
@@ -62,7 +64,7 @@ sample:
     brake.system.air.temperature: {uniform: [-10 degC, 30 degC]}
 """,
     "grid of friction, controller and seed": """\
-grid:
+matrix:
   rail.friction: [0.08, 0.10, 0.12, 0.14]
   controller: [threshold, slip-band]
 ranges:
@@ -74,7 +76,7 @@ ranges:
 def plan_of(text: str, folder: Path) -> Plan:
     """Return the plan of a sweep."""
     file = folder / "judging.sweep.yaml"
-    file.write_text(_HEAD.format(scenario=os.path.relpath(SCENARIO, folder)) + text)
+    file.write_text(_HEAD.format(scenario=os.path.relpath(SCENARIO, folder)) + indent(text, "  "))
     return load_sweep(file, trusted=[SCENARIO.parent.parent])
 
 

@@ -1,8 +1,8 @@
-"""The head of documents that are written, and what was written before."""
+"""The head of documents."""
 
 import pytest
 
-from uictest.core.envelope import MANIFEST, RESULT, head, is_of, require
+from uictest.core.envelope import MANIFEST, RESULT, head, is_of, is_old, require
 
 
 @pytest.mark.parametrize("kind", ["run", "sweep", "validation"])
@@ -13,18 +13,21 @@ def test_a_document_is_of_its_own_kind_only(kind):
 
 
 @pytest.mark.parametrize(
-    ("written", "schema", "kind"),
+    ("schema", "kind", "old"),
     [
-        ("uictest/result/1", RESULT, "run"),
-        ("uictest/sweep-result/1", RESULT, "sweep"),
-        ("uictest/validation-result/1", RESULT, "validation"),
-        ("uictest/manifest/1", MANIFEST, "run"),
-        ("uictest/sweep-manifest/1", MANIFEST, "sweep"),
+        (RESULT, "run", "uictest/result/1"),
+        (RESULT, "sweep", "uictest/sweep-result/1"),
+        (RESULT, "validation", "uictest/validation-result/1"),
+        (MANIFEST, "run", "uictest/manifest/1"),
+        (MANIFEST, "sweep", "uictest/sweep-manifest/1"),
     ],
 )
-def test_what_0_2_wrote_is_read(written, schema, kind):
-    assert is_of({"schema": written}, schema, kind)
-    assert not is_of({"schema": written}, schema, "variants")
+def test_a_document_of_0_2_is_told_from_others_and_not_read(schema, kind, old):
+    assert not is_of({"schema": old}, schema, kind)
+    assert is_old({"schema": old})
+    assert not is_old(head(schema, kind))
+    with pytest.raises(ValueError, match=rf"found schema '{old}', written by uictest 0.2 or older: run it"):
+        require({"schema": old}, schema, kind)
 
 
 @pytest.mark.parametrize("document", [None, [], "text", {}, {"schema": []}, {"schema": RESULT}])

@@ -7,7 +7,7 @@ import pytest
 
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, RepeatedStop, Repeats
-from uictest.report import CaseDescription, RunContent, RunManifest
+from uictest.report import RunContent, RunManifest
 
 from ..report.builders import make_result, make_verdict
 
@@ -20,12 +20,11 @@ WHEELSETS = (STOP.wheelsets[0],) * 2
 def make_run():
     """A run of one case, its figures changed as asked."""
 
-    def make(name="run", case_id="dry-120", outcome="pass", verdict="pass", friction="0.3", **figures):
+    def make(name="run", case_id="dry-120", outcome="pass", verdict="pass", **figures):
         own = {"id": case_id, "outcome": outcome, "criteria": (make_verdict(status=verdict),)}
         result = dataclasses.replace(STOP, **own, measures=FIGURES | figures, wheelsets=WHEELSETS)
         manifest = RunManifest(seed=0, versions={"numba": "0.68.1"}, inputs={"dry.yaml": "a" * 64})
-        subject = CaseDescription("", (), {"friction": friction})
-        return RunContent(name, [result], manifest, subjects={case_id: subject})
+        return RunContent(name, [result], manifest)
 
     return make
 

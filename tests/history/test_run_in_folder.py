@@ -90,18 +90,19 @@ def test_a_damaged_sweep_is_said_to_be_damaged(tmp_path, changes):
     ("file", "schema", "kind"),
     [
         ("fit.json", "uictest/fit/1", "fit"),
-        ("validation.json", "uictest/validation-result/1", "validation"),
+        ("validation.json", "uictest/result/2", "validation"),
         ("studies.json", "uictest/studies/1", "studies"),
     ],
 )
 def test_what_other_commands_write_is_listed(tmp_path, file, schema, kind):
-    (tmp_path / file).write_text(json.dumps({"schema": schema}))
+    (tmp_path / file).write_text(json.dumps({"schema": schema, "kind": kind}))
     run = run_of(read_folder(tmp_path))
     assert (run.kind, run.page) == (kind, f"{tmp_path.name}/{file}")
 
 
 OTHERS_MANIFEST = '{"name": "my web app", "icons": []}'
-DAMAGED_MANIFEST = '{"schema": "uictest/manifest/1", "command": 3}'
+DAMAGED_MANIFEST = '{"schema": "uictest/manifest/2", "kind": "run", "command": 3}'
+OLD_MANIFEST = '{"schema": "uictest/manifest/1", "command": ["uictest", "run"]}'
 
 
 def _replace(file, make):
@@ -126,6 +127,11 @@ _let_it_lead_nowhere = partial(_replace, make=lambda file: file.symlink_to("gone
         ("manifest.json", "[]", "manifest.json is damaged: expected an object"),
         ("manifest.json", OTHERS_MANIFEST, "not of uictest: manifest.json has no schema"),
         ("manifest.json", DAMAGED_MANIFEST, "manifest.json is damaged"),
+        (
+            "manifest.json",
+            OLD_MANIFEST,
+            "not read: manifest.json has schema 'uictest/manifest/1', written",
+        ),
         (ENTRY, "{}", "index-entry.json is damaged"),
         ("manifest.json", lambda file: os.truncate(file, 1 << 40), "manifest.json of 1048576 MB is not read"),
     ],

@@ -104,6 +104,9 @@ def _document(text):
             {"parameter": f"brake.{text}", "values": ["80 %", "90 %"], "measure": text, "unit": text}
             | {"cases": [2, 1], "minimum": [1.0, 4.0], "mean": [2.0, 4.0], "maximum": [3.0, 4.0]}
         ],
+        "base": {},
+        "controllers": [],
+        "parts": {},
         "worst": [],
         "subjects": {},
         "notes": [text],

@@ -31,6 +31,7 @@ def sweep_result(values, cases, **changes):
         for key, own in values.items()
     }
     form = {"schema": "uictest/result/2", "kind": "sweep", "name": "study", "title": ""}
+    form |= {"base": {}, "controllers": [], "parts": {}}
     form |= {"cases": cases, "met": cases, "outcomes": outcomes | {"pass": cases}, "rates": rates}
     form |= {"varied": list(values), "distributions": [DISTANCE | distribution, SLIDE | distribution]}
     form |= {name: [] for name in ("missed", "maps", "trends", "worst", "sensitivities", "notes")}

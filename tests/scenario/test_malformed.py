@@ -28,7 +28,7 @@ WHOLE = [
     ("a: [" + "1," * 19_997 + "»1" + ",1" * 5_000 + "]", "", "more than 20000 values", ""),
     ("»name: stop\n", "schema", "missing key 'schema'", "uictest/scenario/1"),
     (HEAD.replace("uictest/scenario/1", "»uictest/scenario/2"), "schema", "found 'uictest/scenario/2'", ""),
-    (HEAD.replace("uictest/scenario", "»uictest/sweep"), "schema", "uictest/sweep/1", "`uictest sweep`"),
+    (HEAD.replace("uictest/scenario", "»uictest/sweep"), "schema", "uictest/sweep/1", "`vary`"),
     (HEAD.replace("uictest/scenario", "»uictest/vehicle"), "schema", "uictest/vehicle/1", ""),
     ("»schema: uictest/scenario/1\ninitial_speed: 9 m/s\n", "name", "missing key 'name'", "lower-case"),
     ("»schema: uictest/scenario/1\nname: stop\n", "initial_speed", "missing key", "Train speed"),

@@ -10,14 +10,17 @@ MANIFEST: Final = "uictest/manifest/2"
 _SHOWN: Final = 80
 """Characters that a reader is shown of an entry."""
 Kind = Literal["run", "sweep", "validation", "comparison", "variants"]
-_EARLIER: Final[Mapping[str, tuple[str, Kind]]] = {
-    "uictest/result/1": (RESULT, "run"),
-    "uictest/sweep-result/1": (RESULT, "sweep"),
-    "uictest/validation-result/1": (RESULT, "validation"),
-    "uictest/manifest/1": (MANIFEST, "run"),
-    "uictest/sweep-manifest/1": (MANIFEST, "sweep"),
-}
-"""Schemas of 0.2, whose documents hold what those of today do -> how the head is written now."""
+OLD: Final = "written by uictest 0.2 or older: run it again"
+_OF_OLD: Final = frozenset(
+    {
+        "uictest/result/1",
+        "uictest/sweep-result/1",
+        "uictest/validation-result/1",
+        "uictest/manifest/1",
+        "uictest/sweep-manifest/1",
+    }
+)
+"""Schemas that are not read any more."""
 
 
 def head(schema: str, kind: Kind) -> dict[str, str]:
@@ -26,11 +29,8 @@ def head(schema: str, kind: Kind) -> dict[str, str]:
 
 
 def is_of(document: object, schema: str, kind: Kind) -> bool:
-    """Return whether a document that was read back has this schema and kind, or is what 0.2 wrote for it."""
-    if not isinstance(document, Mapping):
-        return False
-    own = document.get("schema"), document.get("kind")
-    return own == (schema, kind) or _EARLIER.get(str(own[0])) == (schema, kind)
+    """Return whether a document that was read back has this schema and kind."""
+    return isinstance(document, Mapping) and (document.get("schema"), document.get("kind")) == (schema, kind)
 
 
 def require(document: Mapping[str, Any], schema: str, kind: Kind) -> None:
@@ -40,6 +40,15 @@ def require(document: Mapping[str, Any], schema: str, kind: Kind) -> None:
 
 
 def head_of(document: Mapping[str, Any]) -> str:
-    """Return the schema and kind of a document in words, shortened; `no schema` where it has none."""
+    """Return the schema and kind of a document in words, shortened; `no schema` where it has none.
+
+    Of a document of uictest 0.2 or older it says that, and what to do.
+    """
     heads = (f"{name} {document[name]!r}"[:_SHOWN] for name in ("schema", "kind") if name in document)
-    return ", ".join(heads) or "no schema"
+    shown = ", ".join(heads) or "no schema"
+    return f"{shown}, {OLD}" if is_old(document) else shown
+
+
+def is_old(document: Mapping[str, Any]) -> bool:
+    """Return whether uictest 0.2 or older wrote a document."""
+    return str(document.get("schema")) in _OF_OLD

@@ -61,16 +61,16 @@ def manifest_form(manifest: RunManifest) -> dict[str, Any]:
 
 
 def read_manifest(content: Mapping[str, Any]) -> RunManifest:
-    """Return the manifest in the results of a run; fields that an earlier version did not write are empty.
+    """Return the manifest in the results of a run.
 
-    Raises ValueError where a field holds something else, or the manifest is of another schema or kind.
+    Raises ValueError where there is none, a field holds something else, or it is of another schema or kind.
     """
-    own = content.get("manifest", {})
-    manifest = evaluation.from_json_form(_MANIFEST, own, place="manifest")
-    if own and not envelope.is_of(own, envelope.MANIFEST, "run"):
-        wanted = f"schema {envelope.MANIFEST!r}, kind 'run'"
-        raise ValueError(f"manifest: expected {wanted}, found {envelope.head_of(own)}")
-    return manifest
+    own = content.get("manifest")
+    try:
+        envelope.require(own if isinstance(own, Mapping) else {}, envelope.MANIFEST, "run")
+    except ValueError as error:
+        raise ValueError(f"manifest: {error}") from error
+    return evaluation.from_json_form(_MANIFEST, own, place="manifest")
 
 
 def run_manifest(

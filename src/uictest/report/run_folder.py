@@ -84,12 +84,12 @@ def subjects_form(subjects: Mapping[str, CaseDescription]) -> dict[str, Any]:
 
 
 def read_subjects(document: Mapping[str, Any]) -> dict[str, CaseDescription]:
-    """Return the subjects of the cases in a document; none where an earlier version wrote it.
+    """Return the subjects of the cases in a document.
 
-    Raises ValueError where one lacks a field, or a field holds something else.
+    Raises ValueError where there are none, one lacks a field, or a field holds something else.
     """
     try:
-        return evaluation.from_json_form(_SUBJECTS, document.get("subjects", {}), place="subjects")
+        return evaluation.from_json_form(_SUBJECTS, document.get("subjects"), place="subjects")
     except ValueError as error:
         raise ValueError(f"not the subject of a case: {error}") from error
 

@@ -88,7 +88,7 @@ def test_what_cannot_be_compared_exits_4_and_is_named_for_what_it_is(call, argum
     for name in ("notes.txt", "broken.parquet"):
         Path(name).write_text("notes")
     Path("study").mkdir()
-    Path("study/manifest.json").write_text('{"schema": "uictest/sweep-manifest/1"}')
+    Path("study/manifest.json").write_text('{"schema": "uictest/manifest/2", "kind": "sweep"}')
     answer = call("compare", *arguments)
     assert (answer.code, answer.out) == (4, "")
     assert answer.err.startswith(f"uictest: {said}"), answer.err

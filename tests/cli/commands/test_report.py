@@ -62,8 +62,21 @@ def test_what_is_no_run_or_no_format_is_refused(call, run, arguments):
 )
 def test_a_folder_is_named_for_what_it_is(call, run, place, said):
     Path("study").mkdir()
-    Path("study/manifest.json").write_text('{"schema": "uictest/sweep-manifest/1"}')
+    Path("study/manifest.json").write_text('{"schema": "uictest/manifest/2", "kind": "sweep"}')
     call("report", place, code=4, says=said)
+
+
+@pytest.mark.parametrize(("file", "schema"), [("results.json", "result"), ("sweep.json", "sweep-result")])
+def test_what_0_2_wrote_is_named_with_its_schema_and_that_which_is_read(call, run, file, schema):
+    Path("old").mkdir()
+    (Path("old") / file).write_text(f'{{"schema": "uictest/{schema}/1"}}')
+    answer = call("report", "old", code=4)
+    assert f"old/{file}: not the result" in answer.err
+    found = f"found schema 'uictest/{schema}/1', written by uictest 0.2 or older: run it again"
+    assert (
+        f"expected schema 'uictest/result/2', kind '{'sweep' if 'sweep' in file else 'run'}', {found}"
+        in answer.err
+    )
 
 
 def test_a_run_that_names_the_newest_in_a_file_is_found(call, run):

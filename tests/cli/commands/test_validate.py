@@ -321,6 +321,7 @@ def test_the_option_takes_the_place_of_what_a_scenario_names(call, validated, sc
         ("none.json", "no such file: 'none.json'"),
         ("stop.yaml", "'stop.yaml' is not the result of a validation"),
         ("list.json", "'list.json' is not the result of a validation"),
+        ("old.json", "'old.json' is written by uictest 0.2 or older: run it again"),
         ("/etc/hostname", "is an absolute path"),
         ("../../elsewhere.json", "leads out of"),
         ("[a.json]", "expected a text, found a list"),
@@ -330,6 +331,7 @@ def test_the_option_takes_the_place_of_what_a_scenario_names(call, validated, sc
 def test_what_a_scenario_names_is_checked_on_loading(call, scenario, command, text, message):
     scenario("stop", f"validated: {text}\n")
     Path("scenarios/list.json").write_text("[]")
+    Path("scenarios/old.json").write_text('{"schema": "uictest/validation-result/1"}')
     answer = call(command, "scenarios/stop.yaml", code=4)
     shown = answer.out + answer.err
     assert "scenarios/stop.yaml:4:12: validated: " in shown

@@ -17,7 +17,7 @@ from uictest.report.sweep.sweep_sentences import (
 def _counts(met, **outcomes):
     """A sweep of 75 cases, as far as counting goes."""
     empty = {"missed": (), "rates": {}, "maps": (), "distributions": (), "trends": (), "worst": ()}
-    rest = {"subjects": {}, "sensitivities": (), "frontier": None, "notes": ()}
+    rest = {"subjects": {}, "sensitivities": (), "frontier": None, "notes": (), "base": {}, "controllers": ()}
     return SweepResult(name="", title="", cases=75, met=met, outcomes=outcomes, **empty, **rest)
 
 

@@ -1,8 +1,7 @@
-"""A sweep is a scenario that says under `vary` what varies; what 0.2 wrote comes out the same."""
+"""A sweep is a scenario that says under `vary` what varies."""
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from uictest.plans.scenario import ScenarioErrors, load
@@ -20,7 +19,6 @@ zip:
   rig.wsp: [active, bypassed]
 sample: {size: 3, seed: 5, parameters: {brake.system.disc.pad_friction: {uniform: [0.3, 0.4]}}}
 """
-OLD_HEAD = "schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\n"
 
 
 @pytest.fixture
@@ -35,40 +33,9 @@ def write(load):
     return to
 
 
-def cases(plan):
-    indices = np.arange(plan.size)
-    return [(key, column.texts) for key, column in plan.settings(indices).items()]
-
-
-def test_a_file_of_0_2_has_the_same_cases(write):
-    now = write(HEAD + vary(SECTIONS))
-    old_sections = SECTIONS.replace("matrix:", "grid:")
-    before = write(OLD_HEAD + old_sections)
-    assert cases(before) == cases(now)
-    assert before.ids(np.arange(before.size)) == now.ids(np.arange(now.size))
-    assert before.base.scenario.model_copy(update={"name": "study"}) == now.base.scenario.model_copy(
-        update={"extends": before.base.scenario.extends}
-    )
-    assert "extends: stop.yaml" in before.written_now
-    assert not now.written_now
-
-
-def test_a_file_of_0_2_sweeps_no_train_and_does_not_ask_for_one_of_its_cars(write):
-    Path("stop.yaml").write_text(SCENARIO + "train: [{count: 2}]\n")
-    with pytest.raises(ScenarioErrors, match=r"'stop\.yaml' is a train, which no file of 0.2 sweeps"):
-        write(OLD_HEAD + "grid: {seed: [1, 2]}\n")
-
-
-def test_a_case_that_0_2_names_has_its_values(write):
-    Path("stop.yaml").write_text(SCENARIO + "matrix: {brake.command: [60 %, 90 %]}\n")
-    old = OLD_HEAD + "grid: {seed: [1, 2]}\n"
-    plan = write(f"{old}case: stop[command=90]\n")
-    assert plan.base.scenario.brake.command == 0.9
-    assert "the values of stop[command=90]" in plan.written_now
-    with pytest.raises(ScenarioErrors, match="has 2 cases, a sweep starts from one"):
-        write(old)
-    with pytest.raises(ScenarioErrors, match=r"did you mean 'stop\[command=90\]'"):
-        write(f"{old}case: stop[command=9]\n")
+def test_a_file_of_0_2_is_told_how_it_is_written_now(write):
+    with pytest.raises(ScenarioErrors, match=r"written for uictest 0\.2 or older: now a sweep is a scenario"):
+        write("schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\ngrid: {seed: [1]}\n")
 
 
 def test_lists_of_cases_that_a_sweep_inherits_do_not_count(write):
@@ -91,22 +58,6 @@ def test_a_comment_does_not_change_which_cases_there_are(write):
     other_stop = write(HEAD + "initial_speed: 31 km/h\n" + vary(SECTIONS))
     assert plan.cases_sha256 == explained.cases_sha256
     assert len({plan.cases_sha256, other_seed.cases_sha256, other_stop.cases_sha256}) == 3
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("grid: {rail.friction: {first: 0.1, last: 0.2, step: 0.1}}\n", "4:23: grid.rail.friction"),
-        ("gird: {rail.friction: [0.1]}\n", "did you mean 'grid'?"),
-        ("", "give values under grid, ranges, zip, sample"),
-        ("grid: {seed: [1]}\nzip: {seed: [2]}\n", "5:7: zip.seed: 'seed' is under grid as well"),
-        ("grid: {rail.frictoin: [0.1]}\n", "4:8: rail.frictoin: unknown key 'frictoin'"),
-    ],
-)
-def test_a_mistake_in_a_file_of_0_2_is_told_in_its_words(write, text, expected):
-    with pytest.raises(ScenarioErrors) as caught:
-        write(OLD_HEAD + text)
-    assert expected in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -140,5 +91,3 @@ def test_a_sweep_is_no_scenario_and_a_scenario_no_sweep(write):
         load([Path("stop.yaml")], ["vary.matrix.seed=1"])
     with pytest.raises(ScenarioErrors, match="a scenario without `vary` is run with `uictest run`"):
         load_sweep(Path("stop.yaml"))
-    with pytest.raises(ScenarioErrors, match="is a sweep, not a scenario"):
-        write(OLD_HEAD.replace("stop.yaml", "study.sweep.yaml"))

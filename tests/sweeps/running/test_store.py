@@ -50,6 +50,15 @@ def test_changed_inputs_are_rejected_by_name(store):
     assert store.manifest() == changed
 
 
+def test_chunks_of_another_schema_are_rejected_by_it(store):
+    new = {**MANIFEST, "schema": "uictest/manifest/2", "kind": "sweep"}
+    store.open({**MANIFEST, "schema": "uictest/sweep-manifest/1"}, restart=True)
+    store.write(0, b"chunk")
+    said = "schema: uictest/sweep-manifest/1 before, uictest/manifest/2 now; kind: none before, sweep now"
+    with pytest.raises(ChangedInputsError, match=f"^{said}$"):
+        store.open(new, restart=False)
+
+
 def test_a_comment_in_the_sweep_file_changes_the_manifest_and_keeps_the_chunks(tmp_path):
     study = ChunkStore(tmp_path / "study")
     before = {"file": "a/b.sweep.yaml", "cases_sha256": "c", "inputs": {"b.sweep.yaml": "1", "x.yaml": "2"}}

@@ -13,7 +13,7 @@ from typing import Any
 
 from uictest import report
 from uictest.analysis.comparison.parameters import parameter_changes, parameter_lines
-from uictest.analysis.comparison.runs import case_differences, run_notes, stops_of_series, unknown_parameters
+from uictest.analysis.comparison.runs import case_differences, run_notes, stops_of_series
 from uictest.analysis.comparison.series import compare_accepted_series
 from uictest.analysis.comparison.tolerance import Scope, Tolerances
 from uictest.judging import evaluation
@@ -88,7 +88,6 @@ class Baseline:
         """Yield the parameters that have changed since the cases were accepted."""
         both = [(self.results[result.id], result) for result in run.results if result.id in self.results]
         yield from parameter_lines(parameter_changes([*both, *stops_of_series(self.run, run)]))
-        yield from unknown_parameters(both, ("baseline", "run"))
 
     def _inputs_limited(self, run: report.RunContent) -> report.RunContent:
         """Return the accepted run as if it had read nothing that this one did not select."""

@@ -57,15 +57,11 @@ Change = tuple[str, ParameterOfRun | None, ParameterOfRun | None]
 def parameter_changes(
     pairs: Iterable[tuple[evaluation.CaseResult, evaluation.CaseResult]],
 ) -> list[ParameterChange]:
-    """Return what differs in the parameters of pairs of cases, once for all cases alike.
-
-    Cases whose results hold no parameters, as those of earlier versions, are skipped.
-    """
+    """Return what differs in the parameters of pairs of cases, once for all cases alike."""
     cases: dict[Change, list[str]] = {}
     for first, second in pairs:
-        if first.parts and second.parts:
-            for change in _changes(first, second):
-                cases.setdefault(change, []).append(first.id)
+        for change in _changes(first, second):
+            cases.setdefault(change, []).append(first.id)
     return [ParameterChange(*change, tuple(ids)) for change, ids in cases.items()]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
 from uictest import report
 from uictest.analysis.comparison.difference import Comparison
@@ -35,7 +35,7 @@ def compare_runs(first: report.RunContent, second: report.RunContent, tolerances
         second.name,
         len(quantities),
         [difference for difference in quantities if difference is not None],
-        [*run_notes(first, second), *unknown_parameters(both, ("first run", "second run"))],
+        list(run_notes(first, second)),
         parameters=parameter_changes([*both, *stops_of_series(first, second)]),
         paired=compare_paired_runs(first, second),
     )
@@ -113,18 +113,6 @@ def run_notes(first: report.RunContent, second: report.RunContent) -> Iterator[s
     yield from _changes({"seed": ours.seed}, {"seed": theirs.seed})
     yield from _changes(ours.versions, theirs.versions, "versions: ")
     yield from _changes(ours.inputs, theirs.inputs, "inputs: ")
-    # Where results hold their parts, each changed parameter has its own line.
-    with_parts = {result.id for run in (first, second) for result in run.all_results if result.parts}
-    for case_id, description in first.subjects.items():
-        if case_id in second.subjects and case_id not in with_parts:
-            yield from _changes(description.settings, second.subjects[case_id].settings, f"{case_id}: ")
-
-
-def unknown_parameters(both: Sequence[Pair], names: tuple[str, str]) -> Iterator[str]:
-    """Yield the run that has no parameters to compare while the other run has."""
-    for place, name in enumerate(names):
-        if both and all(pair[1 - place].parts and not pair[place].parts for pair in both):
-            yield f"the {name} does not hold its parameters: an earlier version of uictest made it"
 
 
 def _changes(

@@ -107,8 +107,6 @@ def _load_series(path: Path, trusted: Sequence[Path]) -> None:
 def _load_sweep(path: Path, trusted: Sequence[Path]) -> None:
     plan = sweeps.load_sweep(path, trusted=trusted)
     _require_fit([plan.base])
-    if plan.written_now:
-        message(f"{plan.file}: {plan.written_now}")
     for each in sweeps.drawn_ranges(plan):
         if not each.contains_nominal:
             message(f"{plan.file}: warning: {each}; sensitivities hold for the range only")

@@ -119,8 +119,6 @@ def sweep(
     accepted = report.sweep_format_names()
     format_names = None if formats is None else report_formats(formats, "--report", accepted)
     plan = sweeps.load_sweep(file, tuple(overrides or ()), seed, trusted or ())
-    if plan.written_now and not quiet:
-        message(f"{plan.file}: {plan.written_now}")
     sweep_run.load_arrow()
     selection = sweep_run.selected_cases(plan, expression)
     if selection.size == 0:

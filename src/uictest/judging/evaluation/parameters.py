@@ -117,11 +117,11 @@ def parts_document(cases: Iterable[Mapping[str, EffectivePart]]) -> dict[str, An
 
 
 def parts_of(document: Mapping[str, Any]) -> dict[str, EffectivePart]:
-    """Return the parts in a document by id; none where an earlier version wrote it.
+    """Return the parts in a document by id.
 
-    Raises ValueError where a part lacks or adds a field, or a value is of another type.
+    Raises ValueError where there are none, a part lacks or adds a field, or a value is of another type.
     """
-    return from_json_form(_PARTS, document.get("parts", {}), place="parts")
+    return from_json_form(_PARTS, document.get("parts"), place="parts")
 
 
 Found = str | tuple[float, float] | None

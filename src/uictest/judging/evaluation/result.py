@@ -70,18 +70,18 @@ class CaseResult:
     """One case, judged. `scenario` is the file as the case names it (forward slashes).
 
     `reason` says why the outcome is what it is. `measures` is None and `wheelsets` empty when the simulation
-    failed. `parts` maps a role (`controller`, ...) to the part that the case was run with; earlier versions
-    wrote none. `response_times` are those of a controller paced by the clock. `controller_version` is what a
-    controller from outside said of itself in this stop, `controller_contract` the version of the contract
-    that it kept (0: none), `case_sha256` what named the stop, :func:`uictest.rig.assembly.case_sha256`.
-    `requirements` are the ids of those that the case verifies as a whole; its criteria may verify others.
-    `test_case` is its id in a test management tool. `noise_key` names the noise of the sensors that a
-    simulated stop met, together with its seed, see :mod:`uictest.rig.single_stop`. `domain_of_validity` says
-    whether the case lies where the model was validated; None where nobody asked. `strict` says that the case
-    is not met either where one of its verdicts is not settled. `firmness` says whether numbers that nobody
-    measured turn its verdicts, where that was asked. `train` says where a car ran in its train. The document
-    has these, and `repeats`, only where they hold something. `duration` (seconds of wall clock) is for
-    progress and JUnit only, never in the document: a result must not depend on the machine.
+    failed. `parts` maps a role (`controller`, ...) to the part that the case was run with. `response_times`
+    are those of a controller paced by the clock. `controller_version` is what a controller from outside said
+    of itself in this stop, `controller_contract` the version of the contract that it kept (0: none),
+    `case_sha256` what named the stop, :func:`uictest.rig.assembly.case_sha256`. `requirements` are the ids of
+    those that the case verifies as a whole; its criteria may verify others. `test_case` is its id in a test
+    management tool. `noise_key` names the noise of the sensors that a simulated stop met, together with its
+    seed, see :mod:`uictest.rig.single_stop`. `domain_of_validity` says whether the case lies where the model
+    was validated; None where nobody asked. `strict` says that the case is not met either where one of its
+    verdicts is not settled. `firmness` says whether numbers that nobody measured turn its verdicts, where
+    that was asked. `train` says where a car ran in its train. The document has these, and `repeats`, only
+    where they hold something. `duration` (seconds of wall clock) is for progress and JUnit only, never in the
+    document: a result must not depend on the machine.
 
     A case that repeats its stop has its stops in `repeats`: `measures` and `wheelsets` are then medians over
     them, and `criteria` are verdicts over all of them. `case_sha256` is that of the first.

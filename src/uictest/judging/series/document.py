@@ -11,8 +11,6 @@ from uictest.core.series_measures import SERIES_MEASURES
 from uictest.judging import evaluation
 from uictest.judging.series.result import SeriesResult
 
-_EARLIER_SCHEMA: Final = "uictest/series-result/1"
-"""What 0.2 wrote beside the same fields."""
 _FIELDS: Final = frozenset({"parts", "cases", "series"})
 _WrittenSeries = Annotated[
     SeriesResult, evaluation.absent_if_empty("requirements", "test_case", "bypassed_k_wet", "firmness")
@@ -36,14 +34,12 @@ def series_document(results: Sequence[SeriesResult]) -> dict[str, Any]:
 def series_results_of(document: object) -> list[SeriesResult]:
     """Return the series in the form that :func:`series_document` gives.
 
-    Raises ValueError where it is of another schema, lacks or adds a field, holds a value of another type, or
-    names a case that it does not hold.
+    Raises ValueError where it lacks or adds a field, holds a value of another type, or names a case that it
+    does not hold.
     """
     if not isinstance(document, Mapping):
         raise ValueError(f"series: expected an object, found {document!r}")
-    if (schema := document.get("schema", _EARLIER_SCHEMA)) != _EARLIER_SCHEMA:
-        raise ValueError(f"series: expected no schema of their own, found {schema!r}")
-    if document.keys() - {"schema"} != _FIELDS:
+    if document.keys() != _FIELDS:
         raise ValueError(f"series: expected the fields {', '.join(sorted(_FIELDS))}")
     cases = evaluation.cases_of(document["cases"], evaluation.parts_of(document), "series.cases")
     by_id = {case.id: case for case in cases}

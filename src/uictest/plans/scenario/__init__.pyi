@@ -82,7 +82,6 @@ from .parts.fault import Fault as Fault
 from .parts.measures import MeasureDefinitions as MeasureDefinitions
 from .parts.named_file import (
     LARGEST_SEED as LARGEST_SEED,
-    DescribedFile as DescribedFile,
     NamedFile as NamedFile,
     ShareOfStops as ShareOfStops,
     TestFile as TestFile,

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
-from uictest.core.envelope import RESULT, is_of
+from uictest.core.envelope import OLD, RESULT, is_of, is_old
 from uictest.plans import library
 from uictest.plans.scenario.files import Files, nearest_file
 from uictest.plans.scenario.model import Scenario
@@ -109,19 +109,21 @@ def _with_validation_path(data: dict[str, Any], tree: Map, files: Files) -> None
         raise single_error(
             node.place, f"no such file: {quoted(node.text)}", _VALIDATION_KEY, nearest_file(path, _HINT)
         )
-    if not files.once(f"{_VALIDATION_KEY}:{path}", lambda: _is_validation(path)):
-        raise single_error(
-            node.place, f"{quoted(node.text)} is not the result of a validation", _VALIDATION_KEY, _HINT
-        )
+    if reason := files.once(f"{_VALIDATION_KEY}:{path}", lambda: _why_no_validation(path)):
+        raise single_error(node.place, f"{quoted(node.text)} is {reason}", _VALIDATION_KEY, _HINT)
     data[_VALIDATION_KEY] = str(path)
 
 
-def _is_validation(path: Path) -> bool:
+def _why_no_validation(path: Path) -> str:
+    """What a file is instead of the result of a validation; empty where it is one."""
+    other = "not the result of a validation"
     try:
         form = json.loads(read_document(path, LARGEST, _HINT).text)
     except (ValueError, RecursionError):
-        return False
-    return is_of(form, RESULT, "validation") and bool(form.get("domains"))
+        return other
+    if isinstance(form, dict) and is_old(form):
+        return OLD
+    return "" if is_of(form, RESULT, "validation") and form.get("domains") else other
 
 
 def resolve(tree: Map, parts: Parts) -> tuple[Scenario, tuple[Document, ...]]:

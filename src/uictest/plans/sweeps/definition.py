@@ -64,8 +64,7 @@ def load_sweep(
     """Return the plan of a sweep file.
 
     Args:
-        path: a ``*.sweep.yaml``: a scenario with `vary`, or a sweep as 0.2 wrote it; or the name of one that
-            ships.
+        path: a ``*.sweep.yaml``: a scenario with `vary`, or the name of one that ships.
         overrides: ``key=value`` texts. One value fixes a key of the scenario, swept or not; a comma list or
             ``range(first,last,step)`` replaces the values in the file.
         seed: of the sensors' noise in every case.
@@ -104,7 +103,6 @@ def load_sweep(
         inputs=dict(sorted({**file.base.case.inputs, **read}.items())),
         survey=survey is not None,
         cases_sha256=file.cases_sha256,
-        written_now=file.written_now,
         own_keys=file.base.own_keys(key for group in groups for key in group.keys),
     )
 
@@ -123,7 +121,7 @@ def _groups(
     axes = [*_axes(file, sections, swept)]
     sample, requested = sections.get("sample"), file.vary.sample
     drawn = dict(_entries(sample, "parameters")) if isinstance(sample, Map) else {}
-    diagnostics = [*_bad_keys(file, sections, [*axes, (file.key("sample"), drawn)])]
+    diagnostics = [*_bad_keys(file, sections, [*axes, ("vary.sample", drawn)])]
     if diagnostics:
         raise ScenarioErrors(in_reading_order(diagnostics))
     groups: list[Group | None] = [reader.listed(entries, section) for section, entries in axes]
@@ -135,7 +133,7 @@ def _groups(
     train = file.base.case.train
     if train is not None and requested is not None and requested.method == "saltelli":
         message = "sensitivities are of a car alone"
-        raise single_error(sections.entries["sample"].key, message, file.key("sample"), "take method: sobol")
+        raise single_error(sections.entries["sample"].key, message, "vary.sample", "take method: sobol")
     if train is not None:  # the cars of a case are neighbours, so that their train runs once
         numbers = [str(number + 1) for number in range(len(train.scenarios))]
         groups.append(ListedGroup((CAR,), tuple((ParameterValue(*3 * (each,)),) for each in numbers)))
@@ -155,12 +153,12 @@ def _axes(file: SweepFile, sections: Map, swept: Sequence[Override]) -> Iterator
     for each in swept:
         yield "--set", {each.key: Entry(each.place, List(each.values, each.place))}
     for key, entry in _entries(sections, "matrix"):
-        yield file.key("matrix"), {key: entry}
+        yield "vary.matrix", {key: entry}
     for key, entry in _entries(sections, "ranges"):
         values = (file.vary.ranges or {})[key]
-        yield file.key("ranges"), {key: Entry(entry.key, range_node(values, entry.node))}
+        yield "vary.ranges", {key: Entry(entry.key, range_node(values, entry.node))}
     if zipped := dict(_entries(sections, "zip")):
-        yield file.key("zip"), zipped
+        yield "vary.zip", zipped
 
 
 def _bad_keys(file: SweepFile, sections: Map, axes: Sequence[_Axis]) -> Iterator[Diagnostic]:
@@ -185,7 +183,7 @@ def _bad_keys(file: SweepFile, sections: Map, axes: Sequence[_Axis]) -> Iterator
         for _, entries in axes:
             yield from file.base.conditions_alone(entries)
     if not section_of:
-        names = ", ".join(map(file.key, ("matrix", "ranges", "zip", "sample")))
+        names = "vary.matrix, vary.ranges, vary.zip, vary.sample"
         yield diagnose(sections.place, "nothing varies", hint=f"give values under {names}")
 
 

@@ -137,8 +137,6 @@ class Plan:
     """Whether its cases are simulated in survey steps, except where a verdict might hang on it."""
     cases_sha256: str = ""
     """SHA-256 of what the sweep file says of its cases."""
-    written_now: str = ""
-    """How a file of 0.2 is written now, empty for others."""
     own_keys: tuple[dict[str, str], ...] = ()
     """For each car of a train what its scenario calls the keys that reach it; the last group is the cars."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Final
 
 from pydantic import ConfigDict, Field, TypeAdapter
@@ -183,18 +183,18 @@ class SweepResult:
         title: one line, or empty.
         cases: number of cases.
         met: number of cases that met their expectation.
-        outcomes: number of cases by outcome; earlier versions have no `inconclusive`.
+        outcomes: number of cases by outcome.
         missed: the first cases that did not meet their expectation.
         rates: counts for each value of each parameter, by key.
         maps: of the cases met and of measures.
         distributions: of measures.
         trends: measures along parameters.
-        base: the parts of the case that is varied, by role; empty where an earlier version wrote the result.
+        base: the parts of the case that is varied, by role.
         varied: keys of the parameters.
         logarithmic: those of them that were spaced or drawn logarithmically.
         requirements: ids of those that the varied case or its criteria verify.
         test_case: its id in a test management tool, or empty.
-        controllers: of all cars of all cases, each once; none where an earlier version wrote the result.
+        controllers: of all cars of all cases, each once.
         nominal: the case that is varied, or all cars of the train, with how firm the verdicts are; none where
             nobody asked.
         worst: the cases most worth looking at, those not met first.
@@ -219,12 +219,12 @@ class SweepResult:
     maps: tuple[SweepMap, ...]
     distributions: tuple[MeasureRange, ...]
     trends: tuple[Trend, ...]
-    base: NamedParts = field(default_factory=dict)
+    base: NamedParts
     varied: tuple[str, ...] = ()
     logarithmic: tuple[str, ...] = ()
     requirements: tuple[str, ...] = ()
     test_case: str = ""
-    controllers: tuple[SweptController, ...] = ()
+    controllers: tuple[SweptController, ...]
     worst: tuple[WrittenCaseResult, ...]
     subjects: Mapping[str, Annotated[CaseDescription, required("title", "tags", "settings")]]
     sensitivities: tuple[SobolSensitivity, ...]

@@ -72,12 +72,11 @@ def manifest_differences(
 ) -> Iterator[str]:
     """Yield the differences of two manifests in words; `whose` names the two manifests.
 
-    The name of the sweep file does not count, and of its content only what says which cases there are; nor do
-    the heads of manifests, which 0.2 wrote otherwise.
+    The name of the sweep file does not count, and of its content only what says which cases there are.
     """
     for name in dict.fromkeys((*one, *other)):
         first, second = _decisive(one, name), _decisive(other, name)
-        if first == second or name in ("file", "schema", "kind"):
+        if first == second or name == "file":
             continue
         if isinstance(first, Mapping) and isinstance(second, Mapping):
             changed = (key for key in dict.fromkeys((*first, *second)) if first.get(key) != second.get(key))
@@ -92,7 +91,7 @@ def manifest_differences(
 def _decisive(manifest: Mapping[str, Any], name: str) -> Any:
     """Return an entry as far as results depend on it: of the inputs all but the sweep file."""
     entry = manifest.get(name)
-    if name != "inputs" or "cases_sha256" not in manifest or not isinstance(entry, Mapping):
+    if name != "inputs" or not isinstance(entry, Mapping):
         return entry
     return {key: digest for key, digest in entry.items() if key != Path(str(manifest.get("file"))).name}
 

@@ -104,7 +104,7 @@ def _read(folder: Path) -> ListedRun:
         return _run(folder, manifest)
     if envelope.is_of(manifest, envelope.MANIFEST, "sweep"):
         return _sweep(folder, manifest)
-    raise UnreadableError(f"not of uictest: {MANIFEST} has {envelope.head_of(manifest)}")
+    raise _other_schema(MANIFEST, manifest)
 
 
 def _run(folder: Path, content: Mapping[str, Any]) -> ListedRun:
@@ -219,10 +219,16 @@ def _other(folder: Path) -> ListedRun:
             continue
         content = json_object(folder / name)
         if not is_own(content):
-            raise UnreadableError(f"not of uictest: {name} has {envelope.head_of(content)}")
+            raise _other_schema(name, content)
         page = _page(folder) or f"{folder.name}/{name}"
         return ListedRun(folder.name, kind, _started(folder, name), page=page)
     raise UnreadableError(f"not of uictest: there is no {MANIFEST}")
+
+
+def _other_schema(name: str, content: Mapping[str, Any]) -> UnreadableError:
+    """Return the reason why a file is not read, by its head."""
+    reason = "not read" if envelope.is_old(content) else "not of uictest"
+    return UnreadableError(f"{reason}: {name} has {envelope.head_of(content)}")
 
 
 def _page(folder: Path) -> str:

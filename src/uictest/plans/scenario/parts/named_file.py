@@ -36,19 +36,14 @@ class NamedFile(Model):
     title: str = field("One line for people.", default="", max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$")
 
 
-class DescribedFile(NamedFile):
-    """A file that says what it is for."""
-
-    description: str = field(
-        "What it is for.", default="", max_length=5000, pattern=r"^[^\x00-\x08\x0b-\x1f\x7f]*$"
-    )
-
-
-class TestFile(DescribedFile):
+class TestFile(NamedFile):
     """A file of stops that are judged, with what tools of test management know it by."""
 
     __test__ = False
 
+    description: str = field(
+        "What it is for.", default="", max_length=5000, pattern=r"^[^\x00-\x08\x0b-\x1f\x7f]*$"
+    )
     tags: tuple[Slug, ...] = field("Words that select it (-m).", default=(), max_length=32)
     requirements: RequirementIds = field("Ids of the requirements that it verifies.", default=())
     test_case: RequirementId | None = optional(

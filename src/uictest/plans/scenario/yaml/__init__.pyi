@@ -54,7 +54,6 @@ from .reading import (
     LIBRARY as LIBRARY,
     SCENARIO_SCHEMA as SCENARIO_SCHEMA,
     SERIES_SCHEMA as SERIES_SCHEMA,
-    SWEEP_SCHEMA as SWEEP_SCHEMA,
     VALIDATION_SCHEMA as VALIDATION_SCHEMA,
     display_name as display_name,
     inherit as inherit,
