@@ -224,7 +224,6 @@ def test_cases_of_another_series_are_not_judged(planned, load, judge):
 @pytest.mark.parametrize(
     ("spoil", "message"),
     [
-        (lambda document: document.update(schema="uictest/series-result/2"), "expected no schema"),
         (lambda document: document.update(more=1), "expected the fields"),
         (
             lambda document: document["series"][0]["measures"].update(
