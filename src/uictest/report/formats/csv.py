@@ -33,9 +33,6 @@ from uictest.report.verdict_sentences import definition_sentence, reading_senten
 if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult
 
-CHANGED = "changed_parameters"
-REQUIREMENTS = "requirements"
-READINGS = "readings"
 _CRITERION_FIELDS = {
     "layer": "layer",
     "verdict": "status",
@@ -57,7 +54,7 @@ def summary_table(results: Sequence[evaluation.CaseResult], uictest_version: str
         *("id", "scenario"),
         *keys,
         *("expect", "outcome", "met", "reason", "controller", "controller_version"),
-        *(CHANGED, "test_case", REQUIREMENTS),
+        *("changed_parameters", "test_case", "requirements"),
         *(TRAIN_COLUMNS if any_in_train(results) else ()),
         *_of_repeated(results, SHARE_COLUMNS),
         *STOP_COLUMNS,
@@ -69,7 +66,7 @@ def summary_table(results: Sequence[evaluation.CaseResult], uictest_version: str
 def wheelsets_table(results: Sequence[evaluation.CaseResult]) -> Data:
     """Return one row per case and wheelset; wheelset 1 leads. Ranges as in :func:`summary_table`."""
     ranges = _of_repeated(results, range_columns(WHEELSET_COLUMNS))
-    return Data(["id", "wheelset", *WHEELSET_COLUMNS, *ranges], list(wheelset_rows(results)))
+    return Data(["id", "wheelset", *WHEELSET_COLUMNS, *ranges], list(_wheelset_rows(results)))
 
 
 def criteria_table(results: Sequence[evaluation.CaseResult]) -> Data:
@@ -77,9 +74,9 @@ def criteria_table(results: Sequence[evaluation.CaseResult]) -> Data:
 
     Where a case repeats its stop, there are the counts of its stops and the range of the values, too.
     """
-    own = [*_of_repeated(results, CRITERION_COLUMNS), REQUIREMENTS]
-    columns = ["id", "criterion", *_CRITERION_FIELDS, READINGS, *own, "definition"]
-    return Data(columns, list(criterion_rows(results)))
+    own = [*_of_repeated(results, CRITERION_COLUMNS), "requirements"]
+    columns = ["id", "criterion", *_CRITERION_FIELDS, "readings", *own, "definition"]
+    return Data(columns, list(_criterion_rows(results)))
 
 
 def repeats_table(results: Sequence[evaluation.CaseResult]) -> Data:
@@ -129,13 +126,15 @@ def _of_repeated(results: Sequence[evaluation.CaseResult], columns: Iterable[str
 def _summary_row(result: evaluation.CaseResult, uictest_version: str) -> dict[str, Cell]:
     parameters = {f"parameters.{key}": text for key, text in result.parameters.items()}
     own = {name: getattr(result, name) for name in ("id", "scenario", "expect", "outcome", "met", "reason")}
+    controller, version = controller_of(result, uictest_version)
     return {
         **parameters,
         **own,
-        **controller_cells(result, uictest_version),
-        CHANGED: "; ".join(changes_of(result)),
+        "controller": controller,
+        "controller_version": version,
+        "changed_parameters": "; ".join(changes_of(result)),
         "test_case": result.test_case,
-        REQUIREMENTS: "; ".join(result.requirements),
+        "requirements": "; ".join(result.requirements),
         **train_cells(result),
         **share_cells(result),
         **(result.measures or {}),
@@ -143,30 +142,22 @@ def _summary_row(result: evaluation.CaseResult, uictest_version: str) -> dict[st
     }
 
 
-def controller_cells(result: evaluation.CaseResult, uictest_version: str) -> dict[str, Cell]:
-    """Return the name of the controller under test and its version; empty where none is known."""
-    name, version = controller_of(result, uictest_version)
-    return {"controller": name, "controller_version": version}
-
-
-def wheelset_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
-    """Yield one row per case and wheelset."""
+def _wheelset_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
     for result in results:
         for position, wheelset in enumerate(result.wheelsets, start=1):
             ranges = range_cells(result, WHEELSET_COLUMNS, position)
             yield {"id": result.id, "wheelset": position, **wheelset, **ranges}
 
 
-def criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
-    """Yield one row per case and criterion."""
+def _criterion_rows(results: Sequence[evaluation.CaseResult]) -> Iterator[dict[str, Cell]]:
     for result in results:
         for verdict in result.criteria:
             yield {
                 "id": result.id,
                 "criterion": verdict.id,
                 **{column: getattr(verdict, name) for column, name in _CRITERION_FIELDS.items()},
-                READINGS: "; ".join(reading_sentences(verdict)),
-                REQUIREMENTS: "; ".join(verdict.requirements),
+                "readings": "; ".join(reading_sentences(verdict)),
+                "requirements": "; ".join(verdict.requirements),
                 **criterion_share_cells(verdict),
                 "definition": definition_sentence(verdict),
             }
