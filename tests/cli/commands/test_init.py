@@ -28,3 +28,19 @@ def test_nothing_is_overwritten(call):
     Path("scenarios/first-stop.yaml").write_text("mine")
     call("init", code=4, says="already there")
     assert Path("scenarios/first-stop.yaml").read_text() == "mine"
+
+
+def test_the_scenarios_that_ship_come_beside_a_first_one_and_renew_the_schema(call):
+    assert call("init").code == 0
+    written = Path("schema/scenario.schema.json").read_text("utf-8")
+    Path("schema/scenario.schema.json").write_text(written.replace("description", "title"), "utf-8")
+    assert call("init", "--scenarios").code == 0
+    assert Path("schema/scenario.schema.json").read_text("utf-8") == written
+    assert Path("scenarios/slip-120.yaml").is_file() and Path("scenarios/first-stop.yaml").is_file()
+
+
+def test_a_schema_of_another_program_is_left_alone_and_nothing_is_written(call):
+    Path("schema").mkdir()
+    Path("schema/scenario.schema.json").write_text("{}")
+    call("init", code=4, says="no schema of uictest: schema/scenario.schema.json")
+    assert not Path("scenarios").exists()

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from uictest import report, runs
-from uictest.cli.commands.schema import SchemaKind, schema_name, schema_text
+from uictest.cli.commands.schema import SchemaKind, schemas_below
 from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode, message
 from uictest.core import files
@@ -65,7 +66,7 @@ def init(
     c: CFolder = None,
     shipped: Shipped = False,
 ) -> ExitCode:
-    """Write a first scenario, and the schema with which editors complete it. Overwrites nothing.
+    """Write a first scenario, and the schema with which editors complete it. Overwrites nothing but schemas.
 
     With --scenarios, copies of those that ship stand in place of it. With the word controller: write a first
     WSP controller, its part and a scenario that runs it.
@@ -76,10 +77,12 @@ def init(
         if shipped:
             paths = library.scenarios().values()
             copies = {what / "scenarios" / path.name: path.read_text("utf-8") for path in paths}
-            _write_new({**copies, **_schemas(what, SchemaKind.SCENARIO, SchemaKind.SERIES)})
+            schemas = schemas_below(what / "schema", SchemaKind.SCENARIO, SchemaKind.SERIES)
+            _write_new(copies, schemas)
             message(f"Run them with 'uictest run {report.argument(str(what / 'scenarios'))}'.")
             return ExitCode.MET
-        _write_new({what / SCENARIO: _FIRST_STOP, **_schemas(what, SchemaKind.SCENARIO)})
+        schemas = schemas_below(what / "schema", SchemaKind.SCENARIO)
+        _write_new({what / SCENARIO: _FIRST_STOP}, schemas)
         message(f"Run it with 'uictest run {report.argument(str(what / SCENARIO))}'.")
         return ExitCode.MET
     if shipped:
@@ -93,11 +96,6 @@ def init(
     return ExitCode.MET
 
 
-def _schemas(folder: Path, *kinds: SchemaKind) -> dict[Path, str]:
-    """Return the schemas that the first lines of scenarios, sweeps and series name, by their places."""
-    return {folder / "schema" / schema_name(kind): schema_text(kind) for kind in kinds}
-
-
 def _write_controller(folder: Path, language: templates.Language, *build: str) -> None:
     """Write a first controller, and show what to do with it."""
     _write_new({folder / name: text for name, text in templates.controller_files(language).items()})
@@ -106,12 +104,16 @@ def _write_controller(folder: Path, language: templates.Language, *build: str) -
     message("\n".join(["Next:", *(f"    {each}" for each in (*build, check, run))]))
 
 
-def _write_new(texts: dict[Path, str]) -> None:
-    """Write files. Raises InvalidInputError, and writes none, where one of them exists."""
+def _write_new(texts: Mapping[Path, str], schemas: Mapping[Path, str] | None = None) -> None:
+    """Write files, and schemas, which may be there: those of another version complete what is no key now.
+
+    Raises InvalidInputError, and writes none, where one of the files exists.
+    """
     existing = [path for path in texts if os.path.lexists(path)]
     if existing:
         raise runs.InvalidInputError(f"already there: {', '.join(map(str, existing))}")
-    for path, text in texts.items():
+    written = {**texts, **(schemas or {})}
+    for path, text in written.items():
         files.make_folder(path.parent)
         files.write_to(path, text)
-    message(f"uictest: wrote {', '.join(map(str, texts))}")
+    message(f"uictest: wrote {', '.join(map(str, written))}")

@@ -64,23 +64,24 @@ def schema(kind: Kind = None, everything: Folder = None) -> ExitCode:
 
 
 def _write_all(folder: Path) -> list[Path]:
-    """Write the schema of every kind, and return the paths.
+    """Write the schema of every kind, and return the paths. Raises OSError, InvalidInputError."""
+    texts = schemas_below(folder, *SchemaKind)
+    files.make_folder(folder)
+    for path, text in texts.items():
+        files.write_to(path, text)
+    return list(texts)
 
-    Raises OSError, and InvalidInputError where a file of another program has the name of one.
+
+def schemas_below(folder: Path, *kinds: SchemaKind) -> dict[Path, str]:
+    """Return the texts of schemas by the paths that first lines of shipped files name.
+
+    Raises OSError, and InvalidInputError where a file of another program has such a path.
     """
-    paths = {folder / schema_name(kind): kind for kind in SchemaKind}
+    paths = {folder / f"{kind}.schema.json": kind for kind in kinds}
     for path, kind in paths.items():
         if path.exists() and f"uictest/{kind}/1".encode() not in path.read_bytes():
             raise runs.InvalidInputError(f"already there, and no schema of uictest: {path}")
-    files.make_folder(folder)
-    for path, kind in paths.items():
-        files.write_to(path, schema_text(kind))
-    return list(paths)
-
-
-def schema_name(kind: SchemaKind) -> str:
-    """Return the name of the file with the schema of a kind, which first lines of shipped files name."""
-    return f"{kind}.schema.json"
+    return {path: schema_text(kind) for path, kind in paths.items()}
 
 
 def schema_text(kind: SchemaKind) -> str:
