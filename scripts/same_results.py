@@ -7,9 +7,9 @@
 Runs the shipped scenarios, sweeps, series and bench tests, and what is done with recordings of them: they are
 judged again, found in a long log, fitted, identified. Every measure, status, limit and count goes into
 `same_results.txt` beside this file: one line for each record (a stop, a wheelset, a criterion, a column of a
-sweep), numbers in hexadecimal, which is exact. Texts, names of files and order do not count: they may change
-where numbers may not (`same_outputs.py` compares those). Takes some two minutes of a processor. Exit code 1
-if anything differs, is missing or is new.
+sweep), numbers in hexadecimal, which is exact. Sentences, versions and the files that a command writes do not
+count: they may change where numbers may not (`same_outputs.py` compares those). Takes some two minutes of a
+processor. Exit code 1 if anything differs, is missing or is new.
 
 Numbers that a solver of SciPy finds depend in their last digits on the processor's linear algebra: the groups
 `fit`, `identify` and `log-friction` are compared to 1e-6 of the number.
@@ -22,11 +22,12 @@ import hashlib
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, Final
@@ -124,40 +125,49 @@ def _estimate(estimate: Any) -> dict[str, Any]:
 
 
 def column_records(name: str, frame: pd.DataFrame) -> Records:
-    """Yield each column of a table with a digest of its rows, in the order of the index, and their number."""
-    for column in frame.sort_index().columns:
-        values = frame.sort_index()[column]
-        texts = [_text(None if value is pd.NA else value) for value in values]
-        numbers = pd.to_numeric(values, errors="coerce")
-        shown = (
-            {}
-            if numbers.isna().all()
-            else {"smallest": float(numbers.min()), "largest": float(numbers.max())}
-        )
+    """Yield the columns of a table that hold numbers or words, not sentences: a digest of each."""
+    for column in frame.columns:
+        values = frame[column]
+        if pd.api.types.is_numeric_dtype(values):
+            ends = {"smallest": float(values.min()), "largest": float(values.max())}
+            yield f"{name} column {column}", {**ends, **_digest(values.astype(float))}
+        elif column in _WORDS or column.startswith("parameters."):
+            yield f"{name} column {column}", _digest(values)
+
+
+_WORDS: Final = ("expect", "outcome", "narrowest_criterion")
+"""Columns of a sweep that hold words."""
+
+
+def _digest(values: Iterable[Any]) -> dict[str, Any]:
+    texts = [_text(value) for value in values]
+    return {"rows": len(texts), "sha256": hashlib.sha256("\n".join(texts).encode()).hexdigest()[:16]}
+
+
+def row_records(name: str, frame: pd.DataFrame, keys: Sequence[str], words: Sequence[str] = ()) -> Records:
+    """Yield the numbers in each row of a table, and the named columns of words; `keys` tell rows apart."""
+    for row in frame.to_dict("records"):
+        numbers = {column: row[column] for column in frame.select_dtypes("number")}
         yield (
-            f"{name} column {column}",
-            {
-                "rows": len(texts),
-                **shown,
-                "sha256": hashlib.sha256("\n".join(texts).encode()).hexdigest()[:16],
-            },
+            " ".join([name, *(str(row[key]) for key in keys)]),
+            numbers | {word: row[word] for word in words},
         )
 
 
 def leaves(content: object, name: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield every number and truth value of a document by the keys that lead to it."""
+    """Yield every number, truth value and standing in a document by the keys that lead to it."""
     if isinstance(content, Mapping):
         for key, value in content.items():
             yield from leaves(value, f"{name}.{key}" if name else str(key))
     elif isinstance(content, list):
         for index, value in enumerate(content):
             yield from leaves(value, f"{name}[{index}]")
-    elif content is None or isinstance(content, bool | int | float):
+    elif not isinstance(content, str) or name.endswith(".standing"):
         yield name, content
 
 
 def run_group() -> Records:
-    """All shipped scenarios with the controllers that they name, and with another one that ships."""
+    """All shipped scenarios with the controllers that they name."""
     for result in recorded_run():
         yield from case_records(result)
 
@@ -202,21 +212,27 @@ def firm_group() -> Records:
 
 
 def sweep_group() -> Records:
-    """The shipped sweeps of built-in controllers, and one frontier."""
+    """The shipped sweeps of built-in controllers: cases, maps, sensitivities, and one frontier."""
     for file in _SWEEPS:
-        frontier = "rail.friction" if "friction-command" in file else None
-        swept = uictest.sweep(file, frontier=frontier)
-        yield from column_records(swept.result.name, swept.frame())
-        found = json.loads(json.dumps(swept.result, default=_fields))
-        for part in ("frontier", "sensitivities", "maps", "rates"):
-            yield f"{swept.result.name} {part}", dict(leaves(found.get(part)))
-
-
-def _fields(content: Any) -> Any:
-    names = getattr(content, "__dataclass_fields__", None) or getattr(content, "_fields", None)
-    if names is not None:
-        return {name: getattr(content, name) for name in names}
-    return list(content) if isinstance(content, Sequence | np.ndarray) else str(content)
+        swept = uictest.sweep(file, frontier="rail.friction" if file == _SWEEPS[0] else None)
+        result = swept.result
+        yield result.name, {"cases": result.cases, "met": result.met, **result.outcomes}
+        yield from column_records(result.name, swept.frame().sort_index())
+        for each in result.maps:
+            yield f"{result.name} map {each.measure}", _digest(np.ravel(each.means).tolist())
+        for index in result.sensitivities:
+            ends = {order: getattr(index, order) for order in ("first", "total")}
+            numbers = {
+                f"{order}_{end}": getattr(own, end)
+                for order, own in ends.items()
+                for end in ("value", "low", "high")
+            }
+            yield f"{result.name} sensitivity of {index.measure} to {index.key}", numbers
+        for scan in result.frontier.scans if result.frontier else ():
+            where = " ".join(f"{key}={value.text}" for key, value in scan.circumstances.items())
+            for number, flip in enumerate(scan.flips, start=1):
+                ends = {"low": flip.low.text, "high": flip.high.text, "met_at_low": flip.met_at_low}
+                yield f"{result.name} frontier at {where} flip {number}", ends
 
 
 def evaluate_group() -> Records:
@@ -231,23 +247,22 @@ def evaluate_group() -> Records:
 def log_group() -> Records:
     """The stops found in a long log, each judged, the wet ones also over the dry ones."""
     folder = log_folder()
-    results = uictest.read_results(folder)
-    for result in results:
+    for result in uictest.read_results(folder):
         yield from case_records(result)
     yield "stops", {"found": len(pd.read_csv(folder / "stops.csv"))}
-    for name in ("dry_stops", "wet_stops", "wet_series"):
-        yield from row_records(name, pd.read_csv(folder / f"campaign_{name}.csv"))
+    tables = {
+        name: pd.read_csv(folder / f"campaign_{name}.csv")
+        for name in ("dry_stops", "wet_stops", "wet_series")
+    }
+    yield from row_records("dry stops", tables["dry_stops"], ["speed_kmh"], ["accepted"])
+    yield from row_records("wet stop", tables["wet_stops"], ["stops"], ["outcome", "counts"])
+    yield from row_records("wet series", tables["wet_series"], ["speed_kmh", "measure"])
 
 
 def log_friction_group() -> Records:
     """The friction that is fitted to each stop of the log."""
-    yield from row_records("friction", pd.read_csv(log_folder() / "campaign_friction.csv"))
-
-
-def row_records(name: str, frame: pd.DataFrame) -> Records:
-    """Yield the numbers in each row of a table."""
-    numbers = frame.select_dtypes("number").to_dict("records")
-    yield from ((f"{name} {index}", row) for index, row in enumerate(numbers, start=1))
+    table = pd.read_csv(log_folder() / "campaign_friction.csv")
+    yield from row_records("stop", table, ["stops"], ["standing"])
 
 
 def fit_group() -> Records:
@@ -385,7 +400,7 @@ def command(*words: str) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "uictest", *words], capture_output=True, text=True, check=False
     )
-    if done.returncode > 1:  # 1: not as expected, which is a result
+    if done.returncode not in (0, 1):  # 1: not as expected, which is a result
         raise SystemExit(f"uictest {' '.join(words)}: exit code {done.returncode}\n{done.stderr}")
 
 
@@ -397,6 +412,8 @@ def lines_of(groups: Sequence[str]) -> dict[str, str]:
         for name in ("scenarios", "examples"):
             shutil.copytree(REPOSITORY / name, Path(folder, name))
         os.chdir(folder)
+        for cached in (recorded_run, weaker_dry_run, log_folder, bench_record):
+            cached.cache_clear()  # what they return lies in the folder
         try:
             for group in groups:
                 for name, content in GROUPS[group]():
@@ -422,8 +439,10 @@ def _text(value: object) -> str:
     return "-" if value is None or value == "" else str(value).replace(" ", "_")
 
 
-def difference(name: str, before: str, now: str) -> list[str]:
+def difference(name: str, before: str | None, now: str | None) -> list[str]:
     """Return a line for each field of a record that differs by more than its group allows."""
+    if before is None or now is None:
+        return [f"{name}: {'new' if before is None else 'missing'}"]
     old, new = (dict(field.split("=", 1) for field in text.split()) for text in (before, now))
     tolerance = _TOLERANCES.get(name.partition(" ")[0], 0.0)
     return [
@@ -443,14 +462,12 @@ def _same(before: str | None, now: str | None, tolerance: float) -> bool:
 
 
 def _float(text: str | None) -> float | None:
-    try:
-        return None if text is None else float.fromhex(text)
-    except ValueError:
-        return None
+    """Return a number that was kept in hexadecimal; None for all else, of which counts are."""
+    return float.fromhex(text) if text and re.fullmatch(r"-?0x[0-9a-f.]+p[+-]\d+", text) else None
 
 
 def _readable(text: str | None) -> str:
-    number = _float(text) if text is not None and "0x" in text else None
+    number = _float(text)
     return "missing" if text is None else text if number is None else f"{number!r}"
 
 
@@ -464,24 +481,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if not groups:
         raise SystemExit(f"no group has {options.k!r} in its name: {', '.join(GROUPS)}")
     kept = dict(line.split(": ", 1) for line in KEPT.read_text("utf-8").splitlines()) if KEPT.exists() else {}
-    chosen = {name: text for name, text in kept.items() if name.partition(" ")[0] in groups}
-    found = lines_of(groups)
+    before = {name: text for name, text in kept.items() if name.partition(" ")[0] in groups}
+    now = lines_of(groups)
     if options.accept:
-        merged = {**{name: text for name, text in kept.items() if name not in chosen}, **found}
-        KEPT.write_text("".join(f"{name}: {text}\n" for name, text in sorted(merged.items())), "utf-8")
-    different = [
-        line
-        for name in sorted({**chosen, **found})
-        for line in difference(name, chosen.get(name, ""), found.get(name, ""))
-    ]
-    print(
-        "\n".join(
-            [
-                *different,
-                f"{len(found)} records: {f'{len(different)} fields differ' if different else 'same'}",
-            ]
-        )
-    )
+        others = {name: text for name, text in kept.items() if name not in before}
+        lines = (f"{name}: {text}\n" for name, text in sorted({**others, **now}.items()))
+        KEPT.write_text("".join(lines), "utf-8")
+    names = sorted({**before, **now})
+    different = [line for name in names for line in difference(name, before.get(name), now.get(name))]
+    for line in different:
+        print(line)
+    print(f"{len(now)} records, {f'differences: {len(different)}' if different else 'all the same'}")
     return 1 if different and not options.accept else 0
 
 
