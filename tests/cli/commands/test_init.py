@@ -42,5 +42,5 @@ def test_the_scenarios_that_ship_come_beside_a_first_one_and_renew_the_schema(ca
 def test_a_schema_of_another_program_is_left_alone_and_nothing_is_written(call):
     Path("schema").mkdir()
     Path("schema/scenario.schema.json").write_text("{}")
-    call("init", code=4, says="no schema of uictest: schema/scenario.schema.json")
+    call("init", code=4, says="not written by this version of uictest: schema/scenario.schema.json")
     assert not Path("scenarios").exists()

@@ -1,7 +1,9 @@
 import json
+import os
 from pathlib import Path
 
 import jsonschema
+import pytest
 
 from uictest.cli.commands.schema import SchemaKind
 
@@ -16,7 +18,9 @@ def test_all_of_them_are_written_and_named_and_may_be_written_again(call):
     Path("schema").mkdir()
     other = Path("schema/other.schema.json")
     other.write_text("{}")
-    Path("schema/rail.schema.json").write_text('{"const": "uictest/rail/1"}')
+    call("schema", "--all", "schema", code=0)
+    text = Path("schema/rail.schema.json").read_text("utf-8")
+    Path("schema/rail.schema.json").write_text(text.replace("friction", "adhesion"), "utf-8")
     written = {Path(line) for line in call("schema", "--all", "schema", code=0).out.splitlines()}
     assert written == {Path(f"schema/{kind}.schema.json") for kind in SchemaKind}
     assert set(Path("schema").iterdir()) == {*written, other}
@@ -26,11 +30,19 @@ def test_all_of_them_are_written_and_named_and_may_be_written_again(call):
         assert text.rstrip() == call("schema", kind.value).out.rstrip()
 
 
-def test_a_file_of_another_program_is_left_alone_and_nothing_is_written(call):
-    Path("rail.schema.json").write_text("{}")
-    call("schema", "--all", ".", code=4, says="no schema of uictest: rail.schema.json")
+@pytest.mark.parametrize("text", ["{}", '{"const": "uictest/rail/1"}'])
+def test_a_file_of_somebody_else_is_left_alone_and_nothing_is_written(call, text):
+    Path("rail.schema.json").write_text(text)
+    call("schema", "--all", ".", code=4, says="not written by this version of uictest: rail.schema.json")
     assert [path.name for path in Path().iterdir()] == ["rail.schema.json"]
-    assert Path("rail.schema.json").read_text() == "{}"
+    assert Path("rail.schema.json").read_text() == text
+
+
+def test_neither_a_link_nor_a_pipe_is_written_to_or_read(call):
+    Path("rail.schema.json").symlink_to("nowhere")
+    os.mkfifo("pad.schema.json")
+    call("schema", "--all", ".", code=4, says="pad.schema.json, rail.schema.json")
+    assert {path.name for path in Path().iterdir()} == {"rail.schema.json", "pad.schema.json"}
 
 
 def test_one_kind_or_all(call):

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Final
 
 import typer
 
@@ -38,6 +39,9 @@ class SchemaKind(StrEnum):
     SENSORS = "sensors"
     VEHICLE = "vehicle"
 
+
+_COMMENT: Final = "Written by uictest, which writes it again: keep a schema of your own elsewhere."
+"""Tells a schema that may be replaced from one of somebody else."""
 
 Kind = Annotated[
     SchemaKind | None,
@@ -75,18 +79,24 @@ def _write_all(folder: Path) -> list[Path]:
 def schemas_below(folder: Path, *kinds: SchemaKind) -> dict[Path, str]:
     """Return the texts of schemas by the paths that first lines of shipped files name.
 
-    Raises OSError, and InvalidInputError where a file of another program has such a path.
+    Raises OSError, and InvalidInputError where something else has such a path.
     """
-    paths = {folder / f"{kind}.schema.json": kind for kind in kinds}
-    for path, kind in paths.items():
-        if path.exists() and f"uictest/{kind}/1".encode() not in path.read_bytes():
-            raise runs.InvalidInputError(f"already there, and no schema of uictest: {path}")
-    return {path: schema_text(kind) for path, kind in paths.items()}
+    texts = {folder / f"{kind}.schema.json": schema_text(kind) for kind in kinds}
+    if others := [path for path in texts if os.path.lexists(path) and not _is_own(path)]:
+        raise runs.InvalidInputError(
+            f"already there, and not written by this version of uictest: {', '.join(map(str, others))}"
+        )
+    return texts
+
+
+def _is_own(path: Path) -> bool:
+    return not path.is_symlink() and path.is_file() and _COMMENT.encode() in path.read_bytes()
 
 
 def schema_text(kind: SchemaKind) -> str:
     """Return the schema of a kind of file as the JSON text of its file."""
-    return f"{json.dumps(_schema(kind), indent=2, ensure_ascii=False)}\n"
+    content = {"$comment": _COMMENT, **_schema(kind)}
+    return f"{json.dumps(content, indent=2, ensure_ascii=False)}\n"
 
 
 def _schema(kind: SchemaKind) -> dict[str, Any]:
