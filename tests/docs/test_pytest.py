@@ -67,11 +67,13 @@ def test_what_is_not_as_expected_fails_and_names_criterion_and_value(tmp_path):
     folder = tmp_path / "scenarios"
     for path in folder.iterdir():
         path.unlink()
+    below = folder / "of-a-project"
+    below.mkdir()
     (folder / "stop.yaml").write_text(LIMITED, "utf-8")
     (folder / "short-stops.yaml").write_text(CRITERIA, "utf-8")
-    (folder / "_dry.yaml").write_text(LIMITED.partition("criteria")[0], "utf-8")
-    (folder / "two.series.yaml").write_text(SERIES, "utf-8")
-    (folder / "extension.yaml").write_text(EXTENSION, "utf-8")
+    (below / "_dry.yaml").write_text(LIMITED.partition("criteria")[0], "utf-8")
+    (below / "two.series.yml").write_text(SERIES, "utf-8")
+    (below / "extension.yaml").write_text(EXTENSION, "utf-8")
     code, lines = session_in(tmp_path)
     assert code == 1
     assert lines[-1].startswith("2 failed, 1 passed in ")
