@@ -52,13 +52,10 @@ def open_baseline(choice: BaselineChoice, scope: comparison.Scope) -> comparison
     Raises InvalidInputError where it cannot be read.
     """
     folder = choice.folder
-    if folder is None or (choice.accepting and not (folder / report.RESULTS).exists()):
+    holds_results = folder is not None and (folder / report.RESULTS).exists()
+    if folder is None or (choice.accepting and not holds_results):
         return None
-    advice = (
-        f"remove {folder} to start a new one"
-        if choice.accepting
-        else "--accept makes the results of a run the baseline"
-    )
+    advice = f"{f'remove {folder} first: ' if holds_results else ''}--accept makes a run the baseline"
     try:
         return comparison.read_baseline(folder, scope, choice.tolerances)
     except OSError as error:
@@ -138,7 +135,7 @@ def failed_last(
 def _newest_run(output: Path) -> Path | None:
     """Return the newest run of scenarios: `latest`, or the newest other folder if that judged recordings."""
     latest = files.latest_run(output)
-    if latest is None or _command(latest) != "evaluate":
+    if latest is None or _command(latest) not in history.OF_RECORDINGS:
         return latest
     manifests = sorted(output.glob("*/manifest.json"), key=_age, reverse=True)
     return next((file.parent for file in manifests if _command(file.parent) == "run"), None)
