@@ -160,10 +160,10 @@ def test_a_folder_in_use_stays_as_it_is(two, reports):
 
 
 def test_runs_of_other_kinds_do_not_count_and_stay(publish, reports):
-    evaluated = [publish(command=("evaluate", "a.csv")) for _ in range(2)]
+    recorded = [publish(command=(command, "a.csv")) for command in ("evaluate", "log", "evaluate", "log")]
     old, newest = publish(), publish()
     assert fates(reports, 1, newest) == {old.name: ""}
-    assert all(each.exists() for each in evaluated)
+    assert all(each.exists() for each in recorded)
 
 
 @pytest.mark.parametrize(

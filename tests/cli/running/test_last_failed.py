@@ -1,22 +1,29 @@
 """`--lf`: what failed last, also after other commands have left their results beside the runs."""
 
+import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from uictest.core.recording import Recording
 from uictest.core.recording.formats import writer_of
 
 from ..conftest import STATED, rolling_train
 
 
-@pytest.fixture
-def evaluate(call):
-    """Evaluate a recording, whose results lie beside those of the runs."""
+@pytest.fixture(params=["evaluate", "log"])
+def evaluate(call, request):
+    """Judge a recording, or the stops in a log (here none), whose results lie beside those of the runs."""
 
     def run():
-        writer_of("csv")(rolling_train(), Path("recorded.csv"))
-        call("evaluate", "recorded.csv", *STATED, code=0)
-        assert '"recorded"' in Path("reports/latest/results.json").read_text()
+        train = rolling_train()
+        channels = {**train.channels, "brake_command": np.zeros(len(train))}
+        units = {**train.units, "brake_command": "1"}
+        writer_of("csv")(Recording(channels, units, train.metadata), Path("recorded.csv"))
+        call(request.param, "recorded.csv", *STATED, code=0 if request.param == "evaluate" else 5)
+        command = json.loads(Path("reports/latest/manifest.json").read_text("utf-8"))["command"]
+        assert command[1] == request.param
 
     return run
 

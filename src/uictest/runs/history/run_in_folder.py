@@ -23,8 +23,10 @@ from uictest.runs.history.foreign_files import (
     shown,
 )
 
-Kind = Literal["run", "evaluate", "sweep", "fit", "validation", "studies"]
+Kind = Literal["run", "evaluate", "log", "sweep", "fit", "validation", "studies"]
 """What wrote a folder: a command, or a fit, a validation, the studies."""
+OF_RECORDINGS: Final[Mapping[str, Kind]] = {"evaluate": "evaluate", "log": "log"}
+"""Commands whose runs judge recordings -> the kind of these runs; others simulate."""
 
 MANIFEST: Final = "manifest.json"
 _PAGE: Final = "index.html"
@@ -114,7 +116,7 @@ def _run(folder: Path, content: Mapping[str, Any]) -> ListedRun:
         raise UnreadableError(f"{MANIFEST} is damaged: {error}") from error
     if not exists(folder / report.RESULTS):
         raise UnreadableError(f"damaged: there is no {report.RESULTS}")
-    kind: Kind = "evaluate" if manifest.command[1:2] == ("evaluate",) else "run"
+    kind: Kind = OF_RECORDINGS.get(next(iter(manifest.command[1:2]), ""), "run")
     entry = _entry(folder)
     return ListedRun(
         folder.name,
