@@ -46,17 +46,51 @@ def test_the_github_action_hands_on_the_exit_code(job, code):
     assert (job / "out" / "latest").exists() == (code != 4)
 
 
-def test_the_github_action_keeps_compiled_code_by_the_version_of_the_program(job):
-    steps = action()["runs"]["steps"]
-    [cache] = [step["with"] for step in steps if "cache@" in step.get("uses", "")]
-    [installed] = [step for step in steps if step.get("id") == "installed"]
+def cache_step():
+    [cache] = [step["with"] for step in action()["runs"]["steps"] if "cache@" in step.get("uses", "")]
+    return dict(cache)
+
+
+def test_the_github_action_keeps_the_folder_in_which_the_program_puts_compiled_code(job):
+    [installed] = [step for step in action()["runs"]["steps"] if step.get("id") == "installed"]
     files = {name: str(job / name) for name in ("GITHUB_OUTPUT", "GITHUB_ENV")}
     assert bash(installed["run"], HOME="/home/runner", **files).returncode == 0
     assert (job / "GITHUB_OUTPUT").read_text("utf-8") == f"version={uictest.__version__}\n"
     assert (job / "GITHUB_ENV").read_text("utf-8") == "UICTEST_CACHE=/home/runner/.cache/uictest\n"
-    assert cache["path"] == "~/.cache/uictest"
-    names = ("runner.os", "runner.arch", "inputs.python-version", "steps.installed.outputs.version")
-    assert cache["key"] == "-".join(["uictest", *(f"${{{{ {name} }}}}" for name in names)])
+    assert cache_step()["path"] == "~/.cache/uictest"
+
+
+def test_a_job_restores_the_newest_code_of_its_kind_and_keeps_its_own():
+    first = {
+        "runner.os": "Linux",
+        "runner.arch": "X64",
+        "inputs.python-version": "3.12",
+        "steps.installed.outputs.version": "0.3.0.dev0",
+        "github.run_id": "17",
+        "github.run_attempt": "1",
+        "github.job": "rig",
+    }
+    key, restored = keys(first)
+    assert key.startswith(restored)
+    for name, other in (("run_id", "18"), ("run_attempt", "2"), ("job", "wsp")):
+        later, restored_later = keys({**first, f"github.{name}": other})
+        assert (later == key, restored_later) == (False, restored)
+    for name, other in (
+        ("runner.os", "Windows"),
+        ("runner.arch", "ARM64"),
+        ("inputs.python-version", "3.1"),
+        ("steps.installed.outputs.version", "0.3.0"),
+    ):
+        assert not key.startswith(keys({**first, name: other})[1])
+
+
+def keys(values):
+    """Return the key under which a job keeps the cache, and the beginning of those that it restores."""
+    filled = [
+        re.sub(r"\$\{\{ (\S+) \}\}", lambda name: values[name[1]], cache_step()[key])
+        for key in ("key", "restore-keys")
+    ]
+    return tuple(filled)
 
 
 @pytest.mark.parametrize("folders", ["one two", "one\ntwo\n"], ids=["a line", "lines"])
