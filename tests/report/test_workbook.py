@@ -8,7 +8,7 @@ from hypothesis import given, settings, strategies as st
 from uictest.core.document import Data
 from uictest.report import CaseDescription, csv_text, write_formats
 from uictest.report.escaping import printable
-from uictest.report.workbook import LONGEST_TEXT, workbook_bytes
+from uictest.report.workbook import LONGEST_TEXT, MOST_ROWS, Rows, workbook_bytes
 
 from .builders import HOSTILE, make_content, make_result, make_verdict
 from .workbooks import assert_as_csv, assert_same
@@ -29,18 +29,25 @@ def test_the_same_tables_give_the_same_bytes():
     assert workbook_bytes(tables) == workbook_bytes(tables)
 
 
-def test_rows_beyond_those_of_a_sheet_are_counted():
+def test_rows_beyond_those_of_a_sheet_are_counted_without_being_read():
     rows = ({"case": f"case-{k}", "figure": float(k)} for k in range(1000))
-    sheet = read({"cases": (["case", "figure"], rows)}, most_rows=300)["cases"]
+    table = Rows(["case", "figure"], rows, 1000, "summary.parquet")
+    sheet = read({"cases": table}, most_rows=300)["cases"]
     assert (sheet["A301"].value, sheet["B301"].value) == ("case-299", 299)
-    assert (sheet.max_row, sheet["A302"].value) == (302, "700 more rows: a sheet holds no more")
+    more = "700 more rows, which a sheet cannot hold: summary.parquet has all"
+    assert (sheet.max_row, sheet["A302"].value) == (302, more)
     assert sheet.auto_filter.ref == "A1:B301"
+    assert next(rows)["case"] == "case-300"
+
+
+def test_a_sheet_of_the_format_has_room_for_the_names_the_rows_and_the_last_line():
+    assert 1 + MOST_ROWS + 1 == 2**20
 
 
 def test_columns_beyond_those_of_a_sheet_are_counted():
     sheet = read({"map": Data(list(map(str, range(16_386))), [{"0": 1.5}])})["map"]
     assert (sheet.max_column, sheet["A2"].value) == (16_384, 1.5)
-    assert sheet["A3"].value == "2 more columns: a sheet holds no more"
+    assert sheet["A3"].value == "2 more columns, which a sheet cannot hold: map.csv has all"
 
 
 def test_every_table_has_a_sheet_of_its_own_whatever_its_name():

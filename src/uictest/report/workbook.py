@@ -8,17 +8,14 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from datetime import UTC, datetime
 from itertools import islice
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from uictest.core import files
-from uictest.core.document import Cell
+from uictest.core.document import Cell, Data
 from uictest.report.escaping import printable
 
 if TYPE_CHECKING:
     from xlsxwriter.worksheet import Worksheet
-
-Rows = tuple[Sequence[str], Iterable[dict[str, Cell]]]
-"""The names of columns and the rows under them; `Data` is one."""
 
 LONGEST_TEXT: Final = 32_767
 """Characters a cell can hold."""
@@ -37,12 +34,22 @@ _AS_WRITTEN: Final = {
 _EPOCH: Final = datetime(1980, 1, 1, tzinfo=UTC)
 
 
-def workbook_bytes(tables: Mapping[str, Rows], most_rows: int = MOST_ROWS) -> bytes:
+class Rows(NamedTuple):
+    """The names of columns, the rows under them, how many they are, and the name of the file with all."""
+
+    columns: Sequence[str]
+    rows: Iterable[dict[str, Cell]]
+    size: int
+    file: str
+
+
+def workbook_bytes(tables: Mapping[str, Data | Rows], most_rows: int = MOST_ROWS) -> bytes:
     """Return the workbook of tables, which are given by the names of their files, without `.csv`.
 
     Rows beyond `most_rows` and columns beyond those of a sheet are left out, and the last line of the sheet
-    says how many. Raises OSError.
+    says how many, and which file has them. Raises OSError.
     """
+    known = [each if isinstance(each, Rows) else _rows(name, each) for name, each in tables.items()]
     from xlsxwriter import Workbook
     from xlsxwriter.exceptions import FileCreateError
 
@@ -54,7 +61,7 @@ def workbook_bytes(tables: Mapping[str, Rows], most_rows: int = MOST_ROWS) -> by
         workbook.set_properties({"created": _EPOCH})
         try:
             with workbook:
-                for name, table in zip(_sheet_names(tables), tables.values(), strict=True):
+                for name, table in zip(_sheet_names(tables), known, strict=True):
                     _write(workbook.add_worksheet(name), table, most_rows)
         except FileCreateError as error:
             raise error.args[0] from error
@@ -64,6 +71,10 @@ def workbook_bytes(tables: Mapping[str, Rows], most_rows: int = MOST_ROWS) -> by
                 if sheet.row_data_fh is not None:
                     sheet.row_data_fh.close()
     return buffer.getvalue()
+
+
+def _rows(name: str, table: Data) -> Rows:
+    return Rows(table.columns, table.rows, len(table.rows), f"{name}.csv")
 
 
 def _sheet_names(tables: Iterable[str]) -> list[str]:
@@ -81,18 +92,18 @@ def _sheet_names(tables: Iterable[str]) -> list[str]:
 
 
 def _write(sheet: Worksheet, table: Rows, most_rows: int) -> None:
-    columns, waiting = table[0], iter(table[1])
-    shown = columns[:MOST_COLUMNS]
-    count = 0
+    shown, count = table.columns[:MOST_COLUMNS], min(table.size, most_rows)
     for place, name in enumerate(shown):
         _write_cell(sheet, 0, place, name)
-    for count, row in enumerate(islice(waiting, most_rows), start=1):
+    for line, row in enumerate(islice(table.rows, count), start=1):
         for place, name in enumerate(shown):
-            _write_cell(sheet, count, place, row.get(name))
-    left_out = {"rows": sum(1 for _ in waiting), "columns": len(columns) - len(shown)}
+            _write_cell(sheet, line, place, row.get(name))
+    left_out = {"rows": table.size - count, "columns": len(table.columns) - len(shown)}
     if any(left_out.values()):
         more = ", ".join(f"{number} more {what}" for what, number in left_out.items() if number)
-        sheet.write_string(count + 1, 0, f"{more}: a sheet holds no more")
+        sheet.write_string(
+            count + 1, 0, printable(f"{more}, which a sheet cannot hold: {table.file} has all")
+        )
     sheet.freeze_panes(1, 0)
     if shown:
         sheet.autofilter(0, 0, count, len(shown) - 1)

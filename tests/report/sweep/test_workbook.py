@@ -4,6 +4,7 @@ import pytest
 
 from uictest.analysis.summaries.worst import summary_files
 from uictest.report import write_sweep_formats, write_sweep_result
+from uictest.report.sweep.cases import SummaryRows
 
 from ..builders import HOSTILE
 from ..workbooks import assert_as_csv
@@ -24,6 +25,15 @@ def test_the_workbook_of_a_sweep_holds_what_its_csv_files_hold(make_sweep, text,
     write_sweep_formats(tmp_path, content, ["xlsx"])
     assert {"summary.csv", "rates.csv", "trends.csv"} <= {path.name for path in content.folder.iterdir()}
     assert_as_csv(content.folder, tmp_path / "report.xlsx")
+
+
+def test_the_rows_of_a_summary_are_counted_and_read_in_its_order(make_sweep):
+    content = make_sweep()
+    with summary_files(content.folder) as write:
+        write(cases("x"))
+    table = SummaryRows(content.folder).table()
+    assert (table.size, table.file) == (3, "summary.parquet")
+    assert [row["id"] for row in table.rows] == ["case-0", "case-1", "case-2"]
 
 
 def test_a_damaged_summary_is_no_summary_and_nothing_stays_behind(make_sweep, tmp_path, monkeypatch):

@@ -78,7 +78,7 @@ class SummaryRows:
         import pyarrow.parquet as pq
 
         with pq.ParquetFile(self.folder / SUMMARY) as summary:
-            return summary.schema_arrow.names, self._rows()
+            return Rows(summary.schema_arrow.names, self._rows(), summary.metadata.num_rows, SUMMARY)
 
     def _rows(self) -> Iterator[dict[str, Cell]]:
         import pyarrow.parquet as pq
