@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from uictest.runs import history
+
 pytestmark = pytest.mark.usefixtures("made_up")
 
 
@@ -50,10 +52,21 @@ def test_the_baseline_stays_under_whatever_name_it_was_given(call, scenario, nam
     assert f"reports/{first}" in Path("reports", "latest", "results.json").read_text("utf-8")
 
 
-def test_accepted_results_stay(call, scenario):
-    scenario("stop")
-    call("run", "--baseline", "reports/baseline", "--accept")
-    call("run")
+def accepted_run():
+    [run] = [run for run in history.list_runs(Path("reports")).runs if run.name == "baseline"]
+    return run
+
+
+def test_accepted_results_are_listed_with_their_verdict_and_stay(call, scenario):
+    scenario("dry", "tags: [pass]\n")
+    wet = scenario("wet", "tags: [fail]\n")
+    call("run", "--baseline", "reports/baseline", "--accept", code=1)
+    assert accepted_run().counts == {"pass": 1, "fail": 1}
+    scenario("dry", "tags: [fail]\n")
+    call("run", "scenarios/dry.yaml", "--baseline", "reports/baseline", "--accept", code=1)
+    assert (accepted_run().subject, accepted_run().counts) == ("dry, wet", {"fail": 2})
+    wet.unlink()
+    call("run", code=1)
     assert "baseline stays: " in call("run", "--keep", "1").err
     assert Path("reports", "baseline", "results.json").is_file()
 

@@ -108,6 +108,7 @@ def _accept(run: runs.Published, folder: Path, baseline: comparison.Baseline | N
     files.make_folder(folder)
     for name, content in (("manifest.json", document["manifest"]), (report.RESULTS, document)):
         files.write(folder, name, evaluation.to_json(content))
+    history.write_entry(folder, report.run_content(document, folder.resolve().name))
     kept = len(document["cases"]) - len(run.content.results)
     others = f"; {report.counted(kept, 'case')} that did not run are unchanged" if kept else ""
     message(f"uictest: {folder} now holds the results of {run.place.name}{others}")

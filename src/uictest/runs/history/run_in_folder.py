@@ -125,7 +125,7 @@ def _run(folder: Path, content: Mapping[str, Any]) -> ListedRun:
         inputs=manifest.inputs,
         page=_page(folder),
         order=(folder / report.RESULTS).stat().st_mtime_ns,
-        **({"note": f"there is no {ENTRY}"} if entry is None else _of_entry(entry)),
+        **({"note": f"not listed in full: its {ENTRY} is missing"} if entry is None else _of_entry(entry)),
     )
 
 
@@ -141,7 +141,7 @@ def _of_entry(entry: RunEntry) -> dict[str, Any]:
 
 
 def _entry(folder: Path) -> RunEntry | None:
-    """Return the entry of a run; an accepted baseline has none."""
+    """Return the entry of a run; a folder into which only its results were copied has none."""
     if not exists(folder / ENTRY):
         return None
     try:
