@@ -34,7 +34,8 @@ def write(load):
 
 
 def test_a_file_of_0_2_is_told_how_it_is_written_now(write):
-    with pytest.raises(ScenarioErrors, match=r"written for uictest 0\.2 or older: now a sweep is a scenario"):
+    written_now = r"written for uictest 0\.2 or older: now a sweep is a scenario .* that `case` named"
+    with pytest.raises(ScenarioErrors, match=written_now):
         write("schema: uictest/sweep/1\nname: study\nscenario: stop.yaml\ngrid: {seed: [1]}\n")
 
 

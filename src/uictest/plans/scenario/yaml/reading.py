@@ -33,7 +33,8 @@ _COMMANDS: Final = {
     VALIDATION_SCHEMA: "a validation is run with `uictest validate`",
     BENCH_SCHEMA: "a bench test is run with `uictest bench`",
     "uictest/sweep/1": "written for uictest 0.2 or older: now a sweep is a scenario with `extends` (was"
-    " `scenario`) and, under `vary`, matrix (was grid), ranges, zip and sample",
+    " `scenario`), the values of the case that `case` named and, under `vary`, matrix (was grid), ranges, zip"
+    " and sample",
 }
 
 
