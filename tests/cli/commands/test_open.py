@@ -71,6 +71,17 @@ def test_what_is_no_run_is_a_usage_error(call, runs, name):
     assert answer.err.startswith("uictest: ")
 
 
+def test_a_folder_of_runs_that_are_not_listed_says_why_the_first_is_not(call, runs):
+    first = min(runs)
+    for name in runs:
+        Path("reports", name, "manifest.json").write_text('{"schema": "uictest/manifest/1"}')
+    call("open", code=4, says=f"holds no finished run: {first}: not read: manifest.json has schema")
+    call("open", code=4, says="written by uictest 0.2 or older: run it again")
+    folder = Path("reports", first)
+    (folder / "recordings").mkdir(exist_ok=True)
+    call("open", folder, code=4, says=f"{folder} holds no finished run: not read: manifest.json has schema")
+
+
 def test_a_run_without_a_page_says_how_to_write_one(call, scenario, made_up):
     scenario("stop")
     call("run", "--report", "csv")

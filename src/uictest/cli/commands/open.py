@@ -68,7 +68,7 @@ def _page(folder: Path, *, last: bool) -> Path:
         return _page_of_run(folder.parent, found, folder.name)
     listing = history.list_runs(folder)
     if not listing.runs:
-        raise runs.InvalidInputError(f"{folder} holds no finished run: {found.reason}")
+        raise runs.InvalidInputError(f"{folder} holds no finished run: {_why_none(folder, found, listing)}")
     if last:
         return _page_of_run(folder, listing.runs[0], listing.runs[0].name)
     problem = history.refresh_index(folder)
@@ -78,6 +78,14 @@ def _page(folder: Path, *, last: bool) -> Path:
     if not history.is_own_index(index) or not index.exists():
         raise runs.InvalidInputError(f"{folder} has no index of its runs; --last opens the newest run")
     return index.absolute()
+
+
+def _why_none(folder: Path, found: history.Unlisted, listing: history.Listing) -> str:
+    """Return why a folder is no run, or, of a folder of runs, why the first of those in it is none."""
+    if not listing.unlisted or (folder / history.MANIFEST).exists():
+        return found.reason
+    first = listing.unlisted[0]
+    return f"{first.name}: {first.reason}"
 
 
 def _page_of_run(parent: Path, run: history.ListedRun, name: str) -> Path:
