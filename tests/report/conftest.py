@@ -97,7 +97,7 @@ def _document(text):
             "parameter": text,
             "stretches": [{"circumstances": {text: text}, "flips": flips, "note": text}],
         },
-        "distributions": [
+        "measures": [
             {"measure": text, "unit": text, "cases": 4, "minimum": 1.0, "mean": 2.0, "maximum": 3.0}
         ],
         "trends": [

@@ -25,7 +25,7 @@ def write_rows(folder, rows):
 def sweep_result(values, cases, **changes):
     """Return the result of a sweep over some values of its parameters."""
     outcomes = dict.fromkeys(("pass", "fail", "invalid", "inconclusive", "error", "skipped"), 0)
-    distribution = {"cases": cases, "minimum": 0.0, "mean": 0.5, "maximum": 1.0}
+    of_all = {"cases": cases, "minimum": 0.0, "mean": 0.5, "maximum": 1.0}
     rates = {
         key: [{"value": value, "cases": 1, "met": 1, "outcomes": outcomes} for value in own]
         for key, own in values.items()
@@ -33,7 +33,7 @@ def sweep_result(values, cases, **changes):
     form = {"schema": "uictest/result/2", "kind": "sweep", "name": "study", "title": ""}
     form |= {"base": {}, "controllers": [], "parts": {}}
     form |= {"cases": cases, "met": cases, "outcomes": outcomes | {"pass": cases}, "rates": rates}
-    form |= {"varied": list(values), "distributions": [DISTANCE | distribution, SLIDE | distribution]}
+    form |= {"varied": list(values), "measures": [DISTANCE | of_all, SLIDE | of_all]}
     form |= {name: [] for name in ("missed", "maps", "trends", "worst", "sensitivities", "notes")}
     form |= {"subjects": {}, "frontier": None}
     return read_sweep_document(form | changes)

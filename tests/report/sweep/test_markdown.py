@@ -30,7 +30,7 @@ def test_the_summary_shows_every_finding(make_sweep):
 
 def test_what_a_sweep_does_not_have_has_no_heading_and_many_values_are_referred_to(make_sweep):
     counts = [{"value": str(k), "cases": 1, "met": 1, "outcomes": {}} for k in range(31)]
-    nothing = {"maps": [], "missed": [], "sensitivities": [], "distributions": [], "notes": []}
+    nothing = {"maps": [], "missed": [], "sensitivities": [], "measures": [], "notes": []}
     text = sweep_markdown(make_sweep(frontier=None, **nothing, rates={"rail.friction": counts}))
     assert text.count("### ") == 2
     assert "| `rail.friction` | 31 values, see rates.csv |" in text

@@ -16,7 +16,7 @@ from uictest.report.sweep.sweep_sentences import (
 
 def _counts(met, **outcomes):
     """A sweep of 75 cases, as far as counting goes."""
-    empty = {"missed": (), "rates": {}, "maps": (), "distributions": (), "trends": (), "worst": ()}
+    empty = {"missed": (), "rates": {}, "maps": (), "measures": (), "trends": (), "worst": ()}
     rest = {"subjects": {}, "sensitivities": (), "frontier": None, "notes": (), "base": {}, "controllers": ()}
     return SweepResult(name="", title="", cases=75, met=met, outcomes=outcomes, **empty, **rest)
 

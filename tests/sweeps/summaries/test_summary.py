@@ -83,7 +83,7 @@ def test_the_files_of_a_summary_hold_its_counts_maps_and_parameters(finished):
     (friction,) = (each for each in base["scenario.rail"]["parameters"] if each["key"] == "rail.friction")
     assert (friction["value"], friction["library_value"]) == (0.1, 0.3)
     columns = set(pq.read_schema(folder / "summary.parquet").names)
-    figures = [*document["distributions"], *document["trends"]]
+    figures = [*document["measures"], *document["trends"]]
     assert {len(each["columns"]) for each in figures} == {1, 4}
     assert all(columns.issuperset(each["columns"]) for each in figures)
     assert table(folder / "map-met.csv") == [

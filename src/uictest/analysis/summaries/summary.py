@@ -227,7 +227,7 @@ def _result(
         missed=tuple(tally.missed),
         rates={key: tally.rates(key) for key in tally.bins},
         maps=tuple(each.map() for each in sums.maps),
-        distributions=tuple(each.range() for each in sums.measures if each.cases),
+        measures=tuple(each.range() for each in sums.measures if each.cases),
         trends=tuple(trend for each in sums.trends for trend in each.trends()),
         base=EffectiveParts().of(plan.base.scenario),
         varied=plan.keys,

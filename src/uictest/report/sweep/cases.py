@@ -42,11 +42,9 @@ class ReportedColumns:
 
 
 def reported_columns(result: SweepResult) -> list[ReportedColumns]:
-    """Return the measures of a result that rows have: those of which it has a distribution."""
+    """Return the measures of a result that rows have: those of which it has the range."""
     return [
-        ReportedColumns(each.measure, each.unit, each.columns)
-        for each in result.distributions
-        if each.columns
+        ReportedColumns(each.measure, each.unit, each.columns) for each in result.measures if each.columns
     ]
 
 

@@ -187,7 +187,7 @@ class SweepResult:
         missed: the first cases that did not meet their expectation.
         rates: counts for each value of each parameter, by key.
         maps: of the cases met and of measures.
-        distributions: of measures.
+        measures: the smallest, mean and largest value of each.
         trends: measures along parameters.
         base: the parts of the case that is varied, by role.
         varied: keys of the parameters.
@@ -217,7 +217,7 @@ class SweepResult:
     missed: tuple[MissedCase, ...]
     rates: Mapping[str, tuple[OutcomeCount, ...]]
     maps: tuple[SweepMap, ...]
-    distributions: tuple[MeasureRange, ...]
+    measures: tuple[MeasureRange, ...]
     trends: tuple[Trend, ...]
     base: NamedParts
     varied: tuple[str, ...] = ()

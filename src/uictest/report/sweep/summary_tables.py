@@ -218,7 +218,7 @@ def sweep_summary(result: SweepResult) -> Document:
         *(_map_table(each) for each in result.maps if each.shows_met),
         notable_table(result),
         *numbers_of_sweep(result),
-        Table(_MEASURES, result.distributions, "Measures", more="more measures are in `sweep.json`."),
+        Table(_MEASURES, result.measures, "Measures", more="more measures are in `sweep.json`."),
         Lines(list(result.notes), "Notes"),
     ]
     title = f"uictest sweep: {sweep_tally(result)}"
