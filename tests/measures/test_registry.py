@@ -17,6 +17,7 @@ from uictest.core.measures import (
     column_unit,
     stop_column_values,
     wheelset_column_values,
+    without_wheelset,
 )
 from uictest.core.measures.registry import measures_in
 from uictest.core.record import fields_of
@@ -144,6 +145,12 @@ def test_what_did_not_come_about_has_no_value(stop, wheelsets):
 )
 def test_a_column_has_the_unit_it_is_reported_in(column, unit):
     assert column_unit(column) == unit
+
+
+def test_the_number_of_a_wheelset_stands_behind_columns_of_wheelsets_only():
+    assert without_wheelset("locked_time_s_2") == ("locked_time_s", "2")
+    for name in ("locked_time_s", "braking_distance_m_2", "speed_2", "outcome", ""):
+        assert without_wheelset(name) == (name, "")
 
 
 def test_the_name_of_a_column_ends_with_its_unit_unless_it_is_a_pure_number():

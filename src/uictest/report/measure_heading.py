@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
-from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
-
-_SHARES: Final = frozenset({"narrowest_margin", "share", "share_low", "share_high", "share_met"})
-"""Columns that are no measures and hold shares."""
+from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS, without_wheelset
 
 
 class MeasureHeading(NamedTuple):
@@ -22,19 +19,11 @@ def measure_heading(name: str) -> MeasureHeading:
 
     The number of a wheelset (`..._3`) may follow the name of a measure.
     """
-    measure, end = _without_wheelset(name)
+    measure, wheelset = without_wheelset(name)
     column = STOP_COLUMNS.get(measure) or WHEELSET_COLUMNS.get(measure)
     if column is None:
-        return MeasureHeading(name.replace("_", " "), "%") if name in _SHARES else MeasureHeading(name)
+        return MeasureHeading(name)
     in_unit = f"_{column.unit.lower().replace('/', 'p')}"
-    words = f"{measure.removesuffix(in_unit)}{end}".replace("_", " ")
+    words = f"{measure.removesuffix(in_unit)} {wheelset}".rstrip().replace("_", " ")
     pure = "" if column.whole or measure.endswith("_residual") else "%"
     return MeasureHeading(words, pure if column.unit == "1" else column.unit)
-
-
-def _without_wheelset(name: str) -> tuple[str, str]:
-    """Return a name without the number of a wheelset, and that."""
-    stem, _, last = name.rpartition("_")
-    if name in STOP_COLUMNS or name in WHEELSET_COLUMNS or not stem:
-        return name, ""
-    return (stem, f"_{last}") if last.isdigit() else (name, "")

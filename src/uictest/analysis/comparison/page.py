@@ -21,7 +21,7 @@ from uictest.analysis.comparison.paired.wording import (
 )
 from uictest.analysis.comparison.parameters import ParameterChange
 from uictest.core.document import Column, Table
-from uictest.core.measures import WHEELSET_COLUMNS
+from uictest.core.measures import without_wheelset
 from uictest.core.recording import state_kind
 from uictest.core.units import SIZES
 from uictest.judging.evaluation import Status
@@ -51,7 +51,7 @@ def quantity_title(difference: Difference) -> str:
     """Return what a quantity is called; a name that is no measure of a case and no channel stays."""
     if not difference.case:
         return channel_title(difference.quantity)
-    measure, wheelset = _without_wheelset(difference.quantity)
+    measure, wheelset = without_wheelset(difference.quantity)
     heading = measure_heading(measure).words
     if heading == difference.quantity:
         return heading
@@ -61,7 +61,7 @@ def quantity_title(difference: Difference) -> str:
 
 def in_page_units(difference: Difference) -> Difference:
     """Return a difference of measures in the units of every page: kN, and shares in %."""
-    measure, _ = _without_wheelset(difference.quantity)
+    measure, _ = without_wheelset(difference.quantity)
     own = measure_heading(measure).unit if difference.case else ""
     unit = shown_unit(measure, own or difference.unit)
     if unit == difference.unit or not {unit, difference.unit} <= SIZES.keys():
@@ -79,12 +79,6 @@ def in_page_units(difference: Difference) -> Difference:
 
 def _scaled(value: Value, size: float) -> Value:
     return value if isinstance(value, str) else value / size
-
-
-def _without_wheelset(quantity: str) -> tuple[str, str]:
-    """Return the measure of a quantity and the number of its wheelset, empty where it has none."""
-    measure, _, wheelset = quantity.rpartition("_")
-    return (measure, wheelset) if measure in WHEELSET_COLUMNS and wheelset.isdigit() else (quantity, "")
 
 
 _DIFFERENCE_HEIGHT: Final = 0.75

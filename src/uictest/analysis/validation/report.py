@@ -9,7 +9,7 @@ from uictest.analysis.validation.document import Validation
 from uictest.analysis.validation.domain import Conditions, Domain
 from uictest.analysis.validation.stops import Agreement, ComparedStop, Differences
 from uictest.core.document import Cell, Column, Data, Document, Lines, Table
-from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
+from uictest.core.measures import STOP_COLUMNS, without_wheelset
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.report import counted, interval_text
 
@@ -140,7 +140,7 @@ def remarks(validation: Validation) -> Iterator[str]:
         yield "a simulation under one seed is one draw where wheelsets slide; `repeat` compares medians"
     if stops and validation.not_compared:
         # What only one side has says nothing; a reader must know that it was not forgotten.
-        columns = dict.fromkeys(map(_column_of, validation.not_compared))
+        columns = dict.fromkeys(without_wheelset(each)[0] for each in validation.not_compared)
         yield f"not compared, as no counted stop has both: {', '.join(columns)}"
 
 
@@ -152,12 +152,6 @@ def _draws(validation: Validation) -> str:
         f"{_DRAWS}, from the seed of its scenario and the SHA-256 of its recording, whatever the other stops"
         " are; stops.csv has it"
     )
-
-
-def _column_of(figure: str) -> str:
-    """Return the column of results that a figure is from: of a wheelset without its number."""
-    stem, _, number = figure.rpartition("_")
-    return stem if stem in WHEELSET_COLUMNS and number.isdigit() else figure
 
 
 def figures_table(validation: Validation) -> Data:

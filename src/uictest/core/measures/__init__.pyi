@@ -35,6 +35,7 @@ from .registry import (
     column_unit as column_unit,
     stop_column_values as stop_column_values,
     wheelset_column_values as wheelset_column_values,
+    without_wheelset as without_wheelset,
 )
 from .replay import (
     FAULT_COLUMNS as FAULT_COLUMNS,

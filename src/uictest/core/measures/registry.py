@@ -69,9 +69,14 @@ def column_unit(name: str) -> str:
 
     The number of a wheelset may follow the name: `locked_time_s_3`.
     """
-    stem, _, number = name.rpartition("_")
-    column = STOP_COLUMNS.get(name) or WHEELSET_COLUMNS.get(stem if number.isdigit() else name)
+    column = STOP_COLUMNS.get(name) or WHEELSET_COLUMNS.get(without_wheelset(name)[0])
     return column.unit if column else "1"
+
+
+def without_wheelset(name: str) -> tuple[str, str]:
+    """Return a column without the number of a wheelset behind it, and that number, empty without one."""
+    stem, _, number = name.rpartition("_")
+    return (stem, number) if stem in WHEELSET_COLUMNS and number.isdigit() else (name, "")
 
 
 def stop_column_values(stop: StopMeasures, definition: DefinitionValues) -> dict[str, float]:

@@ -72,7 +72,7 @@ def circumstances_words(circumstances: Circumstances) -> str:
 
 def measure_words(column: str) -> str:
     """Return the name of a column of measures for readers, e.g. `braking distance, m`."""
-    words, unit = measure_heading(column).words.replace("_", " "), column_unit(column)
+    words, unit = measure_heading(column).words, column_unit(column)
     return words if unit == "1" else f"{words}, {unit}"
 
 
