@@ -49,9 +49,6 @@ class RecordedRail:
         self._parameters = np.zeros(1, PARAMETERS)
         for name, value in assigned(ASSIGNMENTS, scenario).items():
             self._parameters[name] = value
-        cleaning = scenario.rail.cleaning_in_force
-        assert cleaning is not None
-        self._parameters["spent_share"] = cleaning.spent_share  # not rounded, as the rig takes it
         self._behind = place[0, 0] - place[:, 0]
         self._motion = np.zeros((len(time), _WHEELSETS), RECORDED_MOTION)
         self._motion["duration"] = np.diff(time, prepend=time[0])[:, None]
