@@ -51,6 +51,12 @@ def test_without_sliding_or_beyond_the_stop_there_is_no_value(recorded_stop):
         fit_stop(stop, case.scenario)
 
 
+def test_a_stop_of_a_few_samples_is_too_short(recorded_stop):
+    case, stop = recorded_stop(10.3, "0.07", settings=("measures.moving_speed=10 km/h",))
+    with pytest.raises(FitError, match="the stop is too short for a fit"):
+        fit_stop(stop, case.scenario)
+
+
 LAW = "recovered_friction: 0.22, reach: 0.5 m, carry_over: 0.5"
 CURVES = "friction_ratio: 0.74, friction_decay: 0.18 s/m, reduction_adhesion: 0.87, reduction_slip: 0.45"
 

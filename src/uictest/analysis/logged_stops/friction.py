@@ -36,12 +36,9 @@ class StopFriction(NamedTuple):
 def friction_of(stop: RecordedStop, judged_under: Scenario) -> StopFriction:
     """Return the friction of the rail under a stop of the vehicle, and with the brake, of a scenario."""
     try:
-        balances = fitting.balances_of(stop, judged_under)
+        fit = fitting.fit_stop(stop, judged_under)
     except fitting.FitError as error:
         return StopFriction("not seen", remark=str(error))
-    if not len(balances.windows.first):
-        return StopFriction("not seen", remark="the stop is too short for a fit")
-    fit = fitting.fit_balances(balances, (), with_pads=False)
     (estimate,) = fit.friction
     if estimate.standing == "found" and (left := fit.residual / estimate.value) > _LEAVES:
         remark = (

@@ -1,9 +1,4 @@
-from .fit import (
-    Fit as Fit,
-    balances_of as balances_of,
-    fit_balances as fit_balances,
-    fit_stop as fit_stop,
-)
+from .fit import Fit as Fit, fit_stop as fit_stop
 from .outputs import (
     agreement as agreement,
     fit_document as fit_document,

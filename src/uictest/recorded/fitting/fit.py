@@ -64,33 +64,25 @@ def fit_stop(
         with_pads: fit a factor on the scenario's pad friction as well; needs clamping forces.
 
     Raises:
-        FitError: the record lacks what is needed.
+        FitError: the record lacks what is needed, or is too short.
 
     """
     if with_pads and scenario.brake.pad.varies:
         raise FitError("pad friction that varies cannot be fitted: write brake.pad: constant")
     if with_pads and any(own.pad_friction is not None for own in scenario.vehicle.wheelsets.values()):
         raise FitError("one factor cannot stand for pads of single wheelsets: leave out their pad_friction")
-    balances = balances_of(stop, scenario)
-    if with_pads and balances.samples.torque is None:
-        raise FitError("pad friction cannot be fitted: the clamping forces of all wheelsets are not recorded")
-    return fit_balances(balances, breaks, with_pads=with_pads)
-
-
-def balances_of(stop: RecordedStop, scenario: Scenario) -> Balances:
-    """Return the balances of a recorded stop of a scenario's vehicle. Raises FitError as :func:`fit_stop`."""
     samples = samples_of(stop, scenario)
-    return Balances(samples, windows_of(samples), scenario)
-
-
-def fit_balances(balances: Balances, breaks: Sequence[float], *, with_pads: bool) -> Fit:
-    """Return the friction under the stop whose balances are given; see :func:`fit_stop`."""
+    if with_pads and samples.torque is None:
+        raise FitError("pad friction cannot be fitted: the clamping forces of all wheelsets are not recorded")
+    balances = Balances(samples, windows_of(samples), scenario)
+    windows = len(balances.windows.first)
+    if not windows:
+        raise FitError("the stop is too short for a fit")
     stretches = Stretches(balances, tuple(breaks))
     values, half_widths, residual = _solve(RailUnderStop(stretches), with_pads=with_pads)
     count = len(stretches.free)
     pads = None
     if with_pads:
-        windows = len(balances.windows.first)
         pads = Estimate("factor on pad friction", "found", values[-1], half_widths[-1], windows)
     return Fit(tuple(breaks), stretches.estimates(values[:count], half_widths[:count]), pads, residual)
 
