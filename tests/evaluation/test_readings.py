@@ -7,7 +7,6 @@ from dataclasses import replace
 import pytest
 
 from uictest.judging.evaluation import (
-    READINGS,
     Coverage,
     MissingData,
     SimulatedRepeat,
@@ -18,6 +17,7 @@ from uictest.judging.evaluation import (
     result_document,
     results_of,
 )
+from uictest.judging.evaluation.verdict import READINGS
 
 from ..measures.catalogue.conftest import slow_times
 

@@ -13,7 +13,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from uictest import report
-from uictest.analysis import summaries
+from uictest.analysis.summaries.summary import Summary
 from uictest.running import chunked
 from uictest.running.chunked.chunk import ChunkRunner
 
@@ -189,7 +189,7 @@ def test_ctrl_c_while_the_findings_are_written_keeps_the_chunks(call, study, mon
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patch:
-        patch.setattr(summaries.Summary, "result", interrupted)
+        patch.setattr(Summary, "result", interrupted)
         answer = call("sweep", study)
     assert answer.code == 2
     assert KEPT in answer.err

@@ -4,7 +4,6 @@ from .frontier import (
     verdicts_of as verdicts_of,
 )
 from .summary import (
-    Summary as Summary,
     SweepSummary as SweepSummary,
     summarized as summarized,
 )

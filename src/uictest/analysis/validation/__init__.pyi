@@ -29,7 +29,6 @@ from .report import (
 from .stops import (
     Agreement as Agreement,
     ComparedStop as ComparedStop,
-    Differences as Differences,
     agreement_of as agreement_of,
     as_recorded as as_recorded,
     figures_of as figures_of,

@@ -79,7 +79,6 @@ from .result import (
     to_json as to_json,
 )
 from .verdict import (
-    READINGS as READINGS,
     AppliedDefinition as AppliedDefinition,
     OverStops as OverStops,
     ReadVerdict as ReadVerdict,
