@@ -13,7 +13,7 @@ import pytest
 from uictest.analysis.summaries.trends import MOST_VALUES
 from uictest.report import map_lines, write_sweep_result
 from uictest.report.sweep.result import read_sweep_document, sweep_document
-from uictest.running.chunked import CaseSelection
+from uictest.running.chunked import CaseSelection, ChunkStore
 
 from ..conftest import MATRIX, SCENARIO, formula, result_of, stored
 
@@ -151,6 +151,28 @@ def test_a_parameter_of_too_many_values_has_no_trend(finished):
     many = ", ".join(str(round(0.05 + k * 1e-4, 4)) for k in range(MOST_VALUES + 1))
     _, folder = finished(MATRIX.replace("[0.08, 0.10, 0.12]", f"[{many}]"))
     assert {row[0] for row in table(folder / "trends.csv")[1:]} == {"brake.command"}
+
+
+@pytest.mark.parametrize(("count", "times"), [(MOST_VALUES, 2), (MOST_VALUES + 1, 1)])
+def test_chunks_are_read_again_for_trends_alone(load, made_up, tmp_path, monkeypatch, count, times):
+    text = f"ranges:\n  brake.command: {{first: 60 %, last: 100 %, count: {count}}}\n"
+    selection = CaseSelection(load(text))
+    store = stored(selection, made_up(selection.plan), tmp_path / "out")
+    read = []
+    monkeypatch.setattr(ChunkStore, "tables", counting(ChunkStore.tables, read))
+    assert bool(result_of(selection, store).trends) == (times == 2)
+    assert len(read) == times * selection.chunks
+
+
+def counting(tables, read):
+    """Return the method of a store that notes each table which it yields."""
+
+    def counted(store, chunks, columns=None):
+        for table in tables(store, chunks, columns):
+            read.append(table)
+            yield table
+
+    return counted
 
 
 def test_a_large_map_is_shown_coarser_and_written_whole(finished):

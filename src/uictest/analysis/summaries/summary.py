@@ -124,8 +124,10 @@ class Summary:
             self._added += 1
 
     def _add_to_trends(self) -> None:
-        """Read the chunks a second time: only now it is known which cases count."""
+        """Read the chunks a second time, if anything needs it: only now it is known which cases count."""
         sums = self._sums
+        if not sums.trends:
+            return
         for table in self.store.tables(range(self.selection.chunks), sums.columns_read_twice()):
             for trend in sums.trends:
                 trend.add(table)
