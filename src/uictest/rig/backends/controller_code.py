@@ -6,13 +6,12 @@ import numpy as np
 
 from uictest.controllers import INPUTS, OUTPUTS, Controller
 from uictest.core import lanes
-from uictest.core.lanes import translate
 from uictest.core.physics import FILL, VENT
 from uictest.core.record import layout_of
 from uictest.rig.backends.compiled import compile_inner, compiled_operations
 from uictest.rig.backends.machine_code import Entry, Target, Unit, object_code
 
-WHEELSETS: Final[int] = INPUTS["wheel_speed"].shape[0]
+_WHEELSETS: Final[int] = INPUTS["wheel_speed"].shape[0]
 
 
 class ControllerCode(NamedTuple):
@@ -37,7 +36,7 @@ def controller_memory(controller: Controller) -> Any:
     """Return the layout of what a controller remembers, and behind it of what it is given."""
     return np.dtype(
         [
-            ("wheelsets", layout_of(controller.wheelset_memory), WHEELSETS),
+            ("wheelsets", layout_of(controller.wheelset_memory), _WHEELSETS),
             ("train", layout_of(controller.train_memory)),
             ("parameters", layout_of(controller.parameters)),
             ("initial_speed", "f8"),
@@ -59,7 +58,7 @@ def _begin_or_decide(controller: Controller) -> Any:
     inputs_at, outputs_at = lanes.record_at(INPUTS), lanes.record_at(OUTPUTS)
     operations = compiled_operations()
     begin, decide = (
-        translate(each, compile_inner, operations) for each in (controller.begin, controller.decide)
+        lanes.translate(each, compile_inner, operations) for each in (controller.begin, controller.decide)
     )
     give, answer = (compile_inner(each) for each in _VERSIONS[controller.contract])
 
@@ -80,12 +79,12 @@ def _begin_or_decide(controller: Controller) -> Any:
     def decide_at(handle: int, inputs_address: int, outputs_address: int) -> int:
         inputs, outputs = inputs_at(inputs_address), outputs_at(outputs_address)
         train, wheelsets = train_at(handle + train_place), wheelsets_at(handle)
-        for i in range(WHEELSETS):
+        for i in range(_WHEELSETS):
             wheelsets[i].measured_speed = inputs.wheel_speed[i]
             wheelsets[i].speed_valid = inputs.speed_valid[i]
         give(train, wheelsets, inputs)
         decide(train, wheelsets, parameters_at(handle + parameters_place))
-        for i in range(WHEELSETS):
+        for i in range(_WHEELSETS):
             command = wheelsets[i].valve_command
             outputs.hold[i] = 0 if command == FILL else 1
             outputs.vent[i] = 1 if command == VENT else 0
@@ -112,13 +111,13 @@ def _give_version_2(train: Any, wheelsets: Any, inputs: Any) -> None:
     train.train_speed_valid = inputs.train_speed_valid
     train.acceleration = inputs.acceleration
     train.acceleration_valid = inputs.acceleration_valid
-    for i in range(WHEELSETS):
+    for i in range(_WHEELSETS):
         wheelsets[i].dynamic_brake = inputs.dynamic_brake[i]
 
 
 def _answer_version_2(train: Any, wheelsets: Any, outputs: Any) -> None:
     outputs.track_brake_request = train.track_brake_request
-    for i in range(WHEELSETS):
+    for i in range(_WHEELSETS):
         outputs.dynamic_reduction[i] = wheelsets[i].dynamic_reduction
         outputs.sand_request[i] = wheelsets[i].sand_request
 
