@@ -135,7 +135,11 @@ def test_a_result_tells_whether_its_rail_varies_at_random(tmp_path, rail, varies
         (_stops([1.0, 2.0]), _stops([1.0, 2.0], key="cd"), "other noise"),
         (_stops([1.0, 2.0]), _stops([1.0, 2.0], 10), "no seed is on both sides: seeds 0, 1; seeds 10, 11"),
         (_stops([1.0, 2.0]), _stops([1.0, 2.0], 1), "1 pair, 2 are needed"),
-        (_stops([1.0, 2.0], key=""), _stops([1.0, 2.0]), "the noise of the first side is not known"),
+        (
+            _stops([1.0, 2.0], key=""),
+            _stops([1.0, 2.0]),
+            "the noise of the first side is not known: its stops are recorded",
+        ),
         (_stops([1.0, 2.0]), _stops([1.0, 2.0], key=""), "the noise of the second side is not known"),
         (_stops([1.0, 2.0], key=""), _stops([1.0, 2.0], key=""), "noise of the first side is not known"),
         ({Draw("", "ab", None): {}}, {Draw("", "ab", None): {}}, "no known seed; no known seed"),

@@ -128,7 +128,7 @@ def _why_too_few(first: Stops, second: Stops, common: int) -> str:
         if not stops:
             return f"no stop of the {side} side has measures"
         if not any(draw.noise_key for draw in stops):
-            return f"the noise of the {side} side is not known: recorded"
+            return f"the noise of the {side} side is not known: its stops are recorded"
     met = ({(draw.conditions, draw.noise_key) for draw in stops} for stops in (first, second))
     if not set.intersection(*met):
         return (
