@@ -131,12 +131,12 @@ Expectation = Literal["pass", "fail", "invalid", "skipped"]
 
 
 def _columns(content: object, known: Collection[str]) -> dict[str, float]:
-    """Return the numbers of a document in these columns; null and what an earlier version lacked as NaN."""
-    if not isinstance(content, Mapping) or not content or not set(content) <= set(known):
-        raise ValueError(f"Input should have columns out of {', '.join(known)}")
+    """Return the numbers of a document in these columns; null as NaN."""
+    if not isinstance(content, Mapping) or set(content) != set(known):
+        raise ValueError(f"Input should have the columns {', '.join(known)}")
     if not all(value is None or _is_number(value) for value in content.values()):
         raise ValueError("Input should hold numbers only")
-    return {name: math.nan if (value := content.get(name)) is None else value for name in known}
+    return {name: math.nan if (value := content[name]) is None else value for name in known}
 
 
 def _is_number(value: object) -> bool:
