@@ -188,23 +188,22 @@ def _sweep(folder: Path, manifest: Mapping[str, Any]) -> ListedRun:
     )
 
 
-_OF_INDEX: Final = ConfigDict(extra="ignore", strict=True)
+class _PartOfResult(BaseModel):
+    """Some fields of a document; the others are not read."""
+
+    model_config = ConfigDict(extra="ignore", strict=True)
 
 
-class _SweptController(BaseModel):
+class _SweptController(_PartOfResult):
     """A controller in the result of a sweep; kind empty if it is built in."""
-
-    model_config = _OF_INDEX
 
     name: str
     version: str
     kind: str
 
 
-class _SweepHead(BaseModel):
+class _SweepHead(_PartOfResult):
     """What the index needs of the result of a sweep."""
-
-    model_config = _OF_INDEX
 
     form: str = Field(alias="schema")
     kind: str = ""
