@@ -3,12 +3,10 @@
 import json
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-import uictest.controllers.built_in.threshold as threshold
 from uictest import rig
 from uictest.controllers import (
     Config,
@@ -22,7 +20,6 @@ from uictest.plans.scenario import ScenarioErrors, load, load_controller, with_p
 from uictest.selftest.conformance.situations import anything
 
 ENTRY_POINTS = """\
-acme-functions = acme_wsp.functions:CONTROLLER
 acme-class = acme_wsp.in_python:Acme
 acme-broken = acme_wsp.broken:Anything
 acme-declares = acme_wsp.declares:Acme
@@ -55,9 +52,8 @@ def _site(tmp_path_factory):
     modules = site / "acme_wsp"
     modules.mkdir()
     describe(site / "acme_wsp-2.1.0.dist-info", "acme-wsp", ENTRY_POINTS)
-    functions = Path(threshold.__file__).read_text("utf-8")
     texts = {"__init__": "", "in_python": IN_PYTHON, "broken": "import no_such_module\n"}
-    texts |= {"functions": functions, "declares": IN_PYTHON + PARAMETERS}
+    texts |= {"declares": IN_PYTHON + PARAMETERS}
     for name, text in texts.items():
         (modules / f"{name}.py").write_text(text, "utf-8")
     registered._loaded.cache_clear()
@@ -156,10 +152,6 @@ def test_an_unknown_name_gets_a_hint_with_the_registered_ones(tmp_path):
     [
         ("acme-broken", "acme-broken of acme-wsp 2.1.0 cannot be imported: ModuleNotFoundError"),
         ("acme-number", "entry point acme-number of acme-wsp 2.1.0 is of type int; register a class$"),
-        (
-            "acme-functions",
-            "entry point acme-functions of acme-wsp 2.1.0 is of type Controller; register a class$",
-        ),
         ("nobody", "no installed package has registered 'nobody'; registered: acme-broken, acme-class"),
     ],
 )
