@@ -29,7 +29,14 @@ from pathlib import Path
 REPOSITORY = Path(__file__).resolve().parents[1]
 PACKAGE = REPOSITORY / "src/uictest"
 _TESTS = {
-    "analysis": ("comparison", "validation", "sweeps/summaries", "cli/commands/test_validate.py"),
+    "analysis": (
+        "comparison",
+        "validation",
+        "sweeps/summaries",
+        "firmness",
+        "service_log",
+        "cli/commands/test_validate.py",
+    ),
     "api": ("api", "stepping", "fmu"),
     "controllers": ("controllers", "rig"),
     "core": (
@@ -46,8 +53,12 @@ _TESTS = {
         *("test_ensemble.py", "test_record.py", "test_units.py", "rig", "evaluation", "history"),
     ),
     "judging": ("evaluation", "series"),
-    "plans": ("scenario", "series", "sweeps/plan", "validation", "faults", "library", "templates", "rig"),
+    "plans": (
+        *("scenario", "series", "sweeps/plan", "validation", "faults", "library", "templates", "rig"),
+        *("cli/commands/test_check.py", "cli/commands/test_validate.py"),
+    ),
     "recorded": ("field_data", "fitting", "service_log"),
+    "report": ("report", "sweeps/summaries"),
     "rig": ("rig", "identification"),
     "running": ("campaign", "sweeps/running"),
     "runs": ("runs", "history", "api"),
