@@ -66,7 +66,9 @@ def init(
     c: CFolder = None,
     shipped: Shipped = False,
 ) -> ExitCode:
-    """Write a first scenario, and the schema with which editors complete it. Overwrites nothing but schemas.
+    """Write a first scenario, and the schema with which editors complete it.
+
+    Overwrites nothing but its own schemas.
 
     With --scenarios, copies of those that ship stand in place of it. With the word controller: write a first
     WSP controller, its part and a scenario that runs it.
