@@ -3,6 +3,7 @@
 import os
 import re
 import sysconfig
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,14 @@ HANGING = 900.0
 """Seconds after which a test takes something for hanging: no machine is so busy that it takes this long."""
 SCENARIO = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 30 km/h\n{text}"
 _INPUT = re.compile(r"\$\[\[ inputs\.(\w+) \]\]")
+
+
+def made_of():
+    """Return the files and folders of the repository that the package is built from."""
+    settings = tomllib.loads((REPOSITORY / "pyproject.toml").read_text("utf-8"))
+    wheel = settings["tool"]["hatch"]["build"]["targets"]["wheel"]
+    packed = {Path(name).parts[0] for name in (*wheel["packages"], *wheel["force-include"])}
+    return packed | {"pyproject.toml", settings["project"]["readme"], *settings["project"]["license-files"]}
 
 
 @pytest.fixture

@@ -1,10 +1,9 @@
 """The image: its file has no known defect, and the build gets what it needs and nothing else."""
 
 import subprocess
-import tomllib
 from pathlib import Path
 
-from .conftest import REPOSITORY, TOOLS
+from .conftest import REPOSITORY, TOOLS, made_of
 
 
 def test_no_known_defect():
@@ -24,9 +23,5 @@ def test_the_build_gets_every_file_that_the_package_is_made_of():
     kept = {
         line[1:] for line in (REPOSITORY / ".dockerignore").read_text("utf-8").splitlines() if line[0] == "!"
     }
-    settings = tomllib.loads((REPOSITORY / "pyproject.toml").read_text("utf-8"))
-    wheel = settings["tool"]["hatch"]["build"]["targets"]["wheel"]
-    packed = {Path(name).parts[0] for name in (*wheel["packages"], *wheel["force-include"])}
-    metadata = {"pyproject.toml", settings["project"]["readme"], *settings["project"]["license-files"]}
-    assert kept == packed | metadata
+    assert kept == made_of()
     assert all(Path(REPOSITORY, name).exists() for name in kept)

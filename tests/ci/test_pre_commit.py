@@ -7,9 +7,7 @@ import sys
 
 import pytest
 
-from .conftest import HANGING, REPOSITORY, SCENARIO
-
-_MADE_OF = ("src", "pyproject.toml", "README.md", "LICENSE")
+from .conftest import HANGING, REPOSITORY, SCENARIO, made_of
 
 
 def git(folder, *arguments):
@@ -81,7 +79,7 @@ def test_pre_commit_installs_what_the_hook_needs(tmp_path):
     hooks = tmp_path / "hooks"
     hooks.mkdir()
     shutil.copy(REPOSITORY / ".pre-commit-hooks.yaml", hooks)
-    for name in _MADE_OF:
+    for name in made_of():
         copy = shutil.copytree if (REPOSITORY / name).is_dir() else shutil.copy
         copy(REPOSITORY / name, hooks / name)
     commit_all(hooks)
