@@ -70,6 +70,9 @@ def test_every_kind_has_a_schema_and_shipped_files():
         ("criteria", {"criteria": [{"id": "x"}]}, False),
         ("channel-map", {"extends": "uictest", "channels": {"speed": "v", "time": ["t", "Zeit"]}}, True),
         ("channel-map", {"extends": "uictest", "channels": {"speed": 3}}, False),
+        ("channel-map", {"channels": {"speed": {"source": "V_ACTUAL", "unit": "km/h"}}}, True),
+        ("channel-map", {"channels": {"speed": {"source": ["V_ACTUAL", "v_radar"]}}}, True),
+        ("channel-map", {"channels": {"speed": {"source": []}}}, False),
     ],
 )
 def test_a_part_states_only_what_differs(kind, own, valid):

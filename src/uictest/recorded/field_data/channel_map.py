@@ -69,12 +69,17 @@ def _several(value: object) -> object:
     return (value,) if isinstance(value, str) else value
 
 
+_NameOrNames = Annotated[str, Field(min_length=1)] | Annotated[tuple[str, ...], Field(min_length=1)]
+
+
 class ChannelSource(Model):
     """Where a channel comes from: value = sign (scale x sample + offset), in `unit`."""
 
-    source: Annotated[tuple[str, ...], BeforeValidator(_several), Field(min_length=1)] = field(
-        "Name in the file, or a list of names: the first one present is used; also group/name."
-    )
+    source: Annotated[
+        tuple[str, ...],
+        BeforeValidator(_several, json_schema_input_type=_NameOrNames),
+        Field(min_length=1),
+    ] = field("Name in the file, or a list of names: the first one present is used; also group/name.")
     unit: str = field("Unit of the value; the file's own if left out.", default="")
     scale: float = field("Factor on every sample.", default=1.0, allow_inf_nan=False)
     offset: float = field("Added after scaling, in `unit`.", default=0.0, allow_inf_nan=False)
