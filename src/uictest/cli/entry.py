@@ -139,7 +139,7 @@ _WRITTEN_OTHERWISE: Final = {
     "--date": (("identify",), "SOURCE_DATE_EPOCH=SECONDS uictest ..."),
     "--seed": (("bench", "export-rig"), "--set seed=N"),
     "-k": (("export-rig",), "--case ID"),
-    "--cleaning": (("fit",), "--set rail.cleaning..., or `cleaning` in the file of --scenario"),
+    "--cleaning": (("fit",), "known numbers under rail.cleaning in the file of --scenario"),
     "--output": (("schema",), "> FILE"),
     "-o": (("schema",), "> FILE"),
 }

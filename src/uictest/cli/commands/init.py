@@ -107,9 +107,9 @@ def _write_controller(folder: Path, language: templates.Language, *build: str) -
 
 
 def _write_new(texts: Mapping[Path, str], schemas: Mapping[Path, str] | None = None) -> None:
-    """Write files, and schemas, which may be there: those of another version complete what is no key now.
+    """Write files that do not exist yet, and schemas, which are replaced.
 
-    Raises InvalidInputError, and writes none, where one of the files exists.
+    Raises InvalidInputError, and writes nothing, where one of the files exists.
     """
     existing = [path for path in texts if os.path.lexists(path)]
     if existing:
