@@ -67,7 +67,13 @@ def case_records(result: Any) -> Records:
     """Yield what a judged case, its wheelsets and its criteria hold."""
     yield (
         result.id,
-        {"outcome": result.outcome, "expect": _word(result.expect), "as_expected": result.as_expected},
+        {
+            "outcome": result.outcome,
+            "test_validity": result.test_validity,
+            "requirement_status": result.requirement_status,
+            "expect": str(result.expect),
+            "as_expected": result.as_expected,
+        },
     )
     yield f"{result.id} train", result.measures or {}
     for number, wheelset in enumerate(result.wheelsets, start=1):
@@ -87,15 +93,9 @@ def _verdict(verdict: Any) -> dict[str, Any]:
     return {"status": verdict.status, **numbers, "turned_by": ",".join(turned_by)}
 
 
-def _word(expectation: object) -> str:
-    return (
-        expectation if isinstance(expectation, str) else json.dumps(expectation, default=vars, sort_keys=True)
-    )
-
-
 def series_records(series: Any) -> Records:
     """Yield what a judged series says: its outcome, criteria, counts and measures, but no stops."""
-    yield series.id, {"outcome": series.outcome, "expect": _word(series.expect)}
+    yield series.id, {"outcome": series.outcome, "expect": str(series.expect)}
     for each in series.criteria:
         where = " ".join(filter(None, (f"{each.speed_kmh or ''}", each.rail)))
         verdict = {**_verdict(each.verdict), "confident": each.confident, **_estimate(each.estimate)}

@@ -24,7 +24,7 @@ from uictest.core.measures import MEASURES, STOP_COLUMNS, STOP_MEASURES, WHEELSE
 from uictest.core.statistics import mean_interval
 from uictest.core.units import in_unit
 from uictest.plans import library
-from uictest.plans.scenario import Case, load
+from uictest.plans.scenario import Case, corrections, load
 from uictest.rig import assemble, run_in_lanes
 from uictest.running.chunked import SURVEY_TABLE
 
@@ -86,6 +86,7 @@ def stops_of(case: Case, count: int) -> Iterator[tuple[Any, list[Any]]]:
 def definitions(case: Case) -> dict[str, Mapping[str, float]]:
     """Return what measures are taken to mean: as the first criterion of the library says that has one."""
     common = {name: value for each in STOP_COLUMNS.values() for name, value in each.defaults.items()}
+    common |= {name: float(value) for name, value in corrections(case.scenario).items()}
     stated: dict[str, Mapping[str, float]] = {}
     for criterion in (each for profile in case.scenario.criteria for each in profile.criteria):
         read_as: tuple[Any, ...] = (criterion, *criterion.readings)

@@ -8,6 +8,7 @@ from uictest.core.measures import MEASURES
 from uictest.core.units import KINDS
 from uictest.plans.fault_effects import FaultKind
 from uictest.plans.faults import FAULT_KINDS
+from uictest.plans.scenario import plausible_spans
 
 _COURSES = {"grows": "grows", "falls": "falls", "settles": "stays"}
 
@@ -36,6 +37,20 @@ def measures_table() -> str:
         for name, measure in MEASURES.items()
     ]
     return table(("measure", "unit", "of", "meaning", "until standstill it", "definitions it needs"), rows)
+
+
+def plausible_table() -> str:
+    """Return the derived quantities of a train, their plausible spans, and what these rest on."""
+    rows = [
+        (
+            row["title"],
+            f"{row['span'][0]} to {row['span'][1]} {row['unit'].removeprefix('1')}".rstrip(),
+            row["above"].rstrip("?") or row["below"].rstrip("?"),
+            f"{row['mark']}: {row['reason']}",
+        )
+        for row in plausible_spans().values()
+    ]
+    return table(("quantity", "plausible", "beyond it likely", "why"), rows)
 
 
 def faults_table() -> str:

@@ -23,6 +23,7 @@ _TABLES: dict[str, Callable[[], str]] = {
     "units": fields.units_table,
     "measures": fields.measures_table,
     "faults": fields.faults_table,
+    "plausible": fields.plausible_table,
 }
 
 

@@ -40,7 +40,7 @@ def row(friction: str, name: str, cases: list[Case], others: list[Case]) -> list
         f"{median(values(cases, 'air_consumed_nl')):.0f}",
         f"{max(slide_of(case) for case in cases):.0f} %",
         f"{max(each['locked_time_s'] for train in wheelsets for each in train):.2f}",
-        f"{sum(case['outcome'] in ('pass', 'fail') for case in cases)} of {len(cases)}",
+        f"{sum(case['test_validity'] == 'valid' for case in cases)} of {len(cases)}",
     ]
 
 

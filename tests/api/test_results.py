@@ -13,6 +13,7 @@ import uictest
 from uictest import report
 from uictest.api.results import column_units
 from uictest.core import measures
+from uictest.plans.scenario import PASS
 
 from .conftest import write_stop
 
@@ -58,7 +59,7 @@ def test_numbers_are_numbers_and_texts_are_as_written(results):
     assert list(frame["parameters.rail.friction"].dropna()) == ["0.06", "0.1"]
     distance = results["one[friction=0.1]"].measures["braking_distance_m"]
     assert frame.loc["one[friction=0.1]", "braking_distance_m"] == distance
-    crashed = uictest.CaseResult("a", "a.yaml", {}, "pass", "error", reason="no wheel load")
+    crashed = uictest.CaseResult("a", "a.yaml", {}, PASS, "error", reason="no wheel load")
     frame = uictest.Results(report.RunContent("run", [crashed])).frame()
     assert math.isnan(frame.loc["a", "braking_distance_m"])
     assert frame["braking_distance_m"].dtype == float
@@ -120,7 +121,7 @@ class _Page(HTMLParser):
 
 
 def test_the_table_for_notebooks_escapes_what_users_wrote():
-    hostile = uictest.CaseResult(HOSTILE, "a.yaml", {}, "pass", "fail", reason=HOSTILE)
+    hostile = uictest.CaseResult(HOSTILE, "a.yaml", {}, PASS, "fail", reason=HOSTILE)
     page = _Page()
     text = uictest.Results(report.RunContent("run", [hostile]))._repr_html_()
     page.feed(text)
@@ -129,8 +130,8 @@ def test_the_table_for_notebooks_escapes_what_users_wrote():
 
 
 def test_the_table_for_notebooks_has_what_failed_first_and_an_end():
-    many = [uictest.CaseResult(f"case-{n}", "a.yaml", {}, "pass", "pass") for n in range(200)]
-    failed = uictest.CaseResult("failed", "a.yaml", {}, "pass", "fail", reason="locked")
+    many = [uictest.CaseResult(f"case-{n}", "a.yaml", {}, PASS, "pass") for n in range(200)]
+    failed = uictest.CaseResult("failed", "a.yaml", {}, PASS, "fail", reason="locked")
     text = uictest.Results(report.RunContent("run", [*many, failed]))._repr_html_()
     assert text.index("failed") < text.index("case-0")
     assert "and 151 more cases" in text

@@ -134,7 +134,7 @@ def test_strict_lanes_have_the_bits_of_ours():
 
     from uictest.core.lanes import fuses, register_width
     from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-    from uictest.rig import run_in_lanes
+    from uictest.rig.backends.lanes import run_in_lanes
 
     if not fuses():
         pytest.skip("the C lanes fuse by an instruction that this processor lacks")

@@ -124,7 +124,7 @@ def test_a_criterion_of_stops_covers_where_it_applies_to_a_stop_that_it_judges(
 
 
 def test_the_series_of_a_file_are_one_verifier_and_one_that_must_not_pass_verifies_as_a_whole(tmp_path):
-    text = "requirements: [BR-9]\nexpect: fail\nmatrix: {controller: [threshold, slip-band]}\n"
+    text = "requirements: [BR-9]\nexpect: {fail: [k-wet]}\nmatrix: {controller: [threshold, slip-band]}\n"
     found = verifiers(tmp_path, "900 m", "", text)
     ids = ("acceptance[controller=threshold]", "acceptance[controller=slip-band]")
     assert found["BR-9"] == (Verifier("series", "acceptance", series=ids),)

@@ -130,7 +130,9 @@ def test_a_met_case_is_recorded_when_asked_and_a_missed_one_always(process, call
     assert sorted(path.stem for path in Path("reports/latest/recordings").iterdir()) == ids
     scenario("stop")
     answer = call("run", code=0)
-    assert answer.out.startswith("pass stop outcome=pass expect=pass braking_distance_m=")
+    assert answer.out.startswith(
+        "pass stop outcome=pass expect=pass test_validity=not_judged requirements=met braking_"
+    )
     assert not Path("reports/latest/recordings").exists()
     scenario("stop", "expect: invalid\n")
     call("run", code=1)

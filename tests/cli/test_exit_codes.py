@@ -4,12 +4,13 @@ import pytest
 
 from uictest.cli.output import ExitCode, of_run
 from uictest.judging.evaluation import CaseResult
+from uictest.plans.scenario import PASS
 from uictest.report import RunContent
 from uictest.runs import Published
 
 
 def _run(*outcomes, interrupted=False):
-    results = [CaseResult(outcome, "a.yaml", {}, "pass", outcome) for outcome in outcomes]
+    results = [CaseResult(outcome, "a.yaml", {}, PASS, outcome) for outcome in outcomes]
     return Published(Path("run"), RunContent("run", results), "{}", interrupted)
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, RepeatedStop, Repeats
+from uictest.plans.scenario import PASS
 from uictest.report import RunContent, RunManifest
 
 from ..report.builders import make_result, make_verdict
@@ -51,7 +52,7 @@ def make_repeated():
             RepeatedStop(seed, "pass", "", (), FIGURES | {"braking_distance_m": distance}, WHEELSETS)
             for seed, distance in distances.items()
         )
-        result = CaseResult(case_id, "slip.yaml", {}, "pass", "pass", noise_key=noise_key)
+        result = CaseResult(case_id, "slip.yaml", {}, PASS, "pass", noise_key=noise_key)
         medians = {"measures": stops[0].measures, "wheelsets": WHEELSETS}
         return dataclasses.replace(result, **medians, repeats=Repeats("all", stops), **changes)
 

@@ -17,6 +17,7 @@ from uictest.analysis.comparison import (
 from uictest.core.series_measures import SeriesValue, mean_of
 from uictest.judging import series
 from uictest.judging.evaluation import Verdict
+from uictest.plans.scenario import PASS
 from uictest.report import (
     RunContent,
     document_lines,
@@ -47,7 +48,7 @@ def make_series(make_repeated):
         verdict = Verdict("k-wet", "requirement", 0.87, "1", 0.8, None, 0.07, status, "")
         counts = series.StopCounts(1, 1), series.StopCounts(2 * len(wet), 2 * len(wet) - len(not_counted))
         return series.SeriesResult(
-            *(name, "acceptance.series.yaml", "", parameters or {}, "pass", "pass", "", 0.95, 0.8, 3.0),
+            *(name, "acceptance.series.yaml", "", parameters or {}, PASS, "pass", "", 0.95, 0.8, 3.0),
             criteria=(series.SeriesVerdict(verdict),),
             measures=measures,
             speeds=(series.SpeedResult(120.0, *counts, measures),),

@@ -9,7 +9,7 @@ import yaml
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.series_measures import SERIES_MEASURES
 from uictest.judging.evaluation import CaseResult, Verdict
-from uictest.plans.scenario.model import Brake, Rail, Rig, Scenario, Simulation
+from uictest.plans.scenario.model import Brake, Rail, Record, Rig, Scenario, Simulation
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 
 REPOSITORY = Path(__file__).parents[2]
@@ -68,7 +68,7 @@ def test_every_channel_of_a_recording_is_described():
 
 def test_every_key_of_a_scenario_is_named():
     text = (REPOSITORY / "docs/scenarios.md").read_text("utf-8")
-    groups = {"brake": Brake, "rail": Rail, "rig": Rig, "simulation": Simulation}
+    groups = {"brake": Brake, "rail": Rail, "rig": Rig, "simulation": Simulation, "record": Record}
     keys = {field.alias or name for name, field in Scenario.model_fields.items()} - groups.keys()
     keys |= {f"{group}.{name}" for group, model in groups.items() for name in model.model_fields}
     assert {key for key in keys if f"`{key}`" not in text} == set()

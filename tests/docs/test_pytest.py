@@ -12,7 +12,7 @@ schema: uictest/scenario/1
 name: stop
 initial_speed: 80 km/h
 criteria: short-stops.yaml
-matrix: {expect: [pass, fail]}
+zip: {seed: [1, 2], expect: [pass, fail]}
 """
 CRITERIA = """\
 schema: uictest/criteria/1

@@ -8,8 +8,10 @@ import pytest
 import yaml
 
 from uictest.judging.evaluation import judge
+from uictest.plans.scenario import expectation_of
 from uictest.plans.scenario.parts.criteria import Criteria, Criterion
 from uictest.plans.scenario.parts.measures import MeasureDefinitions
+from uictest.plans.scenario.yaml import parse_quantity
 
 from ..measures.catalogue.conftest import sliding_stop, stop, wheelsets
 
@@ -39,14 +41,18 @@ def _scenario(*profiles, condition="dry", **changes):
         "position": "R",
         "command": 1.0,
         "gradient": 0.0,
+        "initial_speed": "120 km/h",
         "expect": "pass",
         **changes,
     }
     return SimpleNamespace(
         rail=SimpleNamespace(
-            condition=SimpleNamespace(name=condition), gradient=settings["gradient"], cleaning_in_force=None
+            condition=SimpleNamespace(name=condition),
+            gradient=parse_quantity(f"{1e3 * settings['gradient']:g} permille", "gradient"),
+            cleaning_in_force=None,
         ),
         rig=SimpleNamespace(wsp=settings["wsp"], topology="one-caliper"),
+        initial_speed=parse_quantity(settings["initial_speed"], "speed"),
         faults=(),
         brake=SimpleNamespace(
             position=settings["position"],
@@ -59,7 +65,7 @@ def _scenario(*profiles, condition="dry", **changes):
         criteria=profiles,
         judged_by=profiles,
         measures=MeasureDefinitions.model_validate(_written("standard", "measures")),
-        expect=settings["expect"],
+        expect=expectation_of(settings["expect"]),
         requirements=(),
         test_case=None,
     )

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from uictest.judging.evaluation import CaseResult, error_result, evaluate, evaluate_simulated
+from uictest.plans.scenario import expectation_of
 
 G = 9.80665
 
@@ -20,7 +21,7 @@ def test_a_case_is_judged_and_its_figures_are_in_the_units_of_the_interface(
         0.9, 0.9, 0.9, 0.9, valve_actuations=11, maximum_clamping_force=41e3, air_vented=0.01185
     )
     result = evaluate(slip_test, sliding_stop(0.07 * G, braking_distance=900.0), records, duration=0.25)
-    assert (result.outcome, result.expect, result.met, result.reason) == ("pass", "pass", True, "")
+    assert (result.outcome, str(result.expect), result.met, result.reason) == ("pass", "pass", True, "")
     assert result.scenario == "scenarios/slip-120.yaml"
     figures = result.measures
     assert figures["initial_adhesion_g"] == pytest.approx(0.07)
@@ -95,7 +96,11 @@ def test_a_check_of_the_rig_makes_a_stop_invalid_and_decides_nothing_else(
     )
     fits = next(each for each in result.criteria if each.id == "compensation-fits")
     assert (result.outcome, fits.layer, fits.status) == (outcome, "rig", statuses)
-    assert result.reason == ("compensation-fits: the lever ratio is 3" if outcome == "invalid" else "")
+    said = (
+        "compensation-fits: the lever ratio is 3;"
+        " write `rig.compensation_model: identify` or `rig.topology: four-caliper`"
+    )
+    assert result.reason == (said if outcome == "invalid" else "")
     alone = evaluate(case(scenario(shipped("uictest-rig"))), stopped, wheelsets(0.0))
     assert alone.outcome == ("invalid" if outcome == "invalid" else "skipped")
 
@@ -134,7 +139,7 @@ def test_a_crashed_simulation_is_an_error_with_its_reason(slip_test):
     ],
 )
 def test_an_expectation_is_met_by_its_own_outcome(outcome, expect, met):
-    assert CaseResult("a", "a.yaml", {}, expect, outcome).met is met
+    assert CaseResult("a", "a.yaml", {}, expectation_of(expect), outcome).met is met
 
 
 @pytest.fixture

@@ -22,13 +22,17 @@ CASE = [
     *("id", "scenario", "parameters", "expect", "outcome", "reason", "criteria", "measures", "wheelsets"),
     "parts",
 ]
+STATEMENTS = ["test_validity", "requirement_status"]
 MEASURES = [
     "braking_distance_m",
+    "corrected_distance_m",
     "braking_time_s",
     "mean_deceleration_mps2",
     "build_up_time_s",
     "deceleration_distance_m",
     "developed_deceleration_mps2",
+    "reference_distance_m",
+    "distance_over_reference",
     "initial_adhesion_g",
     "adhesion_utilisation",
     "minimum_deceleration_mps2",
@@ -77,7 +81,7 @@ def results(shipped, scenario, case, stop, wheelsets):
 
 def test_a_case_has_the_fields_of_the_interface(results):
     form = result_document(results)["cases"][0]
-    assert list(form) == CASE
+    assert list(form) == [*CASE, *STATEMENTS]
     assert list(form["measures"]) == MEASURES
     assert list(form["wheelsets"][0]) == WHEELSET
 
@@ -99,8 +103,8 @@ def test_which_controller_answered_and_the_noise_are_there_only_where_known_and_
     )
     document = json.loads(to_json(result_document([told, *results[1:]])))
     first, *others = document["cases"]
-    assert list(first) == [*CASE, "controller_version", "controller_contract", "case_sha256"]
-    assert [list(case) for case in others] == [CASE, CASE]
+    assert list(first) == [*CASE, "controller_version", "controller_contract", "case_sha256", *STATEMENTS]
+    assert [list(case) for case in others] == [[*CASE, *STATEMENTS]] * 2
     back, *_ = results_of(document)
     told = back.controller_version, back.controller_contract, back.case_sha256
     assert told == ("wsp 1.2", 2, "ab" * 32)
@@ -117,8 +121,8 @@ def test_requirements_are_there_only_where_some_are_named_and_come_back(results)
     named = dataclasses.replace(first, criteria=(verdict, *first.criteria[1:]), **ids)
     document = json.loads(to_json(result_document([named, *results[1:]])))
     case, *others = document["cases"]
-    assert list(case) == [*CASE, "requirements", "test_case"]
-    assert [list(each) for each in others] == [CASE, CASE]
+    assert list(case) == [*CASE, "requirements", "test_case", *STATEMENTS]
+    assert [list(each) for each in others] == [[*CASE, *STATEMENTS]] * 2
     assert [each.get("requirements") for each in case["criteria"][:2]] == [["BR-2", "BR-1"], None]
     back, *_ = results_of(document)
     assert (back.requirements, back.test_case) == (("BR-9",), "WSP-TC-7")

@@ -141,7 +141,15 @@ def test_nothing_of_the_rig_is_said_of_a_recorded_stop(cases):
         "brake.position": "R",
         "rail.gradient": "0 permille",
         "rig.wsp": "bypassed",
+        "record.tolerances.initial_speed": "3 km/h",
+        "record.tolerances.deceleration": "1.2",
+        "record.tolerances.vacuum": "1.013 bar",
+        "record.tolerances.pressure_fall": "0.1 bar",
+        "record.tolerances.demanded_pressure": "15 %",
+        "record.tolerances.duration": "10",
     }
+    simulated = EffectiveParts().of(case.scenario).values()
+    assert not [each.key for part in simulated for each in part.parameters if "record" in each.key]
 
 
 def test_own_values_of_single_wheelsets_are_listed_with_their_marks_and_nothing_else_is(cases):

@@ -1,21 +1,19 @@
 """What the stops of a repeated case come to, on lists of outcomes and values made by hand."""
 
 from collections import Counter
+from dataclasses import replace
 from statistics import median
 
 import pytest
 from hypothesis import given, strategies as st
 
+from uictest.judging.evaluation import CaseResult, Repeats, Verdict, outcome_of
 from uictest.judging.evaluation.bounds import Bounds
+from uictest.judging.evaluation.criterion_over_stops import OutcomeRule, decision_over_stops, over_stops
 from uictest.judging.evaluation.decision import Decision
-from uictest.judging.evaluation.repeated_case import (
-    OutcomeRule,
-    decision_over_stops,
-    outcome_over_stops,
-    over_stops,
-    seeds_text,
-)
-from uictest.judging.evaluation.repeats import RepeatedStop
+from uictest.judging.evaluation.repeated_case import outcome_over_stops
+from uictest.judging.evaluation.repeats import RepeatedStop, seeds_text
+from uictest.plans.scenario import PASS, expectation_of
 
 ALL, MEDIAN = OutcomeRule("all"), OutcomeRule("median")
 LETTERS = {"p": "pass", "f": "fail", "i": "invalid", "u": "inconclusive", "s": "skipped", "e": "error"}
@@ -31,7 +29,7 @@ def stops(letters):
 
 
 def outcome(letters, expect, rule):
-    return outcome_over_stops(stops(letters), expect, rule, ("pass", ""))[0]
+    return outcome_over_stops(stops(letters), expectation_of(expect), rule, ("pass", ""))[0]
 
 
 @pytest.mark.parametrize(
@@ -89,20 +87,20 @@ def test_a_share_of_the_stops_must_come_out_as_expected(letters, expect, share, 
 
 
 def test_the_median_takes_the_outcome_of_its_verdicts_but_an_error_stays_one():
-    assert outcome_over_stops(stops("fff"), "pass", MEDIAN, ("pass", "")) == ("pass", "")
-    assert outcome_over_stops(stops("pep"), "pass", MEDIAN, ("pass", "")) == (
+    assert outcome_over_stops(stops("fff"), PASS, MEDIAN, ("pass", "")) == ("pass", "")
+    assert outcome_over_stops(stops("pep"), PASS, MEDIAN, ("pass", "")) == (
         "error",
         "error in 1 of 3 stops (seed 1), with seed 1: why 1",
     )
 
 
 def test_the_reason_names_the_stops():
-    reason = outcome_over_stops(stops("fpfpfffi"), "pass", ALL, ("pass", ""))[1]
+    reason = outcome_over_stops(stops("fpfpfffi"), PASS, ALL, ("pass", ""))[1]
     assert reason == (
         "fail in 5 of 8 stops (seeds 0, 2, 4..6), with seed 0: why 0;"
         " invalid in 1 of 8 stops (seed 7), with seed 7: why 7"
     )
-    assert outcome_over_stops(stops("ppp"), "pass", ALL, ("pass", "")) == ("pass", "")
+    assert outcome_over_stops(stops("ppp"), PASS, ALL, ("pass", "")) == ("pass", "")
 
 
 @given(
@@ -236,3 +234,68 @@ def test_counts_and_range_over_stops():
 )
 def test_seeds_for_a_reader(seeds, text):
     assert seeds_text(seeds) == text
+
+
+def missing(seed, names):
+    """A stop that misses the requirements with these names, of `a` and `b`."""
+    verdicts = [
+        Verdict(name, "requirement", 2.0, "s", None, 1.0, -1.0, "fail" if name in names else "pass", "2 s")
+        for name in "ab"
+    ]
+    outcome, reason = outcome_of(verdicts)
+    return RepeatedStop(seed, outcome, reason, tuple(verdicts))
+
+
+def came_out(stops, expect, rule):
+    """The outcome of a case with these stops, whether it is met, strictly met, and what was allowed."""
+    verdicts = [
+        replace(first, status="pass" if statuses.count("pass") >= rule.needed(len(stops)) else "fail")
+        for first, *others in zip(*(stop.criteria for stop in stops), strict=True)
+        for statuses in [[first.status, *(each.status for each in others)]]
+    ]
+    outcome, reason = outcome_over_stops(stops, expect, rule, outcome_of(verdicts))
+    repeats = Repeats(rule.name, tuple(stops), rule.share if rule.name == "at_least" else None)
+    case = CaseResult("a", "a.yaml", {}, expect, outcome, reason, tuple(verdicts), repeats=repeats)
+    return case.outcome, case.met, replace(case, strict=True).met, [each.id for each in case.allowed]
+
+
+NAMED = expectation_of({"fail": ["a"]})
+ALLOWED = NAMED.of_another_controller()
+
+
+@pytest.mark.parametrize(
+    ("missed", "expect", "rule", "found"),
+    [
+        # Every stop is held to the names: one at least is missed in each, and none beyond.
+        (["a", "a", "a"], NAMED, ALL, ("fail", True, True, [])),
+        (["a", "a", ""], NAMED, ALL, ("pass", False, False, [])),
+        (["a", "a", "b"], NAMED, ALL, ("fail", False, False, [])),
+        (["a", "a", "b"], NAMED, at_least(0.6), ("fail", True, True, [])),
+        (["a", "b", "b"], NAMED, at_least(0.6), ("fail", False, False, [])),
+        # What is allowed need not be missed; it is listed wherever it is what makes the case as expected.
+        (["", "", ""], ALLOWED, ALL, ("pass", True, True, [])),
+        (["a", "", ""], ALLOWED, ALL, ("fail", True, False, ["a"])),
+        (["a", "b", ""], ALLOWED, ALL, ("fail", False, False, [])),
+        (["a", "", ""], ALLOWED, at_least(0.6), ("pass", True, True, [])),
+        (["a", "b", ""], ALLOWED, at_least(0.6), ("fail", True, False, ["a"])),
+        (["a", "a", "b"], ALLOWED, at_least(0.6), ("fail", True, False, ["a"])),
+        (["b", "b", ""], ALLOWED, at_least(0.6), ("fail", False, False, [])),
+        # The verdicts at the median decide, those of the stops do not.
+        (["a", "a", "a"], ALLOWED, MEDIAN, ("fail", True, False, ["a"])),
+        (["ab", "ab", "ab"], ALLOWED, MEDIAN, ("fail", False, False, [])),
+    ],
+)
+def test_every_repeat_is_held_to_the_names_and_a_share_of_them_must_be_as_expected(
+    missed, expect, rule, found
+):
+    stops = [missing(seed, names) for seed, names in enumerate(missed)]
+    assert came_out(stops, expect, rule) == found
+
+
+def test_a_repeat_whose_rig_is_wrong_is_not_as_expected():
+    grip = Verdict("grip", "rig", 2.0, "1", None, 1.0, -1.0, "fail", "slips")
+    stop = missing(0, "a")
+    wrong = replace(stop, outcome="invalid", criteria=(*stop.criteria, grip))
+    for expect in (NAMED, ALLOWED, expectation_of("invalid")):
+        assert outcome_over_stops([stop, wrong], expect, ALL, ("pass", ""))[0] != "pass"
+        assert not wrong.as_expected(expect)

@@ -21,6 +21,7 @@ from uictest.judging.evaluation import (
     spread_of,
     to_json,
 )
+from uictest.plans.scenario import PASS, expectation_of
 
 numbers = st.floats(-1e6, 1e6)
 
@@ -68,7 +69,11 @@ def test_shares_count_the_stops():
     assert low < 1 / 3 < high
     assert REPEATS.turns
     assert REPEATS.seeds("fail") == [8]
-    assert [REPEATS.as_expected(expect) for expect in ("pass", "fail", "invalid")] == [1, 1, 0]
+    assert [REPEATS.as_expected(expectation_of(expect)) for expect in ("pass", "fail", "invalid")] == [
+        1,
+        1,
+        0,
+    ]
     assert REPEATS.values("braking_distance_m") == [460.0, 470.0]
     assert REPEATS.values("locked_time_s", wheelset=4) == [7.0, 8.0]
 
@@ -92,7 +97,7 @@ def result(repeats):
         "distance", "validity", 465.0, "m", None, 490.0, 25.0, "pass", "", {"clause": "B"}, over_stops=counts
     )
     first = stop(7, "pass")
-    own = ("case", "a.yaml", {}, "pass", "error", "made up", (verdict,), first.measures, first.wheelsets)
+    own = ("case", "a.yaml", {}, PASS, "error", "made up", (verdict,), first.measures, first.wheelsets)
     return CaseResult(*own, repeats=repeats)
 
 

@@ -11,11 +11,12 @@ from uictest.judging.evaluation import (
     Verdict,
     VerdictInterval,
     narrowest_margin,
+    outcome_of,
     result_document,
     results_of,
 )
-from uictest.judging.evaluation.result import outcome_of
 from uictest.judging.evaluation.verdict import relative_margin
+from uictest.plans.scenario import PASS
 
 FLIPPING = Sensitivity(
     "cut-off", "km/h", 20.0, 40.0, (VerdictInterval(20, 30, "pass"), VerdictInterval(30, 40, "fail"))
@@ -39,7 +40,7 @@ def verdict(**changes):
 
 
 def result(*criteria):
-    return CaseResult("stop", "stop.yaml", {}, "pass", "pass", criteria=criteria)
+    return CaseResult("stop", "stop.yaml", {}, PASS, "pass", criteria=criteria)
 
 
 def test_a_margin_counts_over_its_bound_and_a_passed_one_that_hangs_on_a_definition_has_none():
@@ -80,22 +81,27 @@ def _turning(first, last):
         ([("validity", "pass"), ("requirement", "pass")], "pass", ""),
         ([("validity", "pass"), ("requirement", "not_applicable")], "pass", ""),
         ([("validity", "pass"), ("requirement", "fail")], "fail", FAILED),
-        ([("requirement", "fail"), ("validity", "fail")], "invalid", "validity-fail: because"),
+        ([("requirement", "fail"), ("validity", "fail")], "fail", FAILED),
+        ([("requirement", "pass"), ("validity", "fail")], "invalid", "validity-fail: because"),
         ([("validity", "not_applicable")], "skipped", "validity-not_applicable: because"),
         ([("validity", "not_applicable"), ("requirement", "fail")], "fail", FAILED),
         ([("validity", "pass"), ("requirement", "inconclusive")], "inconclusive", OPEN),
         ([("requirement", "fail"), ("requirement", "inconclusive")], "fail", FAILED),
-        ([("validity", "inconclusive"), ("requirement", "fail")], "inconclusive", f"{OPEN_TEST}; {FAILED}"),
+        ([("validity", "inconclusive"), ("requirement", "fail")], "fail", FAILED),
+        ([("validity", "inconclusive"), ("requirement", "pass")], "inconclusive", OPEN_TEST),
         ([("validity", "inconclusive"), ("validity", "fail")], "invalid", "validity-fail: because"),
         ([("validity", "not_applicable"), ("requirement", "inconclusive")], "inconclusive", OPEN),
         ([], "skipped", "no criterion"),
+        # The figures of a rig that cannot be believed say nothing of the WSP.
+        ([("rig", "fail"), ("requirement", "fail"), ("validity", "fail")], "invalid", "rig-fail: because"),
+        ([("requirement", "fail"), ("record", "fail")], "invalid", "record-fail: because"),
         # What checks the rig is no judgement of the stop.
         ([("rig", "pass")], "skipped", "no criterion"),
         ([("rig", "pass"), ("validity", "not_applicable")], "skipped", "validity-not_applicable: because"),
         ([("rig", "inconclusive"), ("requirement", "pass")], "pass", ""),
     ],
 )
-def test_validity_comes_before_requirements(verdicts, outcome, reason):
+def test_the_figures_come_before_requirements_and_these_before_validity(verdicts, outcome, reason):
     assert outcome_of(judged(*one) for one in verdicts) == (outcome, reason)
 
 
@@ -124,7 +130,7 @@ def test_the_order_of_the_criteria_does_not_matter():
     ],
 )
 def test_a_strict_case_is_met_only_if_every_verdict_is_settled(verdict, settled):
-    case = CaseResult("a", "a.yaml", {}, "pass", "pass", criteria=(verdict,))
+    case = CaseResult("a", "a.yaml", {}, PASS, "pass", criteria=(verdict,))
     assert (case.met, case.unsettled) == (True, ())
     strict = replace(case, strict=True)
     assert (strict.met, strict.unsettled) == (settled, () if settled else (verdict,))

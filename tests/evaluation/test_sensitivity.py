@@ -91,7 +91,7 @@ def test_the_intervals_agree_with_deciding_at_any_duration(
     direct = decide(
         adhesion,
         bounds_of(adhesion),
-        {"first_phase_duration": duration},
+        {"first_phase_duration": duration, "gradient": 0.0},
         ObservedStop(measures, wheelsets(0.5)),
     ).status
     nearby = {s.status for s in found.intervals if s.first - TOLERANCE <= duration <= s.last + TOLERANCE}

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from uictest.analysis.firmness import Drawn, Effort, FirmnessStudy
-from uictest.judging.evaluation import CalibratedDraws, CaseResult
+from uictest.analysis.firmness import Drawn, Effort, FirmnessStudy, drawn
+from uictest.judging.evaluation import CalibratedDraws, CaseResult, Verdict
+from uictest.plans.scenario import PASS
 from uictest.plans.scenario.yaml import Quantity, parse_quantity
 from uictest.plans.sweeps import RangedNumber
 from uictest.report.firmness_sentences import firmness_sentences
@@ -19,16 +20,25 @@ def number(key, value, low, high):
     return RangedNumber(key, Quantity(float(nominal), value, "N", "chosen", ends), "chosen", "for the test")
 
 
-# The square of side 10 around 0; the ends differ by less than a factor of two, so that draws are even.
+# The square of side 10 around 0; no prior is stated, so that draws are even.
 A, B = number("a", "100 N", "95 N", "105 N"), number("b", "100 N", "95 N", "105 N")
 
 
 def study(
-    numbers, margin, *, effort=SMALL, noise=0.0, validity=None, feasible=lambda *values: True, **others
+    numbers,
+    margin,
+    *,
+    effort=SMALL,
+    noise=0.0,
+    validity=None,
+    outcome_of_no_test="invalid",
+    feasible=lambda *values: True,
+    **others,
 ):
     """Study a stop whose one requirement holds while `margin` of the numbers is not negative.
 
-    `validity` is the margin of a criterion of validity; `others` are further arguments of the study.
+    `validity` is the margin of a criterion of validity, `outcome_of_no_test` what a stop that misses it comes
+    to; `others` are further arguments of the study.
     """
 
     def judge(columns, seeds):
@@ -45,8 +55,9 @@ def study(
         if validity is not None:
             margins = {"counts": validity(*values), **margins}
         statuses = {name: "pass" if value >= 0.0 else "fail" for name, value in margins.items()}
-        invalid = statuses.get("counts") == "fail"
-        return Drawn("invalid" if invalid else statuses["limit"], statuses, margins)
+        if statuses.get("counts") == "fail":
+            return Drawn(outcome_of_no_test, statuses, margins, is_test=False)
+        return Drawn(statuses["limit"], statuses, margins)
 
     return FirmnessStudy(numbers, judge, validity=frozenset({"counts"}), effort=effort, **others).run()
 
@@ -139,7 +150,7 @@ def test_where_the_end_turns_few_seeds_there_is_no_turning_value_to_search():
 
 def test_what_turns_within_and_not_at_the_ends_turns_in_draws():
     firmness = study([A], lambda a: abs(a - 2.0) - 0.5)
-    result = CaseResult("stop", "stop.yaml", {}, "pass", "pass", firmness=firmness)
+    result = CaseResult("stop", "stop.yaml", {}, PASS, "pass", firmness=firmness)
     assert any("or by one between the ends of its range" in line for line in firmness_sentences(result))
     assert firmness.turned_by == ()
     assert firmness.status == "turns"
@@ -164,14 +175,46 @@ def test_every_draw_meets_a_random_rail_of_its_own():
     assert (varied.status, varied.turned, varied.counted) == ("turns", 10, 1024)
 
 
-def test_draws_that_are_no_test_do_not_count_but_turn_the_criterion_of_validity():
-    firmness = study([A, B], lambda a, b: 1.0, validity=lambda a, b: 3.0 - b)
+@pytest.mark.parametrize("outcome_of_no_test", ["invalid", "fail", "pass"])
+def test_draws_that_are_no_test_do_not_count_but_turn_the_criterion_of_validity(outcome_of_no_test):
+    """Whatever such a stop comes to: its validity is asked, and not the outcome."""
+    firmness = study(
+        [A, B],
+        lambda a, b: 1.0,
+        validity=lambda a, b: 3.0 - b,
+        outcome_of_no_test=outcome_of_no_test,
+    )
     outcome, counts, limit = firmness, *firmness.criteria
-    assert firmness.outcomes["invalid"] == firmness.draws - outcome.counted > 0
+    # A fifth of the range lies above 3.
+    assert outcome.counted == pytest.approx(0.8 * firmness.draws, abs=3)
     assert (outcome.turned, limit.turned, limit.turned_by) == (0, 0, ())
     [turn] = counts.turned_by
     assert (turn.key, turn.side, turn.to) == ("b", "above", "fail")
     assert counts.counted == firmness.draws
+    result = CaseResult("stop", "stop.yaml", {}, "pass", "pass", firmness=firmness)
+    told = f"of {firmness.draws} draws {firmness.draws - outcome.counted} are no test: they do not count"
+    assert told in list(firmness_sentences(result))
+
+
+@pytest.mark.parametrize(
+    ("statuses", "is_test"),
+    [
+        ({}, True),
+        ({"requirement": "fail"}, True),
+        ({"requirement": "inconclusive", "validity": "pass"}, True),
+        ({"validity": "not_applicable", "rig": "pass"}, True),
+        ({"validity": "fail", "requirement": "fail"}, False),
+        ({"rig": "fail", "validity": "pass"}, False),
+        ({"rig": "fail", "validity": "inconclusive"}, False),
+        ({"validity": "inconclusive"}, False),
+    ],
+)
+def test_what_is_required_of_a_stop_does_not_say_whether_it_is_a_test(statuses, is_test):
+    verdicts = [
+        Verdict(layer, layer, None, "1", None, None, None, status, "") for layer, status in statuses.items()
+    ]
+    for outcome in ("pass", "fail", "invalid", "inconclusive"):
+        assert drawn(outcome, verdicts).is_test == is_test
 
 
 def test_values_that_do_not_fit_together_are_counted_apart():
@@ -292,6 +335,7 @@ def test_a_reading_of_a_criterion_of_validity_counts_where_the_stop_is_no_test()
                 "pass" if value < 0.5 else "invalid",
                 {"counts": "pass" if value < 0.5 else "fail", "counts read as other": "pass"},
                 readings={"counts read as other": "counts"},
+                is_test=value < 0.5,
             )
             for value in (columns[0].numbers - 100.0).tolist()
         ]

@@ -175,7 +175,7 @@ def test_numbers_of_further_brakes_and_sanders_without_a_range_are_named():
         "brake.track={attraction: {value: 100 kN, range: [80 kN, 120 kN]}, off_below: 5 km/h}",
         "sanders=[{wheelset: 1, rate: 6 kg/min}]",
     )
-    assert numbers_without_range(short_stop().scenario) == []
+    assert numbers_without_range(short_stop().scenario) == ["rail.friction"]
     named = numbers_without_range(case.scenario)
     assert {"brake.track.off_below", "sanders.0.rate", "sanders.0.delay"} <= set(named)
     assert "brake.track.attraction" not in named
@@ -183,6 +183,50 @@ def test_numbers_of_further_brakes_and_sanders_without_a_range_are_named():
     assert firm.without_range == tuple(named)
     told = list(firmness_sentences(SimpleNamespace(firmness=firm, outcome=firm.nominal)))
     assert f"not varied, as no range is stated: {', '.join(named)}" in told
+
+
+PROFILE = "rail.friction={points: [{position: 0 m, friction: 0.06}, {position: 10 m, friction: %s}]}"
+MOVED = PROFILE.replace("10 m", "{value: 10 m, range: [5 m, 20 m]}")
+
+
+@pytest.mark.parametrize(
+    ("changes", "drawn", "unranged"),
+    [
+        (["rail.friction=0.06"], [], ["rail.friction"]),
+        (["rail.friction={value: 0.06, range: [0.05, 0.09]}"], ["rail.friction"], []),
+        ([PROFILE % "0.07"], [], ["rail.friction"]),
+        ([MOVED % "0.07"], [], ["rail.friction"]),
+        ([PROFILE % "{value: 0.07, range: [0.05, 0.09]}"], ["rail.friction.points.1.friction"], []),
+        (["rail={condition: leaf-layer}"], ["rail.condition.friction"], []),
+        (["rail={condition: dry}"], [], ["rail.condition.friction"]),
+    ],
+)
+def test_friction_scatters_from_draw_to_draw_where_a_range_says_so_and_else_is_named(
+    changes, drawn, unranged
+):
+    case = short_stop(*changes)
+    firm = FirmnessRun(1, effort=Effort(blocks=1, block=2, seeds=1, seeds_at_ends=1)).of_case(case)
+    at_rail = [each.key for each in firm.numbers if each.key.endswith("friction") and "rail." in each.key]
+    assert [key for key in at_rail if "recovered" not in key] == drawn
+    assert list(firm.without_range) == unranged
+    told = list(firmness_sentences(SimpleNamespace(firmness=firm, outcome=firm.nominal)))
+    assert [each for each in told if "no range is stated" in each] == [
+        f"not varied, as no range is stated: {key}" for key in unranged
+    ]
+
+
+def test_draws_of_the_friction_of_the_rail_are_stops_on_other_rails():
+    """On the best rail of the range the wheels do not slide; on the worst they do."""
+    case = short_stop("rail.friction={value: 0.06, range: [0.03, 0.3]}")
+    known = {each.key: each for each in ranged_numbers(case.scenario)}
+    friction = known["rail.friction"].at(np.array([0.0, 1.0]))
+    seeds = listed_column([ParameterValue("1", 1)] * 2)
+    worst, best = VariedCase(case, ["rail.friction"]).results({"rail.friction": friction, "seed": seeds})
+    [stated] = run_cases([short_stop("rail.friction=0.03", "seed=1")]).results
+    # Its noise is that of the case, so that it is not the very same stop.
+    distance = stated.measures["braking_distance_m"]
+    assert worst.measures["braking_distance_m"] == pytest.approx(distance, rel=0.05)
+    assert worst.measures["braking_distance_m"] > 1.5 * best.measures["braking_distance_m"]
 
 
 def test_a_number_of_the_scenario_may_state_a_range_of_its_own():

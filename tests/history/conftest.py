@@ -5,6 +5,7 @@ import pytest
 from uictest import report, runs
 from uictest.core.measures import STOP_COLUMNS
 from uictest.judging import evaluation
+from uictest.plans.scenario import expectation_of
 
 FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan"))
 VERSIONS = {"uictest": "0.1.0", "numpy": "2.0.0"}
@@ -15,7 +16,9 @@ def case(case_id, outcome="pass", distance=470.0, expect="pass"):
     """A judged stop with a vehicle and a controller."""
     measures = FIGURES | {"braking_distance_m": distance}
     file = "scenarios/dry.yaml"
-    return evaluation.CaseResult(case_id, file, {}, expect, outcome, measures=measures, parts=PARTS)
+    return evaluation.CaseResult(
+        case_id, file, {}, expectation_of(expect), outcome, measures=measures, parts=PARTS
+    )
 
 
 @pytest.fixture

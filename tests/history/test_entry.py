@@ -5,6 +5,7 @@ from hypothesis import given, strategies as st
 
 from uictest import report
 from uictest.judging import evaluation
+from uictest.plans.scenario import PASS
 from uictest.runs.history.entry import ENTRY, RunEntry, entry_of, read_entry
 
 from .conftest import case
@@ -41,7 +42,7 @@ def test_counts_and_distances_are_those_of_the_results():
 
 def test_the_subject_is_what_was_run_with_its_controllers():
     files = [f"tests/{name}.yaml" for name in ("slip-120", "dry-120", "slip-120", "low", "wet")]
-    results = [evaluation.CaseResult(str(n), file, {}, "pass", "pass") for n, file in enumerate(files)]
+    results = [evaluation.CaseResult(str(n), file, {}, PASS, "pass") for n, file in enumerate(files)]
     manifest = report.RunManifest(versions={"uictest": "0.1.0"})
     entry = entry_of(report.RunContent("", [*results, case("a")], manifest), 10)
     assert entry.subject == "slip-120, dry-120, low and 2 more"
@@ -76,7 +77,7 @@ def test_what_is_no_entry_is_rejected():
 def test_a_folder_whose_name_is_no_text_has_an_entry_all_the_same():
     """A file name of other bytes than UTF-8 holds lone surrogates, which no JSON file can."""
     baseline = report.BaselineComparison("old-\udcff", "00")
-    results = [evaluation.CaseResult("a", "stop-\udcff.csv", {}, "pass", "pass")]
+    results = [evaluation.CaseResult("a", "stop-\udcff.csv", {}, PASS, "pass")]
     entry = entry_of(report.RunContent("run-\udcff", results, baseline=baseline), 1)
     read = read_entry(entry.model_dump_json(by_alias=True).encode())
     assert (read.run, read.baseline, read.subject) == (r"run-\udcff", r"old-\udcff", r"stop-\udcff")

@@ -165,8 +165,9 @@ from pathlib import Path
 from uictest import report, runs
 from uictest.core import files
 from uictest.judging import evaluation
+from uictest.plans.scenario import PASS
 for n in range(4):
-    result = evaluation.CaseResult(f"case-{sys.argv[1]}-{n}", "s.yaml", {}, "pass", "pass")
+    result = evaluation.CaseResult(f"case-{sys.argv[1]}-{n}", "s.yaml", {}, PASS, "pass")
     manifest = report.RunManifest(command=("uictest", "run", sys.argv[1], str(n)))
     published = runs.publish_run(report.RunContent("", [result], manifest), {}, Path("reports"), ())
     assert published.index_problem == "", published.index_problem

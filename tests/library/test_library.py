@@ -1,6 +1,7 @@
 """The parts that ship: every number with its source, published numbers as published."""
 
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -185,6 +186,22 @@ def test_every_chosen_number_of_the_rig_states_a_plausible_range(reference):
     chosen = [each for each in numbers(load_part(reference)) if each.source.mark == "chosen"]
     without = [each.key for each in chosen if each.quantity.range is None]
     assert [key for key in without if key.rpartition(".")[2] not in WITHOUT_RANGE] == []
+
+
+@pytest.mark.parametrize("reference", REFERENCES)
+def test_the_source_of_a_range_says_which_prior_its_numbers_have(reference):
+    part = load_part(reference)
+    for number in numbers(part):
+        if number.quantity.range is not None:
+            text = part.sources[number.quantity.range[0].source].text.lower()
+            named = set(re.findall(r"(?<![-\w])(?:log-)?uniform\b", text))
+            assert number.quantity.prior in named, (number.key, text)
+
+
+def test_pads_have_the_friction_that_is_asked_of_organic_ones():
+    for name in ("brakes/ep-disc", "brakes/distributor"):
+        [pads] = [each for each in numbers(load_part(name)) if each.key == "disc.pad_friction"]
+        assert [float(end) for end in pads.quantity.range] == [0.35, 0.45]
 
 
 def test_an_unknown_part_is_refused_with_the_nearest():

@@ -32,6 +32,8 @@ DEFINED = {
     "low_speed_cutoff": 30 / 3.6,
     "sliding_below": 0.9,
     "end_speed": 60.0 / 3.6,
+    "nominal_speed": 120.0 / 3.6,
+    "gradient": 0.0,
 }
 NEW = """
 from uictest.core.measures import Measure, MeasureValue, StopColumn
@@ -160,7 +162,8 @@ def test_the_name_of_a_column_ends_with_its_unit_unless_it_is_a_pure_number():
         assert column.unit == "1" or column.name.endswith(f"_{endings.get(column.unit, column.unit.lower())}")
     pure = {column.name for column in columns if column.unit == "1"}
     balances = {"energy_residual", "air_residual", "air_energy_residual"}
-    assert pure == {*balances, "adhesion_utilisation", "maximum_slide", "sliding_share", "valve_actuations"}
+    shares = {"adhesion_utilisation", "distance_over_reference", "maximum_slide", "sliding_share"}
+    assert pure == {*balances, *shares, "valve_actuations"}
 
 
 def test_importing_the_catalogue_imports_no_numpy():

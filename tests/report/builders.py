@@ -5,6 +5,7 @@ import numpy as np
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult, Verdict
+from uictest.plans.scenario import expectation_of
 from uictest.report import RunContent, RunManifest
 
 HOSTILE = "\x1b[31m=cmd|'/c calc'!A1 [bold]x[/bold] <b>&\x00\u202e\n::error::"
@@ -24,7 +25,8 @@ def make_result(**changes):
         "wheelsets": tuple(map(_wheelset, range(1, 5))),
         "duration": 0.25,
     }
-    return CaseResult(**(content | changes))
+    content |= changes
+    return CaseResult(**content | {"expect": expectation_of(content["expect"])})
 
 
 def make_verdict(**changes):
@@ -85,6 +87,7 @@ def _wheelset(n):
 
 _FIGURES = dict.fromkeys(STOP_COLUMNS, float("nan")) | {
     "braking_distance_m": 465.25,
+    "corrected_distance_m": 465.25,
     "braking_time_s": 27.5,
     "mean_deceleration_mps2": 1.195,
     "minimum_deceleration_mps2": 0.9,

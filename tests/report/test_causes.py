@@ -9,7 +9,7 @@ from uictest.report.causes import cause_sentences, fault_words, label_words
 from uictest.report.formats.md import markdown_summary
 from uictest.report.page import page_html
 from uictest.report.part_wording import changed_parameters
-from uictest.report.verdict_sentences import missed_by_text
+from uictest.report.verdict_sentences import explanation, missed_by_text
 
 from .builders import make_content, make_result, make_verdict
 
@@ -70,19 +70,25 @@ def _adhesion(**changes):
 
 
 @pytest.mark.parametrize(
-    ("verdict", "sentence"),
+    ("verdict", "told"),
     [
-        (_adhesion(), "no test: the rail is too good (initial adhesion too high)"),
-        (_adhesion(measure="sliding_share", lower=35.0, upper=None, value=0.0),
-         "no test: too few wheelsets slide, or not for long enough"),
-        (_adhesion(measure="braking_distance", lower=440.0, upper=490.0, value=400.0),
-         "no test: braking distance too low"),
-        (_adhesion(value=None), "no test: initial adhesion out of its limits"),
-        (_adhesion(layer="rig"), "no test: a check of the rig fails (grip)"),
+        (_adhesion(), "grip 0.124 g, upper limit 0.08 g"),
+        (_adhesion(measure="sliding_share", unit="%", lower=35.0, upper=None, value=0.0),
+         "grip 0 % of the time, lower limit 35 %"),
+        (_adhesion(measure="braking_distance", unit="m", lower=440.0, upper=490.0, value=400.0),
+         "grip 400 m, limits 440 .. 490 m"),
+        (_adhesion(value=None), "grip"),
+        (_adhesion(layer="rig"), "grip 0.124 g, upper limit 0.08 g"),
+        (_adhesion(layer="record"), "grip 0.124 g, upper limit 0.08 g"),
     ],
 )  # fmt: skip
-def test_an_invalid_stop_says_why_it_is_no_test(verdict, sentence):
-    assert cause_sentences(make_result(outcome="invalid", criteria=(verdict,))) == [sentence]
+def test_an_invalid_stop_says_by_which_number_it_is_no_test_and_not_whose_fault_it_is(verdict, told):
+    result = make_result(outcome="invalid", criteria=(verdict,))
+    assert cause_sentences(result) == []
+    assert explanation(result)[:2] == [
+        f"invalid: {told}. Expected: pass",
+        "test validity: not valid (grip); requirements: not judged",
+    ]
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from uictest.judging.evaluation import CaseResult, Deviation, DomainOfValidity, Verdict
+from uictest.plans.scenario import PASS
 from uictest.report import deviation_text, domain_lines, notices
 
 SPEED = Deviation("initial_speed", (160 / 3.6, 160 / 3.6), (80 / 3.6, 120 / 3.6), "m/s")
@@ -12,7 +13,7 @@ SPEED = Deviation("initial_speed", (160 / 3.6, 160 / 3.6), (80 / 3.6, 120 / 3.6)
 
 def result(*outside, asked=True):
     domain = DomainOfValidity("my-train", "0" * 64, outside) if asked else None
-    return CaseResult("stop", "stop.yaml", {}, "pass", "pass", domain_of_validity=domain)
+    return CaseResult("stop", "stop.yaml", {}, PASS, "pass", domain_of_validity=domain)
 
 
 @pytest.mark.parametrize(

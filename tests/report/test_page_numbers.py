@@ -69,6 +69,7 @@ def test_a_report_that_draws_no_stop_names_no_instant(finished, tmp_path):
 def _open(browser, finished):
     browser.get((finished / "index.html").as_uri())
     run(browser, "document.querySelector('details.stop').open = true")
+    run(browser, "document.querySelector('details.stop .plots').scrollIntoView()")  # drawn when it comes near
     wait(browser, READY)
 
 

@@ -132,20 +132,20 @@ def test_lines_and_the_terminal_show_how_many_stops_pass():
 def test_markdown_has_a_column_of_stops():
     text = markdown_summary(make_content(make_repeated("ppf", outcome="fail")))
     head, rule, row = (line for line in text.splitlines() if line.startswith("|"))
-    assert head.split(" | ")[3] == "stops"
-    assert row.split(" | ")[3] == "pass 2/3"
+    assert head.split(" | ")[2:6] == ["outcome", "test validity", "requirements", "stops"]
+    assert row.split(" | ")[5] == "pass 2/3"
     assert head.count("|") == rule.count("|") == row.count("|")
 
 
 def test_junit_has_one_testcase_and_says_which_stops():
-    results = [make_repeated("ppf"), make_repeated("pff", id="b", outcome="fail")]
+    results = [make_repeated("ppf", "at_least", 0.6), make_repeated("pff", id="b", outcome="fail")]
     met, failed = ElementTree.fromstring(junit_text(run_suites(results))).iter("testcase")
     assert met.findtext("system-out").startswith("3 stops, seeds 0..2: 2 pass (seeds 0, 1), 1 fail")
     assert "3 stops, seeds 0..2: 1 pass (seed 0), 2 fail" in failed.findtext("failure")
 
 
 def test_github_is_told_of_a_case_that_passes_in_some_stops_only():
-    (notice,) = case_annotations(make_repeated("ppf"))
+    (notice,) = case_annotations(make_repeated("ppf", "at_least", 0.6))
     assert notice.startswith("::notice file=scenarios/dry/120.yaml,title=pass 2/3 dry-120")
     assert list(case_annotations(make_repeated("ppp"))) == []
     (error,) = case_annotations(make_repeated("pff", outcome="fail"))
@@ -153,7 +153,7 @@ def test_github_is_told_of_a_case_that_passes_in_some_stops_only():
 
 
 def test_the_page_has_the_stops_of_each_case():
-    result = make_repeated("ppf")
+    result = make_repeated("ppf", "at_least", 0.6)
     spoiled = replace(result.repeats.stops[2], reason=HOSTILE)
     result = replace(result, repeats=replace(result.repeats, stops=(*result.repeats.stops[:2], spoiled)))
     trace = trace_of(make_recording(), result.drawn_stop.criteria)

@@ -43,9 +43,9 @@ OWN = {"id": "own", "layer": "requirement", "requirements": ("BR-1",)}
         ("not_applicable", "pass", "not applicable"),
         ("not_applicable", "fail", "not applicable"),
         ("pass", "fail", "invalid"),
-        ("fail", "fail", "invalid"),
+        ("fail", "fail", "fail"),
         ("pass", "inconclusive", "inconclusive"),
-        ("fail", "inconclusive", "inconclusive"),
+        ("fail", "inconclusive", "fail"),
         ("pass", "not_applicable", "pass"),
     ],
 )
@@ -53,6 +53,24 @@ def test_a_requirement_of_a_criterion_is_met_only_by_a_stop_that_counts_as_a_tes
     verdicts = (make_verdict(status=validity), make_verdict(**OWN, status=own))
     (evidence,) = _only(make_result(criteria=verdicts)).evidence
     assert (evidence.word, evidence.criteria) == (word, ("own",))
+
+
+@pytest.mark.parametrize(
+    ("validity", "word"),
+    [("pass", "fail"), ("not_applicable", "fail"), ("fail", "invalid"), ("inconclusive", "inconclusive")],
+)
+def test_what_stands_in_a_valid_test_alone_is_missed_in_one_alone(validity, word):
+    own = make_verdict(**OWN, status="fail", in_valid_test=True)
+    (evidence,) = _only(make_result(criteria=(make_verdict(status=validity), own))).evidence
+    assert evidence.word == word
+
+
+@pytest.mark.parametrize("layer", ["rig", "record"])
+@pytest.mark.parametrize("own", ["pass", "fail"])
+def test_figures_that_are_not_those_of_the_test_say_nothing_of_a_requirement(layer, own):
+    check = make_verdict(id="check", layer=layer, status="fail")
+    (evidence,) = _only(make_result(criteria=(check, make_verdict(**OWN, status=own)))).evidence
+    assert evidence.word == "invalid"
 
 
 def test_a_case_that_names_the_requirement_of_its_criterion_counts_once_and_as_a_whole():

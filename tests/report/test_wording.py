@@ -4,17 +4,14 @@ import pytest
 
 from uictest.judging import evaluation
 from uictest.judging.evaluation.result import Outcome
+from uictest.report.case_words import CASE_WORDS, line_word, result_word, tone
 from uictest.report.verdict_sentences import (
-    CASE_WORDS,
     counts_text,
     explanation,
     limits,
-    line_word,
     number,
     quantity,
-    result_word,
     tally,
-    tone,
     value_and_limits,
     verdict_sentence,
 )
@@ -54,6 +51,7 @@ def test_a_skipped_case_tells_why_each_criterion_did_not_apply():
     absent = make_verdict(status="not_applicable", value=None, margin=None, reason="the rail is dry")
     assert explanation(make_result(outcome="skipped", criteria=(absent,))) == [
         "skipped. Expected: pass",
+        "test validity: not judged; requirements: not judged",
         "braking-distance (validity) not applicable: the rail is dry",
     ]
 
@@ -63,6 +61,7 @@ def test_an_inconclusive_case_tells_what_could_not_be_judged():
     undecided = make_verdict(status="inconclusive", **nothing, reason="the record ends after 2 s")
     assert explanation(make_result(outcome="inconclusive", criteria=(make_verdict(), undecided))) == [
         "inconclusive: braking-distance. Expected: pass",
+        "test validity: not judged; requirements: not judged",
         "braking-distance (validity) inconclusive: the record ends after 2 s",
     ]
 
@@ -122,5 +121,6 @@ def test_a_strict_case_names_every_verdict_that_is_not_settled():
     assert tone("unsettled") == "bad"
     assert explanation(strict) == [
         "pass, unsettled. Expected: pass",
+        "test validity: valid; requirements: not judged",
         "minimum-slide (validity) turns: low_speed_cutoff 10 .. 60 km/h: pass 10 .. 30, fail 40 .. 60",
     ]

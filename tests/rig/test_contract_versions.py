@@ -118,6 +118,33 @@ def test_a_reduction_takes_the_brake_of_its_wheelset_within_the_response_and_of_
     assert stop.car.dynamic_dropped == 0.0
 
 
+def test_friction_makes_up_for_what_a_controller_takes_off(stop_of, python):
+    """Dry, from the first cycle on without three of four motors: as a car with the fourth alone."""
+    taken_off = "answer = Outputs([0] * 4, [0] * 4, dynamic_reduction=[1.0, 1.0, 1.0, 0.0])"
+    alone = SCENARIO.replace("{force: 60 kN, power: 1.6 MW}", "{force: 15 kN, power: 0.4 MW, wheelsets: [4]}")
+    stop = run_in_process(assemble(stop_of(python(taken_off))), 20).trace
+    one_motor = run_in_process(assemble(stop_of("threshold", scenario=alone)), 20).trace
+    for seconds in (4.0, 8.0):
+        place = round(seconds / 0.01)
+        assert stop.wheelsets["brake_torque"][place].sum() == pytest.approx(
+            one_motor.wheelsets["brake_torque"][place].sum(), rel=0.01
+        )
+    assert stop.train["demanded_pressure"][400] > 0.6 * one_motor.train["demanded_pressure"].max()
+
+
+def test_a_vented_caliper_comes_back_to_the_force_of_the_others(stop_of, python):
+    """It squeezes anew, so the pressure that holds the force of the others would leave it a loop below."""
+    vented = "answer = Outputs(*[[0, 0, 0, int(500 <= inputs.cycle < 550)]] * 2)"
+    weak = SCENARIO.replace("60 kN, power: 1.6 MW", "24 kN, power: 400 kW")
+    stop = run_in_process(
+        assemble(stop_of(python(vented), "rig: {topology: four-caliper}\n", weak)), 20
+    ).trace
+    friction = stop.wheelsets["brake_torque"] - stop.wheelsets["dynamic_torque"]
+    assert friction[540, 3] < 0.3 * friction[540, 2]
+    assert friction[499, 3] == pytest.approx(friction[499, 2], rel=0.02)
+    assert friction[800, 3] == pytest.approx(friction[800, 2], rel=0.02)
+
+
 def test_what_it_is_given_is_what_the_motor_gives_and_the_load_of_an_axle(stop_of, python):
     shown = (
         "answer.reference_speed = [inputs.dynamic_brake[1], inputs.axle_load, inputs.brake_command,"

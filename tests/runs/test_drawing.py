@@ -5,6 +5,7 @@ import pytest
 
 from uictest.core.recording import Recording
 from uictest.judging.evaluation import CaseResult
+from uictest.plans.scenario import PASS
 from uictest.report import DRAWN
 from uictest.running import campaign
 from uictest.running.campaign import CaseRun, RecordingRequest
@@ -24,7 +25,7 @@ def _cases(count):
 
 
 def _result(case_id, outcome="pass"):
-    return CaseResult(case_id, "a.yaml", {}, "pass", outcome)
+    return CaseResult(case_id, "a.yaml", {}, PASS, outcome)
 
 
 @pytest.fixture

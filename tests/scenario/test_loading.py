@@ -20,7 +20,7 @@ def test_defaults_are_filled_in(loaded, head):
         "thermal",
         "active",
     )
-    assert (scenario.expect, scenario.seed) == ("pass", 0)
+    assert (str(scenario.expect), scenario.seed) == ("pass", 0)
     assert (scenario.simulation.time_step, scenario.simulation.maximum_duration) == (0.0005, 180.0)
     assert scenario.brake.command.source == "default"
     assert scenario.initial_speed.source == "scenario"

@@ -98,7 +98,7 @@ KEYS = [
     ("seed: »'1'", "seed", "expected a whole number", "without quotes"),
     ("rig: {wsp: »activ}", "rig.wsp", "'activ'", "'active'"),
     ("rig: {wsp: »on}", "rig.wsp", "unknown value 'on'", "'active'"),
-    ("expect: »passed", "expect", "pass, fail, invalid", "'pass'"),
+    ("expect: »passed", "expect", "pass, fail, invalid", "`{fail: [locked-wheels]}`"),
     ("brake: {position: »Q}", "brake.position", "'Q'", "G, P, R"),
     ("brake: {position: »r}", "brake.position", "'r'", "'R'"),
     ("seed: »1.5", "seed", "expected a whole number", ""),

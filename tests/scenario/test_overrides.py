@@ -31,9 +31,10 @@ def test_several_values_become_an_axis(loaded, head):
 
 
 def test_an_override_outranks_every_section(loaded, head):
-    sections = "zip: {seed: [1, 2], expect: [pass, fail]}\ninclude: [{seed: 3}, {seed: 4, expect: pass}]\n"
+    commands = "brake.command: [80 %, 90 %]", "brake.command: 80 %"
+    sections = "zip: {{seed: [1, 2], {}}}\ninclude: [{{seed: 3}}, {{seed: 4, {}}}]\n".format(*commands)
     cases = loaded(head + sections + "exclude: [{seed: 1}]\n", "seed=7")
-    assert [case.id for case in cases] == ["stop[expect=pass]", "stop[expect=fail]"]
+    assert [case.id for case in cases] == ["stop[command=80]", "stop[command=90]"]
     assert {case.scenario.seed for case in cases} == {7}
 
 

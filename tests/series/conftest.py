@@ -8,8 +8,9 @@ import pytest
 
 from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.judging import series
-from uictest.judging.evaluation import CaseResult, RepeatedStop, Repeats
+from uictest.judging.evaluation import CaseResult, RepeatedStop, Repeats, Verdict
 from uictest.plans import series as series_plans
+from uictest.plans.scenario import PASS
 
 Write = Callable[[str, str], Path]
 SCENARIO = "schema: uictest/scenario/1\nname: {name}\ninitial_speed: 120 km/h\n{text}"
@@ -50,6 +51,7 @@ def columns(distance, speed_kmh=120.0, **changes):
     """The columns of a stop with this braking distance; its deceleration distance is 60 m shorter."""
     own = {
         "braking_distance_m": distance,
+        "corrected_distance_m": distance,
         "mean_deceleration_mps2": (speed_kmh / 3.6) ** 2 / (2.0 * distance),
         "deceleration_distance_m": distance - 60.0,
     }
@@ -74,7 +76,7 @@ def judge():
                 _stop(seed, each, speed, (outcomes or {}).get(each, "pass"), changes)
                 for seed, each in enumerate(given if isinstance(given, list) else [given])
             ]
-            result = CaseResult(stop.case.id, "x.yaml", {}, "pass", stops[0].outcome, stops[0].reason)
+            result = CaseResult(stop.case.id, "x.yaml", {}, PASS, stops[0].outcome, stops[0].reason)
             result = replace(
                 result,
                 criteria=stops[0].criteria,
@@ -91,4 +93,10 @@ def judge():
 def _stop(seed, distance, speed, outcome, changes):
     wheelsets = (dict.fromkeys(WHEELSET_COLUMNS, 0.0),) * 4
     reason = "" if outcome == "pass" else f"because it is {outcome}"
-    return RepeatedStop(seed, outcome, reason, (), columns(distance, speed, **changes), wheelsets)
+    criteria = (no_test(reason),) if outcome == "invalid" else ()
+    return RepeatedStop(seed, outcome, reason, criteria, columns(distance, speed, **changes), wheelsets)
+
+
+def no_test(reason):
+    """The verdict of a criterion of validity that a stop misses."""
+    return Verdict("slippery", "validity", 0.09, "g", None, 0.08, -0.01, "fail", reason)

@@ -10,7 +10,8 @@ def make_stop():
     """A stop with a braking distance, a deceleration distance 60 m shorter, and whatever else is given."""
 
     def make(distance=460.0, *, passed=True, locked=0.0, **columns):
-        measures = {"braking_distance_m": distance, "deceleration_distance_m": distance - 60.0} | columns
+        own = {"braking_distance_m": distance, "corrected_distance_m": distance}
+        measures = own | {"deceleration_distance_m": distance - 60.0} | columns
         wheelsets = tuple({"locked_time_s": time} for time in (0.0, locked, 0.0, 0.0))
         return CountedStop(measures, wheelsets, passed)
 

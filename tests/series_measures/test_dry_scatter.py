@@ -11,13 +11,15 @@ from uictest.core.series_measures import SERIES_MEASURES, CountedStop, SpeedStop
 DRY = 400.0
 """m, the mean that dry stops are drawn about."""
 
+_DISTANCES = ("deceleration_distance_m", "corrected_distance_m", "braking_distance_m")
+
 
 def drawn(draw, dry, wet, dry_scatter, wet_scatter, ratio):
     """Return the stops of one campaign: normal draws, the scatter in % of each mean."""
 
     def stops(count, mean, scatter):
         return tuple(
-            CountedStop({"deceleration_distance_m": own, "braking_distance_m": own}, (), passed=True)
+            CountedStop(dict.fromkeys(_DISTANCES, own), (), passed=True)
             for own in draw.normal(mean, mean * scatter / 100.0, count)
         )
 
@@ -119,7 +121,10 @@ def test_a_share_of_what_is_not_above_zero_is_none(dry):
 
 def test_k_wet_of_no_distance_is_none():
     def stops(values):
-        return tuple(CountedStop({"deceleration_distance_m": own}, (), passed=True) for own in values)
+        of_all = dict.fromkeys(_DISTANCES, 500.0)
+        return tuple(
+            CountedStop(of_all | {"deceleration_distance_m": own}, (), passed=True) for own in values
+        )
 
     def of(wet):
         return SERIES_MEASURES["k_wet"].of_speed(SpeedStops(30.0, stops((400.0, 410.0)), stops(wet)), 0.95)

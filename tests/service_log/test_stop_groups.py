@@ -16,6 +16,7 @@ from uictest.analysis.logged_stops.stop_groups import (
 )
 from uictest.analysis.logged_stops.wet_stops import extensions, series_table, wet_series
 from uictest.judging.evaluation import CaseResult
+from uictest.plans.scenario import PASS
 
 KMH = 1.0 / 3.6
 CASE, *_ = uictest.load(logs.SCENARIO)
@@ -23,7 +24,7 @@ CASE, *_ = uictest.load(logs.SCENARIO)
 
 def stop(number, speed, distance, *, dry=True):
     measures = {"braking_distance_m": distance}
-    result = CaseResult(f"stop-{number:04d}", "s.yaml", {}, "pass", "pass", measures=measures)
+    result = CaseResult(f"stop-{number:04d}", "s.yaml", {}, PASS, "pass", measures=measures)
     return LoggedStop(result, speed, dry, CASE)
 
 

@@ -248,3 +248,39 @@ def test_a_request_of_version_2_brings_the_track_brake_where_the_scenario_says_s
         rig.step(track_brake_request=1)
     assert rig.recording()["track_brake_force"].max() > 40e3
     assert rig.result().measures["track_brake_energy_kj"] > 0.0
+
+
+JUDGED = "criteria: [uictest-stop]\n"
+LOCKING = f"{JUDGED}expect: {{fail: [locked-wheels, total-locked-time, distance-over-reference]}}\n"
+
+
+def test_a_controller_in_python_is_allowed_what_the_scenario_names_and_nothing_that_it_does_not(
+    write_scenario, controller_outside
+):
+    named = write_scenario(f"{JUDGED}expect: {{fail: [locked-wheels]}}\n")
+    result = drive(uictest.Rig(named), controller_outside(load([named])[0]))
+    assert (result.outcome, result.met, str(result.expect)) == ("pass", True, "pass or fail (locked-wheels)")
+    # Of the scenario's own controller it would be an unexpected pass.
+    assert not replace(result, expect=load([named])[0].scenario.expect).met
+    unnamed = write_scenario(f"{JUDGED}expect: fail\n")
+    result = drive(uictest.Rig(unnamed), controller_outside(load([unnamed])[0]))
+    assert (result.met, str(result.expect)) == (True, "pass")
+
+
+def test_what_a_controller_in_python_misses_within_the_names_is_allowed_and_listed(write_scenario):
+    result = drive(uictest.Rig(write_scenario(LOCKING)), _Filling())
+    assert (result.outcome, result.met) == ("fail", True)
+    assert "locked-wheels" in [each.id for each in result.allowed]
+    assert not replace(result, strict=True).met
+    beyond = LOCKING.replace("locked-wheels, ", "")
+    result = drive(uictest.Rig(write_scenario(beyond)), _Filling())
+    assert (result.outcome, result.met, result.allowed) == ("fail", False, ())
+
+
+class _Filling:
+    """A controller that never releases a brake."""
+
+    reference_speed = 0.0
+
+    def magnets(self, wheel_speed):
+        return [0] * len(wheel_speed), [0] * len(wheel_speed)

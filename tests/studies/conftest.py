@@ -8,6 +8,7 @@ from studies.quantity import OwnBand, SourceBand, StudyQuantity, StudyValue
 from studies.stop_runner import StopRunner
 from studies.study import STUDIES, Study, StudyFindings, StudyResult, run_study
 from uictest import CaseResult
+from uictest.plans.scenario import PASS
 
 
 @pytest.fixture(scope="session")
@@ -28,7 +29,7 @@ def stop():
     def make(*vents, **measures):
         wheelsets = tuple({"valve_actuations": count, "maximum_slide": 0.0} for count in vents)
         known = {"braking_distance_m": 0.0, "braking_time_s": 0.0, "air_consumed_nl": 0.0, **measures}
-        return CaseResult("stop", "", {}, "pass", "pass", measures=known, wheelsets=wheelsets)
+        return CaseResult("stop", "", {}, PASS, "pass", measures=known, wheelsets=wheelsets)
 
     return make
 

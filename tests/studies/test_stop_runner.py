@@ -7,7 +7,7 @@ import uictest
 from studies import stop_runner
 from studies.stop_runner import StopRunner, seeded
 from uictest import CaseResult
-from uictest.plans.scenario import load
+from uictest.plans.scenario import PASS, load
 
 SHIPPED = Path(__file__).parents[2] / "scenarios"
 
@@ -45,7 +45,7 @@ def test_cases_of_the_same_id_are_different_stops(runs):
 
 
 def test_a_stop_that_fails_is_no_result(monkeypatch):
-    failed = CaseResult("slide-80", "", {}, "pass", "error", "the controller failed")
+    failed = CaseResult("slide-80", "", {}, PASS, "error", "the controller failed")
     monkeypatch.setattr(uictest, "run", lambda cases, **_: [failed])
     bench = StopRunner()
     with pytest.raises(RuntimeError, match="slide-80: the controller failed"):

@@ -86,6 +86,7 @@ def formula(parameters, wheelset_parameters, rail):
     measures["initial_speed"], measures["stopped"] = speed, 1.0
     measures["braking_time"] = measures["end_time"] = speed / (9.81 * friction)
     measures["braking_distance"] = measures["end_distance"] = speed**2 / (2.0 * 9.81 * friction)
+    measures["reference_distance"] = measures["braking_distance"]  # it uses all of its rail
     for name in (
         "build_up_time",  # the brake is there at once
         "build_up_distance",

@@ -4,6 +4,7 @@ import pytest
 
 from uictest.analysis.validation import ComparedStop, figures_of
 from uictest.judging.evaluation import CaseResult
+from uictest.plans.scenario import PASS
 
 
 @pytest.mark.parametrize(
@@ -18,6 +19,6 @@ def test_a_stop_counts_that_can_be_compared_and_that_nothing_was_tuned_with(tune
 def test_figures_of_wheelsets_are_numbered_from_1_which_leads():
     measures, slides = {"braking_distance_m": 470.0}, {n: 0.1 * n for n in (1, 2, 3, 4)}
     wheelsets = tuple({"maximum_slide": share} for share in slides.values())
-    result = CaseResult("a", "a.yaml", {}, "pass", "pass", measures=measures, wheelsets=wheelsets)
+    result = CaseResult("a", "a.yaml", {}, PASS, "pass", measures=measures, wheelsets=wheelsets)
     assert figures_of(result) == measures | {f"maximum_slide_{n}": share for n, share in slides.items()}
-    assert figures_of(CaseResult("a", "a.yaml", {}, "pass", "error")) == {}
+    assert figures_of(CaseResult("a", "a.yaml", {}, PASS, "error")) == {}

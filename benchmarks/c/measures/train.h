@@ -25,7 +25,8 @@ static inline void begin_measures(Measures *m, double time, double distance, dou
     m->line_saturation = 0.0;
     m->saturation_time = NAN;
     m->samples = 1.0;
-    m->fault_time = m->reference_excess = m->track_brake_energy = m->track_brake_time = m->track_brake_time_beside = NAN;
+    m->fault_time = m->reference_excess = m->reference_distance = NAN;
+    m->track_brake_energy = m->track_brake_time = m->track_brake_time_beside = NAN;
     m->has_diagnosis = 0.0;
 }
 

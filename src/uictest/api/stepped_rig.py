@@ -133,6 +133,10 @@ class SteppedRig(Generic[_Stop]):
         """What results and recordings state of the seed, where it is not the scenario's."""
         return {} if self._seed is None else {"seed": str(self._seed)}
 
+    def _seeded(self, case: scenario.Case) -> scenario.Case:
+        """Return a case with the seed that its stop was begun with."""
+        return case if self._seed is None else case.with_values(seed=self._seed)
+
     def _stated(self, result: evaluation.CaseResult, noise_key: str) -> evaluation.CaseResult:
         """Return a result that names the contract and the noise of its stop."""
         parameters = {**result.parameters, **self._given_seed}

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Final
 
+from uictest import rig
 from uictest.api.stepped_rig import (
     RigState,
     SteppedRig,
@@ -20,6 +21,7 @@ from uictest.core.recording import Recording
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.rig import SteppedStop, assemble, bench, noise_key_text
+from uictest.running import campaign
 
 Magnets = Sequence[bool | int]
 _NOT_ENERGISED: Final = (0, 0, 0, 0)
@@ -68,7 +70,7 @@ class Rig(SteppedRig[SteppedStop]):
         chosen = cases[0] if only_trains else scenario.chosen_case(cases, case)
         if chosen.train is not None:
             raise ValueError(f"{chosen.id} is {chosen.train.label}: step its train with uictest.TrainRig")
-        self.case = bench.identified(chosen)
+        self.case = bench.identified(chosen.changed(scenario.with_another_controller))
         self._noise_key = ""
 
     @property
@@ -85,7 +87,7 @@ class Rig(SteppedRig[SteppedStop]):
 
         Raises ValueError for another seed. The first call on a machine compiles the rig (about 15 s).
         """
-        inputs = assemble(self.case)
+        self._inputs = inputs = assemble(self.case)
         self._noise_key = noise_key_text(inputs.parameters)
         self._stop = SteppedStop(inputs, self._begin(inputs.parameters, seed))
         return read_inputs(self._stop.inputs)
@@ -135,8 +137,10 @@ class Rig(SteppedRig[SteppedStop]):
     def result(self) -> evaluation.CaseResult:
         """Return the judged result of the stop, as `uictest run` judges it; RuntimeError before its end."""
         finished = self._ended().finished()
-        result = evaluation.evaluate_simulated(self.case, finished.measures, finished.wheelset_measures)
-        return self._stated(result, self._noise_key)
+        measures = rig.measures_with_reference(finished.measures, self._inputs)
+        result = evaluation.evaluate_simulated(self.case, measures, finished.wheelset_measures)
+        [whole] = campaign.with_rails([self._seeded(self.case)], [self._stated(result, self._noise_key)])
+        return whole
 
     def recording(self) -> Recording:
         """Return the recording of the stop; RuntimeError before its end or without `record`."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from uictest.api.stepped_rig import RigState, SteppedRig, loaded, reject_failure, state_of, write_commands
 from uictest.controllers import Inputs, Outputs, read_inputs
@@ -12,13 +13,17 @@ from uictest.core.recording import Recording
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.rig import (
+    FinishedStop,
     SteppedTrain,
+    assemble,
     assemble_train,
     bench,
     coupling_of,
+    measures_with_reference,
     noise_key_text,
     peaks_beside,
 )
+from uictest.running import campaign
 
 
 class TrainRig(SteppedRig[SteppedTrain]):
@@ -59,7 +64,7 @@ class TrainRig(SteppedRig[SteppedTrain]):
         """
         super().__init__(record, contract)
         cars = scenario.chosen_train(loaded(path, trust), case)
-        self.cases = tuple(bench.identified(car) for car in cars)
+        self.cases = tuple(bench.identified(car.changed(scenario.with_another_controller)) for car in cars)
         self._noise_keys: tuple[str, ...] = ()
 
     @property
@@ -120,15 +125,22 @@ class TrainRig(SteppedRig[SteppedTrain]):
             *(self.cases, stop.finished(), peaks_beside(stop.memory["couplers"]), self._noise_keys),
             strict=True,
         )
-        return tuple(
+        results = [
             self._stated(
                 evaluation.evaluate_simulated(
-                    car, finished.measures, finished.wheelset_measures, couplers=couplers
+                    car, self._measures(car, finished), finished.wheelset_measures, couplers=couplers
                 ),
                 noise_key,
             )
             for car, finished, couplers, noise_key in each_car
-        )
+        ]
+        return tuple(campaign.with_rails([self._seeded(car) for car in self.cases], results))
+
+    def _measures(self, car: scenario.Case, finished: FinishedStop) -> Any:
+        """Return the measures of a car, which has a reference where it is a car alone."""
+        if car.train is not None:
+            return finished.measures
+        return measures_with_reference(finished.measures, assemble(self._seeded(car)))
 
     def recording(self) -> tuple[Recording, ...]:
         """Return the recording of each car; RuntimeError before the end of the stop or without `record`."""

@@ -85,7 +85,7 @@ def _description(case: scenario.Case) -> dict[str, Any]:
         "scenario": case.path.as_posix(),
         "title": case.scenario.title,
         "tags": list(case.scenario.tags),
-        "expect": case.scenario.expect,
+        "expect": case.scenario.expect.form(),
         "parameters": dict(case.parameters),
     }
 
@@ -120,7 +120,7 @@ def _description_of_series(each: series.Series) -> dict[str, object]:
         "series": each.path.as_posix(),
         "title": each.file.title,
         "tags": list(each.file.tags),
-        "expect": each.file.expect,
+        "expect": each.file.expect.form(),
         "parameters": dict(each.parameters),
         "stops": [
             {"role": stop.role, "id": stop.case.id, "repeat": stop.case.scenario.repeat}

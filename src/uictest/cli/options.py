@@ -140,10 +140,12 @@ Strict = Annotated[
     bool,
     option(
         "--strict",
-        "Exit 1 also where a criterion that applies is inconclusive, or a verdict turns within the range"
-        " of a definition, or --firm does not show the outcome to be firm.",
+        "Exit 1 also where a criterion that applies is inconclusive, a verdict turns within the range of a"
+        " definition, what is missed is allowed only or not named by `expect`, or --firm does not show the"
+        " outcome to be firm; 4 where a train is implausible.",
     ),
 ]
+StrictCheck = Annotated[bool, option("--strict", "Take an implausible train for an error.")]
 Firm = Annotated[
     bool,
     option(

@@ -7,11 +7,12 @@ import io
 import os
 import shutil
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from enum import IntEnum
 from typing import TextIO
 
 from uictest import runs
+from uictest.plans.scenario import Diagnostic
 from uictest.report import printable
 
 
@@ -90,6 +91,12 @@ def message(text: str) -> None:
     with contextlib.suppress(OSError):
         sys.stderr.write("".join(f"{printable(line)}\n" for line in text.split("\n")))
         sys.stderr.flush()
+
+
+def warn_of_implausible(diagnostics: Iterable[Diagnostic]) -> None:
+    """Write what of trains is implausible to stderr."""
+    for each in diagnostics:
+        message(str(each._replace(message=f"warning: {each.message}")))
 
 
 def use_safe_encoding() -> None:

@@ -50,7 +50,7 @@ class Lines(Display):
 
     def show(self, result: evaluation.CaseResult, differences: Sequence[report.Difference]) -> None:
         """Show one result."""
-        if self.quiet and result.met and not differences:
+        if self.quiet and result.met and not result.allowed and not differences:
             return
         self._show(report.case_word(result, differences), report.case_line(result, differences))
         if self.verbose:
@@ -128,7 +128,7 @@ class VerdictTable(Display):
             if not_shown:
                 console.print(not_shown, markup=False, style="dim")
         for result in shown:
-            if self.verbose or not content.passes(result):
+            if self.verbose or not content.passes(result) or result.outcome in report.EXPLAINED:
                 console.print(report.explanation_text(content, result, every_criterion=self.verbose))
             # The explanation of a case that is not met for it has said how firm it is.
             told = result.lacks_firmness and not self.verbose
@@ -166,7 +166,12 @@ def chosen_display(shown: Format, *, quiet: bool, verbose: bool) -> Display:
 
 
 def _shown(content: report.RunContent, *, quiet: bool) -> list[evaluation.CaseResult]:
-    return [result for result in content.results if not (quiet and content.passes(result))]
+    return [result for result in content.results if not quiet or _says_something(content, result)]
+
+
+def _says_something(content: report.RunContent, result: evaluation.CaseResult) -> bool:
+    """Return whether a case is shown with --quiet: it is not as expected, or misses what is only allowed."""
+    return bool(result.allowed) or not content.passes(result)
 
 
 def publish_and_show(

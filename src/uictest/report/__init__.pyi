@@ -5,6 +5,14 @@ from .campaign import (
     CampaignTable as CampaignTable,
 )
 from .case_table import measure_columns as measure_columns
+from .case_words import (
+    CASE_WORDS as CASE_WORDS,
+    DIFFERS as DIFFERS,
+    EXPLAINED as EXPLAINED,
+    line_word as line_word,
+    result_word as result_word,
+    tone as tone,
+)
 from .close_calls import close_lines as close_lines
 from .content import (
     DRAWN as DRAWN,
@@ -95,6 +103,7 @@ from .series.series_sentences import (
     series_word as series_word,
 )
 from .series.tables import series_table as series_table
+from .suggested_expectations import expectation_lines as expectation_lines
 from .sweep import LARGEST_CSV as LARGEST_CSV, every_case as every_case
 from .sweep.folder import (
     SWEEP_RESULTS as SWEEP_RESULTS,
@@ -190,13 +199,8 @@ from .traces.trace import (
     trace_of_stop as trace_of_stop,
 )
 from .verdict_sentences import (
-    CASE_WORDS as CASE_WORDS,
-    DIFFERS as DIFFERS,
     counts_text as counts_text,
-    line_word as line_word,
     listed as listed,
     number as number,
-    result_word as result_word,
     tally as tally,
-    tone as tone,
 )

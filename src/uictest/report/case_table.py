@@ -10,11 +10,11 @@ from typing import Any, Final
 from uictest.core import measures
 from uictest.core.document import Column, Table
 from uictest.judging import evaluation
+from uictest.report.case_words import tone
 from uictest.report.content import RunContent
 from uictest.report.part_wording import changes_of, slide_speed
 from uictest.report.repeat_wording import stops_text
 from uictest.report.train_wording import train_text
-from uictest.report.verdict_sentences import tone
 
 Stop = evaluation.CaseResult | evaluation.RepeatedStop
 FAILING: Final = 1
@@ -28,10 +28,11 @@ def measure_columns(
 
     Those of the names in `failing` are left out last.
     """
+    results = list(results)
     speed = slide_speed(results)
     columns: list[Column[Stop]] = []
     for each in (*measures.STOP_COLUMNS.values(), *measures.WHEELSET_COLUMNS.values()):
-        if (shown := each.overview) is not None:
+        if (shown := each.overview) is not None and not _repeats(each.name, shown.unlike, results):
             heading, digits = shown.heading, shown.digits
             if terminal:
                 heading = shown.short or heading
@@ -42,6 +43,12 @@ def measure_columns(
     return columns
 
 
+def _repeats(name: str, other: str, results: Iterable[Stop]) -> bool:
+    """Return whether a column of stops says the same as another one in every case."""
+    measures_of = [result.measures for result in results if other and result.measures]
+    return bool(other) and all(repr(each.get(name)) == repr(each.get(other)) for each in measures_of)
+
+
 def _text(column: measures.Column, digits: int, missing: str, stop: Stop) -> str:
     """Return a measure of a stop, or the largest of its wheelsets."""
     if isinstance(column, measures.StopColumn):
@@ -49,6 +56,10 @@ def _text(column: measures.Column, digits: int, missing: str, stop: Stop) -> str
     else:
         value = max((wheelset[column.name] for wheelset in stop.wheelsets), default=None)
     return missing if value is None or math.isnan(value) else column.text(value, digits)
+
+
+def _words(status: str) -> str:
+    return status.replace("_", " ")
 
 
 def cases_table(content: RunContent) -> Table:
@@ -64,6 +75,8 @@ def cases_table(content: RunContent) -> Table:
         Column(heading="verdict", text=content.word, tone=lambda result: tone(content.word(result))),
         Column(heading="case", text=lambda result: result.id, literal=True),
         Column(heading="outcome", text=outcome),
+        Column(heading="test validity", text=lambda result: _words(result.test_validity)),
+        Column(heading="requirements", text=lambda result: _words(result.requirement_status)),
         Column(heading="stops", text=stops_text),
         *measure_columns(content.results),
         Column(heading="train", text=train_text),

@@ -10,22 +10,40 @@ from uictest.judging import evaluation
 from uictest.plans.faults import FAULT_KINDS
 from uictest.report.escaping import printable
 
-_ABOVE: Final = {"initial_adhesion": "the rail is too good (initial adhesion too high)"}
-_BELOW: Final = {
-    "sliding_share": "too few wheelsets slide, or not for long enough",
-    "sliding_share_of_wheelsets": "the wheelsets do not slide for long enough",
-    "maximum_slide_above_cutoff": "the wheelsets do not slide deep enough",
-    "standstill": "the train does not come to a standstill",
-}
-"""What it means that a value is above, or below, its bounds, where that says more than `too high`."""
 _BYPASSED: Final = "WSP bypassed: the controller did not act, the stop says nothing about it"
 
 
 def cause_sentences(result: evaluation.CaseResult) -> list[str]:
-    """Return what was done to a stop that explains its outcome, and why an invalid one is no test."""
+    """Return what was done to a stop that explains its outcome."""
     bypassed = [_BYPASSED] if is_bypassed(result.parts) else []
     parameters = [each for part in result.parts.values() for each in part.parameters]
-    return [*fault_sentences(parameters), *bypassed, *_why_no_test(result)]
+    return [*fault_sentences(parameters), *bypassed, *rail_sentences(result)]
+
+
+def rail_sentences(result: evaluation.CaseResult) -> Iterator[str]:
+    """Yield why a stop is no test by what its WSP made of it, and what the rail itself is."""
+    if (rail := result.rail) is None:
+        return
+    own = [each for each in result.criteria if each.layer == "validity" and each.status == "fail"]
+    of_rail = [_valued(each) for each in rail.criteria if each.value is not None]
+    locks = ["wheels lock"] if rail.wheels_lock else []
+    decides = ", which decides" if rail.decides else ""
+    validity = rail.test_validity.replace("_", " ")
+    by_itself = (
+        f"does not count as a test by the stop itself: {', '.join(map(_valued, own))}; " if own else ""
+    )
+    yield printable(
+        f"{by_itself}the rail itself (WSP bypassed{decides}) is {validity}: {', '.join([*of_rail, *locks])};"
+        f" friction as found {rail.friction}"
+    )
+
+
+def _valued(verdict: evaluation.Verdict) -> str:
+    """Return the value of a criterion with its limit: `initial-adhesion 0.0851 g (< 0.08)`."""
+    value = "-" if verdict.value is None else f"{verdict.value:.3g} {verdict.unit}"
+    limit = verdict.upper if verdict.lower is None else verdict.lower
+    sign = "<" if verdict.lower is None else ">"
+    return f"{verdict.id} {value}{'' if limit is None else f' ({sign} {limit:g})'}"
 
 
 def is_bypassed(parts: Mapping[str, evaluation.EffectivePart]) -> bool:
@@ -52,26 +70,6 @@ def fault_sentences(
             f" {word} {fault[key]}" for word, key in (("from", "at"), ("until", "until")) if fault.get(key)
         ]
         yield printable(f"injected fault: {words}{''.join(span)}")
-
-
-def _why_no_test(result: evaluation.CaseResult) -> Iterator[str]:
-    """Yield why a stop does not count as a test; nothing where it does."""
-    outcome, deciding = evaluation.deciding_verdicts(result.criteria)
-    if result.outcome != "invalid" or outcome != "invalid":
-        return
-    reasons = [_out_of_bounds(each) for each in deciding if each.layer == "validity"]
-    if wrong := [each.id for each in deciding if each.layer == "rig"]:
-        reasons.insert(0, f"a check of the rig fails ({', '.join(wrong)})")
-    yield printable(f"no test: {'; '.join(reasons)}")
-
-
-def _out_of_bounds(verdict: evaluation.Verdict) -> str:
-    name = verdict.measure.replace("_", " ") or verdict.id
-    if verdict.value is None or verdict.over_stops is not None:
-        return f"{name} out of its limits"
-    if verdict.upper is not None and verdict.value >= verdict.upper:
-        return _ABOVE.get(verdict.measure, f"{name} too high")
-    return _BELOW.get(verdict.measure, f"{name} too low")
 
 
 def fault_words(part: str, kind: str, wheelset: str = "", value: str = "") -> str:

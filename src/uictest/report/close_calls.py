@@ -67,7 +67,7 @@ def close_calls(
     for result in results:
         judged = ("pass", "fail") if result.met else ("pass",)
         for verdict in result.criteria:
-            if verdict.layer == "rig" or verdict.status not in judged:
+            if verdict.is_check or verdict.status not in judged:
                 continue
             share = evaluation.relative_margin(verdict)
             if not verdict.steady:

@@ -146,6 +146,11 @@ class RunContent:
         return {name: each.text for name, each in taken.items() if each is not None}
 
     @property
+    def allows_something(self) -> bool:
+        """Whether a case misses what it may, by name, under another controller than its own."""
+        return any(result.allowed for result in self.results)
+
+    @property
     def tally(self) -> str:
         """The counts of the run."""
         of_cases = [run_tally(self.results, self.baseline)] if self.results or not self.series else []

@@ -11,19 +11,11 @@ from typing import Final
 from uictest.core import measures
 from uictest.core.document import Column, Table, Tone
 from uictest.judging import evaluation
+from uictest.report.case_words import DIFFERS, result_word, tone
 from uictest.report.counts import counted
 from uictest.report.escaping import printable
 from uictest.report.traces.quantities import WHEELSETS
-from uictest.report.verdict_sentences import (
-    DIFFERS,
-    explanation,
-    listed,
-    number,
-    quantity,
-    result_word,
-    tally,
-    tone,
-)
+from uictest.report.verdict_sentences import explanation, listed, number, quantity, tally
 
 CELSIUS: Final = "degC"
 _LARGEST_PERCENT: Final = 1000

@@ -110,10 +110,11 @@ def turn_text(turn: Turn) -> str:
 
 
 def _remarks(firmness: Firmness) -> Iterator[str]:
+    no_test = firmness.draws - firmness.infeasible - firmness.counted
     left_out = [
-        f"{firmness.outcomes[outcome]} {words}"
-        for outcome, words in (("invalid", "are no test"), ("error", "do not fit together"))
-        if firmness.outcomes.get(outcome) and firmness.nominal != outcome
+        f"{count} {words}"
+        for count, words in ((no_test, "are no test"), (firmness.infeasible, "do not fit together"))
+        if count and firmness.nominal != "error"
     ]
     if left_out:
         yield f"of {firmness.draws} draws {', '.join(left_out)}: they do not count"
@@ -157,13 +158,14 @@ _COLUMNS: Final[Sequence[Column[_Row]]] = (
     Column(heading="number", text=lambda row: row.number.key, literal=True),
     Column(heading="value", text=lambda row: row.number.value, right=True),
     Column(heading="range", text=lambda row: f"{row.number.lowest} .. {row.number.highest}", rank=3),
+    Column(heading="prior", text=lambda row: row.number.prior, rank=3),
     Column(heading="turns", text=lambda row: row.turned, tone=lambda row: "bad" if row.turned else None),
     Column(heading="criterion", text=lambda row: row.criterion.criterion),
     Column(heading="margin\n%", text=lambda row: _share(row.criterion.margin), right=True),
     Column(heading="at lowest\n%", text=lambda row: _share(_ends(row)[0]), right=True),
     Column(heading="at highest\n%", text=lambda row: _share(_ends(row)[1]), right=True),
     Column(heading="mark", text=lambda row: row.number.mark, rank=4),
-    Column(heading="why this range", text=lambda row: row.number.reason, rank=5, wraps=True),
+    Column(heading="why this range and prior", text=lambda row: row.number.reason, rank=5, wraps=True),
 )
 
 
@@ -178,6 +180,7 @@ def firmness_rows(name: str, firmness: Firmness) -> Iterator[dict[str, Cell]]:
                 "value": number.value,
                 "lowest": number.lowest,
                 "highest": number.highest,
+                "prior": number.prior,
                 "mark": number.mark,
                 "criterion": verdict.criterion,
                 "margin": verdict.margin,

@@ -9,6 +9,7 @@ from typing import Literal
 
 from uictest.core import files
 from uictest.judging import evaluation
+from uictest.report.case_words import DIFFERS
 from uictest.report.difference import (
     BaselineComparison,
     Difference,
@@ -19,7 +20,6 @@ from uictest.report.difference import (
 from uictest.report.escaping import workflow_message, workflow_property
 from uictest.report.part_wording import changes_line
 from uictest.report.repeat_wording import repeat_sentences, stops_text
-from uictest.report.verdict_sentences import DIFFERS
 
 LIMIT = 1_000_000
 """Bytes of a summary at most: GitHub refuses a step's summary above 1 MiB."""
@@ -30,12 +30,15 @@ _ALWAYS = 2_000  # bytes that a summary may have where others have filled the fi
 def case_annotations(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> Iterator[str]:
     """Yield an `::error` command for a case that misses its expectation or differs from the baseline.
 
-    A case that is as expected while some of its stops are not has a `::notice`.
+    A case that uses an allowance, or that is as expected while some of its stops are not, has a `::notice`.
     """
     if differences or not result.met:
         title = f"{case_word(result, differences)} {result.id}"
         lines = (*case_explanation(result, differences), *changes_line(result))
         yield annotation(result.scenario, title, "\n".join(lines))
+    elif result.allowed:
+        title = f"{case_word(result, differences)} {result.id}"
+        yield annotation(result.scenario, title, "\n".join(case_explanation(result, ())), level="notice")
     elif result.repeats is not None and result.repeats.turns:
         title = f"{stops_text(result)} {result.id}"
         yield annotation(result.scenario, title, "\n".join(repeat_sentences(result)), level="notice")

@@ -32,7 +32,11 @@ def stops_text(result: evaluation.CaseResult) -> str:
         return ""
     if repeats.none_judged:
         return f"skipped {len(repeats.stops)}"
-    return f"{result.expect} {repeats.as_expected(result.expect)}/{len(repeats.stops)}"
+    return f"{_expected(result)} {repeats.as_expected(result.expect)}/{len(repeats.stops)}"
+
+
+def _expected(result: evaluation.CaseResult) -> str:
+    return "as expected" if result.expect.is_allowance else result.expect.outcome
 
 
 def repeat_sentences(result: evaluation.CaseResult) -> Iterator[str]:
@@ -48,7 +52,7 @@ def repeat_sentences(result: evaluation.CaseResult) -> Iterator[str]:
         return
     interval = statistics.proportion_interval(expected, stops)
     low, high = (f"{100 * end:.3g}" for end in interval)
-    share = f"{result.expect} {100 * expected / stops:.3g} % ({low} .. {high} % with 95 % confidence)"
+    share = f"{_expected(result)} {100 * expected / stops:.3g} % ({low} .. {high} % with 95 % confidence)"
     yield f"{stops} stops, seeds {first}..{last}: {outcomes}; {share}; rule: {rule_text(repeats)}"
     yield from _support(repeats, interval)
 
@@ -159,6 +163,8 @@ def stop_rows(results: Iterable[evaluation.CaseResult]) -> Iterator[dict[str, Ce
     for result in results:
         for stop in result.repeats.stops if result.repeats else ():
             own: dict[str, Cell] = {"id": result.id, "seed": stop.seed, "outcome": stop.outcome}
+            own["test_validity"] = evaluation.validity_of(stop.criteria)
+            own["requirement_status"] = evaluation.requirements_of(stop.criteria)
             wheelsets = {
                 f"{name}_{position}": value
                 for position, wheelset in enumerate(stop.wheelsets, start=1)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal, NamedTuple
 from uictest.core.document import Cell, Tone
 from uictest.judging import evaluation
 from uictest.plans import scenario
-from uictest.report.verdict_sentences import outcome_word
+from uictest.report.case_words import outcome_word
 
 if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult
@@ -121,14 +121,14 @@ def requirement_rows(requirements: Iterable[VerifiedRequirement]) -> Iterator[di
 def _verdicts(result: evaluation.CaseResult | SeriesResult) -> list[evaluation.Verdict]:
     if not isinstance(result, evaluation.CaseResult):
         return [each.verdict for each in result.criteria]
-    return list(result.criteria)
+    return list(result.decided)
 
 
 def _evidence(result: evaluation.CaseResult | SeriesResult) -> Iterator[tuple[str, Evidence]]:
     kind: Literal["case", "series"] = "case" if isinstance(result, evaluation.CaseResult) else "series"
     for requirement in result.requirements:
         yield requirement, Evidence(kind, result.id, outcome_word(result.outcome, met=result.met))
-    if result.expect != "pass":
+    if result.expect.outcome != "pass":
         return  # what must not pass shows that its criteria can fail, not that a requirement is met
     verdicts = _verdicts(result)
     own: dict[str, list[evaluation.Verdict]] = {}
@@ -142,16 +142,19 @@ def _evidence(result: evaluation.CaseResult | SeriesResult) -> Iterator[tuple[st
 
 
 def _word(own: list[evaluation.Verdict], verdicts: Iterable[evaluation.Verdict]) -> str:
-    """Return what the criteria of one requirement say; what is no test says nothing good or bad."""
+    """Return what the criteria of one requirement say; what is no test shows nothing met."""
     of_validity = {
         verdict.status
         for verdict in verdicts
         if verdict not in own
-        and (verdict.layer == "validity" or (verdict.layer == "rig" and verdict.status == "fail"))
+        and (verdict.layer == "validity" or (verdict.is_check and verdict.status == "fail"))
     }
     statuses = {verdict.status for verdict in own} - {"not_applicable"}
     if not statuses:
         return NOT_APPLICABLE
+    stands = any(verdict.status == "fail" and not verdict.in_valid_test for verdict in own)
+    if stands and not evaluation.failed_checks(verdicts):
+        return "fail"
     if "fail" in of_validity:
         return "invalid"
     if "fail" in statuses and "inconclusive" not in of_validity:

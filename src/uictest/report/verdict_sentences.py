@@ -3,30 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
-from uictest.core.document import Tone
 from uictest.core.measures import MEASURES
 from uictest.judging import evaluation
+from uictest.report.case_words import ALLOWED, CASE_WORDS, DIFFERS, result_word
 from uictest.report.causes import cause_sentences
 from uictest.report.counts import counted
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.repeat_wording import repeat_sentences
 
-DIFFERS: Final = "differs"
-"""The word for a case that meets its expectation and differs from the baseline."""
-
-UNSETTLED: Final = "unsettled"
-"""The word for what has its expected outcome, but not every verdict settled, where that was asked for."""
-
-_AS_EXPECTED: Final = ("pass", "expected fail", "expected invalid", "skipped")
-_NOT_AS_EXPECTED: Final = (
-    *("fail", "invalid", "inconclusive", UNSETTLED, "unexpected pass", "unexpected skip", "error"),
-)
-
-CASE_WORDS: Final = (*_AS_EXPECTED, *_NOT_AS_EXPECTED, DIFFERS)
-"""Words for cases, by outcome and expectation, in the order in which they are counted."""
+if TYPE_CHECKING:
+    from uictest.judging.series import SeriesResult
 
 _NAMED = 3
 """Names that a list shows before it counts the rest."""
@@ -77,18 +66,23 @@ def failing_first(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Ver
     return sorted(verdicts, key=lambda verdict: MOST_URGENT.index(verdict.status))
 
 
-def without_rig_that_holds(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Verdict]:
-    """Return verdicts without the checks of the rig that hold: for people, one sentence says that they do."""
-    return [each for each in verdicts if each.layer != "rig" or each.status not in ("pass", "not_applicable")]
+def without_checks_that_hold(verdicts: Iterable[evaluation.Verdict]) -> list[evaluation.Verdict]:
+    """Return verdicts without the checks that hold: for people, one sentence says that they do."""
+    return [each for each in verdicts if not each.is_check or each.status not in ("pass", "not_applicable")]
 
 
-def rig_sentence(verdicts: Iterable[evaluation.Verdict]) -> str:
-    """Return how many checks of the rig hold, of those that apply; empty where there are none."""
-    checks = [each for each in verdicts if each.layer == "rig" and each.status != "not_applicable"]
+def check_sentence(verdicts: Iterable[evaluation.Verdict]) -> str:
+    """Return how many checks of the rig or of the record hold, and of the latter which could not be made."""
+    verdicts = [each for each in verdicts if each.is_check]
+    checks = [each for each in verdicts if each.status != "not_applicable"]
     held = sum(each.status == "pass" for each in checks)
     if not checks:
         return ""
-    return f"checks of the rig: {'all' if held == len(checks) else f'{held} of {len(checks)}'} hold"
+    layer, other = checks[0].layer, len(verdicts) - len(checks)
+    missing = f", {other} not made" if layer == "record" and other else ""
+    return (
+        f"checks of the {layer}: {'all' if held == len(checks) else f'{held} of {len(checks)}'} hold{missing}"
+    )
 
 
 def missed_by_text(verdict: evaluation.Verdict, wheelsets: int) -> str:
@@ -115,24 +109,68 @@ def explanation(result: evaluation.CaseResult, instants: Mapping[str, str] | Non
 
     `instants` says when the values of criteria, by their ids, were taken.
     """
-    deciding = {verdict.id: verdict_sentence(verdict) for verdict in _deciding(result)}
+    deciding = {
+        verdict.id: verdict_sentence(verdict)
+        for verdict in sorted(_deciding(result), key=lambda verdict: not verdict.is_check)
+    }
     # With criteria the reason of a result repeats theirs, unless one stop of several ended in an error;
     # without any it is all there is.
     alone = not deciding or result.outcome == "error"
     reason = [printable(result.reason)] if result.reason and alone else []
-    own_outcome, verdicts = evaluation.deciding_verdicts(result.criteria)
+    own_outcome, verdicts = evaluation.deciding_verdicts(result.decided)
     if own_outcome != result.outcome:  # as over the stops of a repeated case
         verdicts = list(_deciding(result))
-    names = [verdict.id for verdict in verdicts if verdict.status in ("fail", "inconclusive")]
-    is_unsettled = bool(result.unsettled) or result.lacks_firmness
-    outcome = outcome_sentence(result.outcome, result.expect, names, unsettled=is_unsettled)
+    known = instants or {}
+    named = [
+        missed_sentence(verdict, known.get(verdict.id, ""))
+        for verdict in verdicts
+        if verdict.status in ("fail", "inconclusive")
+    ]
+    outcome = outcome_sentence(result, named)
     unsettled = [line for line in unsettled_sentences(result.unsettled) if line not in deciding.values()]
     unsettled += firmness_sentences(result) if result.lacks_firmness else ()
-    known = instants or {}
     lines = [
         f"{line} (taken at {at})" if (at := known.get(name)) else line for name, line in deciding.items()
     ]
-    return [outcome, *cause_sentences(result), *repeat_sentences(result), *reason, *lines, *unsettled]
+    statements = [statement_sentence(result)] if result.criteria else []
+    return [
+        *(outcome, *statements, *cause_sentences(result), *repeat_sentences(result)),
+        *(*reason, *lines, *unsettled),
+    ]
+
+
+def missed_sentence(verdict: evaluation.Verdict, at: str = "") -> str:
+    """Return what is missed, by which value, against which limit: `locked-wheels 62 s, upper limit 1 s`.
+
+    `at` says when the value was taken.
+    """
+    if verdict.value is None or verdict.status != "fail":
+        return printable(verdict.id)
+    return printable(f"{verdict.id} {value_and_limits(verdict)}{f', at {at}' if at else ''}")
+
+
+def statement_sentence(result: evaluation.CaseResult) -> str:
+    """Return the two statements on a stop: whether it is a test, and whether requirements are met."""
+    missed = [each for each in result.criteria if each.status == "fail"]
+    no_test = ", ".join(each.id for each in missed if each.layer != "requirement")
+    failed = ", ".join(each.id for each in missed if each.layer == "requirement")
+    validity, requirements = (
+        each.replace("_", " ") for each in (result.test_validity, result.requirement_status)
+    )
+    if result.rail is not None and result.rail.decides:
+        no_test = f"as measured; of the rail, which decides: {result.rail.test_validity.replace('_', ' ')}"
+    return printable(
+        f"test validity: {validity}{f' ({no_test})' if no_test else ''};"
+        f" requirements: {requirements}{f' ({failed})' if failed else ''}"
+    )
+
+
+def allowed_sentences(results: Iterable[evaluation.CaseResult]) -> Iterator[str]:
+    """Yield what was missed and allowed: `allowed: low-adhesion-80: locked-wheels 62 s, upper limit 1 s`."""
+    for result in results:
+        if result.allowed:
+            missed = "; ".join(map(missed_sentence, result.allowed))
+            yield printable(f"allowed: {result.id}: {missed}")
 
 
 def unsettled_sentences(verdicts: Iterable[evaluation.Verdict]) -> Iterator[str]:
@@ -145,20 +183,23 @@ def unsettled_sentences(verdicts: Iterable[evaluation.Verdict]) -> Iterator[str]
                 yield printable(f"{verdict.id} ({verdict.layer}) turns: {sensitivity}")
 
 
-def outcome_sentence(outcome: str, expected: str, deciding: Sequence[str], *, unsettled: bool = False) -> str:
-    """Return the outcome with the criteria that decided it: `fail: locked-wheels. Expected: pass`."""
-    by = printable(", ".join(deciding))
-    shown = f"{outcome}{', unsettled' if unsettled else ''}{f': {by}' if by else ''}"
-    return (
-        f"{shown} (as expected)"
-        if outcome == expected and not unsettled
-        else f"{shown}. Expected: {expected}"
-    )
+def outcome_sentence(result: evaluation.CaseResult | SeriesResult, deciding: Sequence[str]) -> str:
+    """Return the outcome with what decided it: `fail: locked-wheels 2 s, upper limit 1 s. Expected: pass`."""
+    by = printable("; ".join(deciding))
+    unsettled = bool(result.unsettled) or result.lacks_firmness
+    shown = f"{result.outcome}{', unsettled' if unsettled else ''}{f': {by}' if by else ''}"
+    expected = printable(str(result.expect))
+    if result.met:
+        return f"{shown} ({'allowed' if result_word(result) in ALLOWED else 'as expected'})"
+    if result.as_expected and not unsettled:
+        lacks = "names no criterion" if result.expect.lacks_names else "is an allowance"
+        return f"{shown}. Strict, and the expectation {lacks}: {expected}"
+    return f"{shown}. Expected: {expected}"
 
 
 def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
     """Yield the verdict of each criterion, failing ones first, and how sensitive it is to definitions."""
-    for verdict in failing_first(without_rig_that_holds(result.criteria)):
+    for verdict in failing_first(without_checks_that_hold(result.criteria)):
         yield verdict_sentence(verdict)
         for sensitivity in verdict.sensitivity:
             yield printable(f"{verdict.id}: {sensitivity}")
@@ -166,7 +207,7 @@ def criterion_sentences(result: evaluation.CaseResult) -> Iterator[str]:
             yield printable(f"{verdict.id} read as {sentence}")
             for sensitivity in reading.sensitivity:
                 yield printable(f"{verdict.id} read as {reading.id}: {sensitivity}")
-    if checks := rig_sentence(result.criteria):
+    if checks := check_sentence(result.criteria):
         yield checks
 
 
@@ -209,45 +250,9 @@ def real_time_sentences(result: evaluation.CaseResult) -> list[str]:
 def _deciding(result: evaluation.CaseResult) -> Iterator[evaluation.Verdict]:
     for verdict in result.criteria:
         decides = verdict.status == "inconclusive" and result.outcome == "inconclusive"
-        decides = verdict.layer != "rig" and (decides or result.outcome == "skipped")
+        decides = not verdict.is_check and (decides or result.outcome == "skipped")
         if verdict.status == "fail" or decides:
             yield verdict
-
-
-def outcome_word(outcome: str, *, met: bool) -> str:
-    """Return the word for an outcome that was expected, or was not.
-
-    A case that is expected to fail, or to be invalid, and does so is an `expected fail` or `expected
-    invalid`. A case that should not pass and does is an `unexpected pass`; one to which no criterion applies
-    is an `unexpected skip` unless it is expected. In all other cases the word is the outcome.
-
-    Args:
-        outcome: of the case.
-        met: whether the case was expected to come out so.
-
-    """
-    if met:
-        return outcome if outcome in _AS_EXPECTED else f"expected {outcome}"
-    return {"pass": "unexpected pass", "skipped": "unexpected skip"}.get(outcome, outcome)
-
-
-def result_word(result: evaluation.CaseResult) -> str:
-    """Return the word of a case of `CASE_WORDS`, without regard to a baseline."""
-    if result.as_expected and not result.met:
-        return UNSETTLED
-    return outcome_word(result.outcome, met=result.met)
-
-
-def line_word(word: str) -> str:
-    """Return a word of `CASE_WORDS` without blanks: in a line for grep it is the first field."""
-    return word.replace(" ", "-")
-
-
-def tone(word: str) -> Tone:
-    """Return the tone of a word of `CASE_WORDS`."""
-    if word == "error":
-        return "odd"
-    return "good" if word in _AS_EXPECTED else "bad"
 
 
 def tally(results: Iterable[evaluation.CaseResult], differing: Container[str] = ()) -> str:
@@ -260,7 +265,10 @@ def tally(results: Iterable[evaluation.CaseResult], differing: Container[str] = 
         return "no case"
     words = [DIFFERS if result.met and result.id in differing else result_word(result) for result in results]
     counts = {word: words.count(word) for word in CASE_WORDS}
-    return f"{counted(len(words), 'case')}: {counts_text(counts, sum(not each.met for each in results))}"
+    counted_words = counts_text(counts, sum(not each.met for each in results))
+    allowed = list(allowed_sentences(results))
+    more = [f"{len(allowed) - _NAMED} more allowed"] if len(allowed) > _NAMED else []
+    return "; ".join([f"{counted(len(words), 'case')}: {counted_words}", *allowed[:_NAMED], *more])
 
 
 def counts_text(counts: Mapping[str, int], not_met: int) -> str:

@@ -11,9 +11,6 @@ from .backends.controller_code import (
     controller_code as controller_code,
     controller_memory as controller_memory,
 )
-from .backends.lanes import (
-    run_in_lanes as run_in_lanes,
-)
 from .backends.machine_code import (
     Target as Target,
     Watcher as Watcher,
@@ -71,6 +68,11 @@ from .external.workers import (
 from .highest_creep import highest_creep_forces as highest_creep_forces
 from .model.trace import CAR_CHANNELS as CAR_CHANNELS, WHEELSET_CHANNELS as WHEELSET_CHANNELS
 from .recorded_rail import RecordedRail as RecordedRail
+from .reference_distance import (
+    measures_with_reference as measures_with_reference,
+    reference_distances as reference_distances,
+    run_in_lanes as run_in_lanes,
+)
 from .simulation import (
     SimulatedStop as SimulatedStop,
     compile_for as compile_for,

@@ -1,7 +1,7 @@
 """Parameters of the dynamic brake, from its section of the scenario; all zero without one.
 
 The blending knows the regular brake of the car: the pressure at which the pads of the squeezing caliper touch
-the disc, and the force at the rims of four regular wheelsets above it.
+the disc, the force at the rims of four regular wheelsets above it, and the width of the caliper's loop.
 """
 
 import math
@@ -16,7 +16,7 @@ def _set_motors(p: Parameters, scenario: Scenario) -> None:
     motors = scenario.brake.dynamic
     p.has_dynamic_brake = float(motors is not None)
     p.motor_forces = p.motor_powers = [0.0] * len(WHEELSET_NUMBERS)
-    p.fade_end = p.fade_rate = p.motor_response = p.blending_change = 0.0
+    p.fade_end = p.fade_rate = p.motor_response = 0.0
     if motors is not None:
         p.motor_forces = _shares(float(motors.force), motors)
         p.motor_powers = _shares(float(motors.power), motors)
@@ -24,7 +24,6 @@ def _set_motors(p: Parameters, scenario: Scenario) -> None:
         p.fade_rate = 1.0 / (begin - p.fade_end)
         cycles = float(motors.response_time) / float(scenario.controller.cycle_time)
         p.motor_response = -math.expm1(-1.0 / cycles)
-        p.blending_change = 1.0 / cycles
 
 
 def _shares(whole: float, motors: DynamicBrake) -> list[float]:
@@ -34,10 +33,9 @@ def _shares(whole: float, motors: DynamicBrake) -> list[float]:
 
 
 def _set_friction_brake(p: Parameters, scenario: Scenario) -> None:
-    p.zero_force_pressure = p.force_per_pressure = 0.0
+    p.zero_force_pressure = p.force_per_pressure = p.coulomb_width = p.load_width = 0.0
     if scenario.brake.dynamic is not None:
         caliper, disc = scenario.rig.caliper, scenario.brake.system.disc
-        closing = caliper.preload + caliper.spring_rate * caliper.clearance + caliper.coulomb_friction
         clamping = caliper.lever_ratio * caliper.piston_area / (1.0 + caliper.load_friction)
         braking = torque(
             clamping,
@@ -46,8 +44,10 @@ def _set_friction_brake(p: Parameters, scenario: Scenario) -> None:
             disc.pad_friction,
             disc.mean_radius,
         )
-        p.zero_force_pressure = closing / caliper.piston_area
+        p.zero_force_pressure = caliper.closing_force / caliper.piston_area
         p.force_per_pressure = len(WHEELSET_NUMBERS) * braking / scenario.vehicle.wheelset.radius
+        p.coulomb_width = 2.0 * caliper.coulomb_friction / caliper.piston_area
+        p.load_width = 2.0 * caliper.load_friction / (1.0 + caliper.load_friction)
 
 
 DYNAMIC_BRAKE: tuple[Assignment, ...] = (

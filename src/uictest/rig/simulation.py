@@ -29,6 +29,7 @@ from uictest.rig.model.trace import (
     TRAIN_SPEED_CHANNELS,
     WHEELSET_CHANNELS,
 )
+from uictest.rig.reference_distance import measures_with_reference
 from uictest.rig.single_stop import FinishedStop, empty_trace, noise_key_text
 from uictest.rig.train_inputs import assemble_train, coupling_of
 from uictest.rig.train_stop import TrainInputs
@@ -96,7 +97,8 @@ def simulate(case: Case, record_every: float | None = None, run: RunInputs | Non
     else:
         finished = run(inputs, steps_per_sample)
     stop = _stop_of_car(case, finished, inputs.config, recorded=steps_per_sample > 0)
-    return replace(stop, noise_key=noise_key_text(inputs.parameters))
+    measures = measures_with_reference(finished.measures, inputs)
+    return replace(stop, measures=measures, noise_key=noise_key_text(inputs.parameters))
 
 
 def simulate_cars(

@@ -7,6 +7,7 @@ from .batch import (
 )
 from .drawing import with_traces as with_traces
 from .errors import InvalidInputError as InvalidInputError
+from .implausible import implausible_trains as implausible_trains, place_of_key as place_of_key
 from .observer import Advance as Advance, Observer as Observer, available_processors as available_processors
 from .publishing import (
     Published as Published,

@@ -16,6 +16,7 @@ from uictest.judging import evaluation, series as judging_series
 from uictest.plans import scenario, series as series_plans
 from uictest.running import campaign
 from uictest.runs.drawing import TraceCollection
+from uictest.runs.implausible import implausible_trains
 from uictest.runs.observer import Observer
 from uictest.runs.scenario_files import references_of
 
@@ -107,11 +108,14 @@ def batch_of(
         drawn_first: ids of the cases whose stops a page draws before all others.
 
     Compensations are identified here, before any display: up to minutes. Raises InvalidInputError where a
-    validation cannot be read.
+    validation cannot be read, and ScenarioErrors for implausible trains if the settings are strict.
     """
     everything = all_cases(cases, planned)
+    if settings is not None and settings.strict and (implausible := implausible_trains(everything)):
+        raise scenario.ScenarioErrors(implausible)
     references = references_of(everything, validated)
     parts = campaign.parts_of_cases(everything)
+    cars = {case.id: scenario.car_figures(case.scenario) for case in everything}
     settings = settings or campaign.RunSettings()
     read_for: Sequence[scenario.Case | series_plans.Series] = (*everything, *settings.calibration, *planned)
     read = {name: digest for each in read_for for name, digest in each.inputs.items()}
@@ -123,7 +127,7 @@ def batch_of(
         planned,
         replace(manifest, inputs={**manifest.inputs, **of_validations}),
         campaign.descriptions_of(everything),
-        replace(settings, parts=parts, domains=domains),
+        replace(settings, parts=parts, domains=domains, cars=cars),
         baseline,
         drawn_first,
     )

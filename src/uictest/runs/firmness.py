@@ -57,7 +57,7 @@ class FirmnessRun:
 
         def judge(columns: Sequence[Column], seeds: Sequence[int]) -> list[Drawn]:
             results = stops.results(dict(zip(stops.numbers, columns, strict=True)), seeds)
-            return [drawn(each.outcome, each.criteria) for [each] in results]
+            return [drawn(each.outcome, each.decided) for [each] in results]
 
         return self._study([stops], stops.numbers, judge, case.scenario.judged_by)
 
@@ -189,8 +189,7 @@ class _VariedStops:
 
     def as_expected(self, columns: _Columns, count: int) -> list[bool]:
         """Return for each row of the columns whether all stops come to what the case expects."""
-        expected = self.case.scenario.expect
-        return [all(stop.outcome == expected for stop in each) for each in self.results(columns, [0] * count)]
+        return [all(stop.as_expected for stop in each) for each in self.results(columns, [0] * count)]
 
 
 def _numbers_of(case: scenario.Case) -> dict[_Identity, RangedNumber]:
@@ -234,7 +233,7 @@ def _judged(planned: series_plans.Series, stops: Sequence[Sequence[CaseResult]])
     """Return the verdicts of a series on the stops of its cases."""
     results = [_repeated(case, of_case) for case, of_case in zip(planned.cases, stops, strict=True)]
     result = judging_series.judge_results(planned, results)
-    return drawn(result.outcome, (each.verdict for each in result.criteria))
+    return drawn(result.outcome, [each.verdict for each in result.criteria])
 
 
 def _repeated(case: scenario.Case, stops: Sequence[CaseResult]) -> CaseResult:

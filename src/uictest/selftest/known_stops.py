@@ -39,11 +39,13 @@ class KnownStops:
         """Return the numbers of all stops, simulated side by side in the lanes of a register."""
         inputs = [rig.assemble(case) for case in self.cases.values()]
         points = max(each.rail.shape[1] for each in inputs)
-        batch = rig.run_in_lanes(
+        records = (
             np.array([each.parameters for each in inputs]),
             np.array([each.wheelset_parameters for each in inputs]),
             np.array([np.pad(each.rail, ((0, 0), (0, points - each.rail.shape[1]))) for each in inputs]),
         )
+        batch = rig.run_in_lanes(*records)
+        batch.measures["reference_distance"] = rig.reference_distances(*records)
         stops = zip(self.cases, *batch, strict=True)
         return {name: numbers_of(train, wheelsets) for name, train, wheelsets in stops}
 

@@ -129,4 +129,34 @@ def test_a_compensation_that_is_not_for_its_rig_is_reported_with_file_key_and_va
     told = "unfit.yaml:5:45: rig.caliper.lever_ratio: is 3, the compensation is for 2.45 within 0.5 %"
     assert told in answer.err
     (workplace / "unfit.yaml").write_text((workplace / "unfit.yaml").read_text() + "expect: invalid\n")
-    assert call("check", "unfit.yaml").code == 0
+    # A rig that is wrong is never what an invalid stop was expected for.
+    assert told in call("check", "unfit.yaml", code=4).err
+
+
+CAR = "schema: uictest/vehicle/1\nname: mine\nextends: intercity-180\nwheelset:\n  radius: 860 mm\n"
+
+
+def test_an_implausible_train_is_a_warning_in_its_own_file_and_an_error_if_strict(call, scenario, workplace):
+    """Each derived quantity stands once, at the key that is set, however many cases have it."""
+    path = scenario("a", "vehicle: mine.yaml\nmatrix: {brake.command: [90 %, 100 %]}\n")
+    (workplace / path).with_name("mine.yaml").write_text(CAR)
+    answer = call("check", path)
+    assert (answer.code, answer.out) == (0, "")
+    place = "scenarios/mine.yaml:5:11: vehicle.wheelset.radius: "
+    text = "wheel radius 860 mm, plausible 300 to 650 mm (from vehicle.wheelset.radius)\n"
+    assert answer.err.count(f"{place}warning: {text}") == 1
+    assert "= a diameter written as radius?" in answer.err
+    assert "1 scenario with 2 cases, no error, 2 warnings" in answer.err
+    strict = call("check", path, "--strict", "--format", "json", code=4, says="2 errors")
+    assert "warning" not in strict.err
+    assert [each["key"] for each in json.loads(strict.out)] == ["vehicle.wheelset.radius"] * 2
+
+
+def test_the_base_of_a_sweep_is_warned_of_in_the_file_that_it_extends(call, scenario, workplace):
+    scenario("a", "vehicle: {extends: intercity-180, body: {mass: 150 t}}\n")
+    sweep = workplace / "scenarios" / "b.sweep.yaml"
+    sweep.write_text(
+        "schema: uictest/scenario/1\nname: b\nextends: a.yaml\nvary: {matrix: {brake.command: [90 %]}}\n"
+    )
+    answer = call("check", sweep, code=0)
+    assert "scenarios/a.yaml:4:48: vehicle.body.mass: warning: axle load 40.7 t" in answer.err

@@ -217,3 +217,33 @@ def test_an_interrupt_outside_the_simulation_exits_2(call, scenario, monkeypatch
     monkeypatch.setattr(report, "write_reports", interrupted)
     assert call("run").code == 2
     assert _reports() == []
+
+
+def test_an_implausible_train_is_warned_of_and_stands_in_every_report(call, scenario, workplace):
+    path = scenario("a", "vehicle: {extends: intercity-180, body: {mass: 150 t}}\n")
+    call("run", path, "--strict", code=4, says="vehicle.body.mass: axle load 40.7 t, plausible 4 to 25 t")
+    answer = call("run", path, "-v", "--report", "csv,html,junit")
+    assert "vehicle.body.mass: warning: axle load 40.7 t" in answer.err
+    assert "part car: car mass 162.6 t, axle load 40.66 t, braked weight percentage" in answer.out
+    folder = workplace / "reports" / "latest"
+    (case,) = json.loads((folder / "results.json").read_text())["cases"]
+    assert case["car"]["mass_t"] == pytest.approx(150.0 + 2 * 2.615 + 4 * 1.85)
+    (found,) = case["car"]["implausible"]
+    assert (found["name"], found["span"], found["likely"]) == (
+        "axle-load",
+        [4.0, 25.0],
+        "the mass of several cars?",
+    )
+    for name in ("index.html", "junit.xml"):
+        assert "implausible: axle load 40.7 t, plausible 4 to 25 t" in (folder / name).read_text()
+
+
+def test_a_usual_train_has_its_figures_and_no_warning(call, scenario, workplace):
+    answer = call("run", scenario("a"))
+    assert "warning" not in answer.err
+    (case,) = json.loads((workplace / "reports" / "latest" / "results.json").read_text())["cases"]
+    assert case["car"] == {
+        "mass_t": pytest.approx(45.0),
+        "axle_load_t": pytest.approx(11.25),
+        "braked_weight_percentage": pytest.approx(149.6, abs=0.1),
+    }

@@ -11,7 +11,7 @@ from uictest.analysis.firmness import Effort
 from uictest.cli import run_display
 from uictest.runs import firmness
 
-STOP = "rail: {condition: wet, friction: 0.06}\ncriteria: uictest-stop\n"
+STOP = "rail: {condition: wet, friction: 0.1}\ncriteria: uictest-stop\n"
 TURNED = """\
 rail: {condition: dry}
 criteria:
@@ -54,6 +54,15 @@ def test_every_report_says_how_firm_a_case_is(call, scenario):
         rows = list(csv.DictReader(stream))
     assert {row["key"] for row in rows} == {each["key"] for each in found["numbers"]}
     assert all(row["reason"] for row in rows)
+    priors = {each["key"]: each["prior"] for each in found["numbers"]}
+    assert priors == {row["key"]: row["prior"] for row in rows}
+    assert priors["rail.condition.friction_ratio"] == "uniform"
+    assert priors["rail.condition.friction_decay"] == "log-uniform"
+    reasons = {each["key"]: each["reason"] for each in found["numbers"]}
+    assert all(prior in reasons[key].lower() for key, prior in priors.items())
+    page = (run_folder / "index.html").read_text("utf-8")
+    assert "why this range and prior" in page and ">log-uniform<" in page
+    assert "firmness stop not varied, as no range is stated: rail.friction" in answer.out
 
 
 def test_a_number_that_turns_a_verdict_is_named_with_its_value_and_misses_strict(call, scenario):

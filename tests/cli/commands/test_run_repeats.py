@@ -17,7 +17,8 @@ def test_the_option_repeats_every_stop(call, scenario):
     path = scenario("stop", f"{WET}seed: 3\nrepeat: 2\n")
     answer = call("run", path, "--repeat", "3", code=0)
     assert answer.out.startswith(
-        "pass stop outcome=pass expect=pass stops=3 passed=3 share=1 share_low=0.2924"
+        "pass stop outcome=pass expect=pass test_validity=not_judged requirements=met"
+        " stops=3 passed=3 share=1 share_low=0.2924"
     )
     (case,) = results()
     assert [stop["seed"] for stop in case["repeats"]["stops"]] == [3, 4, 5]
@@ -41,7 +42,8 @@ def test_reports_are_written_again_from_the_results(call, scenario):
 def test_an_expectation_is_met_by_all_stops_or_not(call, scenario):
     path = scenario("stop", f"{WET}expect: fail\n")
     answer = call("run", path, "--repeat", "2", code=1)
-    assert answer.out.startswith("unexpected-pass stop outcome=pass expect=fail stops=2 passed=2")
+    assert answer.out.startswith("unexpected-pass stop outcome=pass expect=fail ")
+    assert " stops=2 passed=2 " in answer.out
     assert "fail 0 % (0 .. 84.2 % with 95 % confidence); rule: all" in answer.out
     assert call("run", path, "--repeat", "2", "--lf").code == 1
 

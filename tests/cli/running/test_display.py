@@ -7,10 +7,11 @@ from uictest.cli.options import Format
 from uictest.cli.output import interactive
 from uictest.cli.run_display import Annotations, Lines, ResultsDocument, VerdictTable, chosen_display
 from uictest.judging.evaluation import CaseResult
+from uictest.plans.scenario import PASS
 from uictest.report import RunContent
 
-MET = CaseResult("[bold]a", "a.yaml", {}, "pass", "pass")
-MISSED = CaseResult("b", "b.yaml", {}, "pass", "fail", reason="locked")
+MET = CaseResult("[bold]a", "a.yaml", {}, PASS, "pass")
+MISSED = CaseResult("b", "b.yaml", {}, PASS, "fail", reason="locked")
 
 
 class Terminal(io.StringIO):

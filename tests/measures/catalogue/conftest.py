@@ -39,6 +39,7 @@ def _stop(**changes):
         "speed_after_sliding": np.nan,
         "reservoir_minimum_pressure": 7.2e5,
         "reservoir_margin": 3.4e5,
+        "reference_distance": 450.0,
         "build_up_time": 0.5,
         "build_up_distance": 16.7,
         "adhesion_utilisation": np.nan,

@@ -20,15 +20,20 @@ def _suite(results):
 def test_one_testcase_per_case_named_after_file_and_id():
     (testcase,) = _suite([make_result()])
     shown = {"classname": "scenarios.dry.120", "name": "dry-120[command=90]", "time": "0.250"}
-    assert (testcase.attrib, len(testcase)) == (shown, 0)
+    assert (testcase.attrib, [child.tag for child in testcase]) == (shown, ["system-out"])
+    assert testcase.findtext("system-out") == "test validity: valid; requirements: not judged"
 
 
 def test_a_missed_case_is_a_failure_whose_text_says_everything():
     broken = make_verdict(status="fail", value=500.0, margin=-10.0, reason="500 m misses 440 .. 490 m")
     suite = _suite([make_result(outcome="invalid", criteria=(broken,), reason="braking-distance: ...")])
-    text = suite.findtext("testcase/failure")
-    assert text is not None
-    assert "invalid: braking-distance. Expected: pass" in text
+    failure = suite.find("testcase/failure")
+    text = failure.text
+    assert failure.get("message") == "invalid: braking-distance 500 m, limits 440 .. 490 m. Expected: pass"
+    assert text.splitlines()[:2] == [
+        failure.get("message"),
+        "test validity: not valid (braking-distance); requirements: not judged",
+    ]
     assert "braking-distance (validity) fail: 500 m misses 440 .. 490 m" in text
 
 
@@ -40,7 +45,7 @@ def test_what_is_not_as_expected_comes_first():
 
 def test_an_expected_failure_is_no_failure():
     suite = _suite([make_result(expect="fail", outcome="fail"), make_result(expect="fail", outcome="pass")])
-    assert [len(testcase) for testcase in suite] == [0, 1]
+    assert [[child.tag for child in testcase] for testcase in suite] == [["system-out"], ["failure"]]
 
 
 @pytest.mark.parametrize(

@@ -6,22 +6,26 @@ from uictest.core.measures import STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.core.series_measures import SERIES_MEASURES, SpeedStops
 from uictest.judging import evaluation, series
 from uictest.judging.evaluation import CaseResult, RepeatedStop, Repeats, Verdict
+from uictest.plans.scenario import PASS, expectation_of
 
 
 def _stop(seed, distance, outcome="pass"):
     measures = dict.fromkeys(STOP_COLUMNS, 1.0) | {
         "braking_distance_m": distance,
+        "corrected_distance_m": distance,
         "mean_deceleration_mps2": (120.0 / 3.6) ** 2 / (2.0 * distance),
         "deceleration_distance_m": distance - 60.0,
     }
     wheelsets = (dict.fromkeys(WHEELSET_COLUMNS, 0.0),) * 4
-    reason = "" if outcome == "pass" else "energy-balance: 3 % misses < 0.1 %"
-    return RepeatedStop(seed, outcome, reason, (), measures, wheelsets)
+    reason = "" if outcome == "pass" else "3 % misses < 0.1 %"
+    wrong = Verdict("energy-balance", "rig", 3.0, "%", None, 0.1, -2.9, "fail", reason)
+    criteria = () if outcome == "pass" else (wrong,)
+    return RepeatedStop(seed, outcome, evaluation.reasons_of(criteria), criteria, measures, wheelsets)
 
 
 def _case(name, stops, role):
     first = stops[0]
-    result = CaseResult(name, "wet.yaml", {"rail.friction": "0.08"}, "pass", first.outcome, first.reason)
+    result = CaseResult(name, "wet.yaml", {"rail.friction": "0.08"}, PASS, first.outcome, first.reason)
     case = replace(result, measures=first.measures, wheelsets=first.wheelsets, repeats=Repeats("all", stops))
     return series.SeriesCase(role, 120.0, case)
 
@@ -58,7 +62,8 @@ def make_series(**changes):
         ),
         "cases": (dry, wet),
     }
-    return series.SeriesResult(**(content | changes))
+    content |= changes
+    return series.SeriesResult(**content | {"expect": expectation_of(content["expect"])})
 
 
 def _missed():

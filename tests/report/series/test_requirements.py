@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 
 import pytest
 
+from uictest.plans.scenario import expectation_of
 from uictest.report import junit_text, run_suites, write_formats
 from uictest.report.formats.junit import FORMAT
 from uictest.report.formats.md import markdown_summary
@@ -67,7 +68,9 @@ def test_a_requirement_of_a_criterion_follows_its_verdict_unless_stops_failed_to
 
 
 def test_stops_of_a_series_and_criteria_of_one_that_must_not_pass_are_no_evidence():
-    assert not verified_requirements([], [naming(make_series(), "fail", expect="fail", outcome="fail")])
+    assert not verified_requirements(
+        [], [naming(make_series(), "fail", expect=expectation_of("fail"), outcome="fail")]
+    )
     result = make_series()
     cases = tuple(replace(each, case=replace(each.case, requirements=("BR-5",))) for each in result.cases)
     assert not verified_requirements([], [replace(result, cases=cases)])
@@ -101,7 +104,7 @@ def _properties(element):
 
 
 def test_testcases_name_the_requirements_of_their_criterion_and_of_the_series(named):
-    unexpected = replace(named, expect="fail")
+    unexpected = replace(named, expect=expectation_of("fail"))
     suite = ElementTree.fromstring(junit_text(run_suites([], series=[unexpected], with_properties=True)))[0]
     of_criterion, outcome = suite.findall("testcase")
     ids = {"polarion-testcase-id": "WSP-TC-7", "test_key": "WSP-TC-7"}

@@ -25,9 +25,9 @@ def _rendered(renderable, width=120, *, terminal=False):
 
 
 def test_a_row_holds_verdict_and_figures():
-    row = _rendered(_table(make_result())).splitlines()[-1].split()
-    figures = ["465.2", "27.5", "1.20", "-", "8", "0.0", "0.0", "4"]
-    assert row == ["dry-120[command=90]", "pass", "pass", *figures]
+    row = _rendered(_table(make_result(), width=140), width=140).splitlines()[-1].split()
+    figures = ["465.2", "27.5", "1.20", "-", "-", "8", "0.0", "0.0", "4"]
+    assert row == ["dry-120[command=90]", "pass", "yes", "-", *figures]
 
 
 def test_a_long_id_is_folded_and_not_cut():
@@ -46,12 +46,14 @@ def test_markup_and_terminal_codes_in_a_name_are_shown_as_text():
 
 
 def test_the_explanation_names_expectation_and_deciding_criterion_or_every_one_when_asked():
-    broken = make_verdict(id="locked", status="fail", margin=None, reason="locked for 3 s")
+    limit = {"layer": "requirement", "value": 3.0, "unit": "s", "lower": None, "upper": 1.0, "margin": None}
+    broken = make_verdict(id="locked", status="fail", reason="locked for 3 s", **limit)
     shown = _rendered(_explanation(make_result(outcome="fail", criteria=(make_verdict(), broken))))
     assert shown.splitlines() == [
         "fail dry-120[command=90]",
-        "  fail: locked. Expected: pass",
-        "  locked (validity) fail: locked for 3 s",
+        "  fail: locked 3 s, upper limit 1 s. Expected: pass",
+        "  test validity: valid; requirements: missed (locked)",
+        "  locked (requirement) fail: locked for 3 s",
     ]
     assert "braking-distance (validity) pass" in _rendered(_explanation(make_result(), every_criterion=True))
 

@@ -2,6 +2,7 @@
 
 import copy
 import math
+import pickle
 from decimal import Decimal
 from typing import Annotated
 
@@ -152,6 +153,36 @@ def test_a_value_with_its_source_keeps_it():
 )
 def test_anything_else_is_refused(value):
     assert message(value).startswith("expected a pressure")
+
+
+RANGED = {"value": "3 bar", "range": ["2 bar", "4 bar"]}
+
+
+@pytest.mark.parametrize("prior", ["uniform", "log-uniform"])
+def test_a_range_states_its_prior_and_keeps_it_through_copies_and_files(prior):
+    sample = Sample.model_validate({"pressure": {**RANGED, "prior": prior}})
+    assert sample.pressure.prior == prior
+    assert Sample.model_validate(sample.model_dump()).pressure.prior == prior
+    assert copy.deepcopy(sample.pressure).prior == prior
+    assert pickle.loads(pickle.dumps(sample.pressure)).prior == prior
+
+
+def test_a_range_without_a_prior_is_uniform():
+    assert Sample.model_validate({"pressure": RANGED}).pressure.prior == "uniform"
+
+
+class Temperature(BaseModel):
+    temperature: Annotated[Quantity, of_kind("temperature", "-50 degC .. 100 degC")]
+
+
+def test_a_prior_that_a_range_cannot_have_is_refused():
+    assert message({**RANGED, "prior": "normal"}) == "unknown prior 'normal'"
+    assert message({**RANGED, "prior": ["uniform"]}).startswith("unknown prior")
+    assert message({"value": "3 bar", "source": "maker", "prior": "uniform"}) == "a prior without a range"
+    # 253 K is above zero, but the logarithm is that of the number as written, which is what is drawn.
+    frost = {"value": "5 degC", "range": ["-20 degC", "30 degC"], "prior": "log-uniform"}
+    with pytest.raises(ValidationError, match="a log-uniform prior of a range from -20 degC"):
+        Temperature.model_validate({"temperature": frost})
 
 
 def test_a_quantity_of_another_kind_is_refused():

@@ -6,6 +6,7 @@ import uictest
 from studies.experiments.rail_laws import Condition, turned
 from studies.used_rail import loss_per_metre, used_rail
 from uictest import CaseResult
+from uictest.plans.scenario import PASS
 
 LAYER = {
     "rig.compensation": "thermal",
@@ -18,7 +19,7 @@ LAYER = {
 def condition(law, threshold, slip_band):
     def stops(distances):
         return [
-            CaseResult("stop", "", {}, "pass", "pass", measures={"braking_distance_m": each}, wheelsets=())
+            CaseResult("stop", "", {}, PASS, "pass", measures={"braking_distance_m": each}, wheelsets=())
             for each in distances
         ]
 

@@ -41,6 +41,10 @@ def test_one_block_runs_controllers_of_all_kinds_with_the_same_bits(load, librar
     assert with_common_noise(found, "{python") == built_in
     assert with_common_noise(found, "threshold") != built_in
     assert found[3]["id"] == "study[controller=libband,friction=0.06]"
+    lanes = rows_of(load(f"matrix:\n{FRICTIONS}", "controller=slip-band"))
+    references = [row["reference_distance_m"] for row in lanes]
+    assert [row["reference_distance_m"] for row in built_in] == references
+    assert references[0] > references[1] > references[2] > 0.0
 
 
 TRAIN = """\

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Final
 
-from uictest.judging.evaluation import Verdict, by_reading, relative_margin
+from uictest.judging.evaluation import Verdict, by_reading, relative_margin, why_no_test
 
 OUTCOME: Final = ""
 """In place of the id of a criterion: the outcome."""
@@ -27,6 +27,7 @@ class Drawn:
         statuses: of its criteria, then of their other readings, by id.
         margins: shares of the limits, of those that have one.
         readings: the readings, which decide nothing: id -> that of the criterion.
+        is_test: whether nothing keeps it from counting as a test.
 
     """
 
@@ -34,22 +35,24 @@ class Drawn:
     statuses: Mapping[str, str] = field(default_factory=dict)
     margins: Mapping[str, float] = field(default_factory=dict)
     readings: Mapping[str, str] = field(default_factory=dict)
+    is_test: bool = True
 
     def status(self, criterion: str) -> str:
         """Return the status of a criterion, or the outcome."""
         return self.outcome if criterion == OUTCOME else self.statuses.get(criterion, "error")
 
 
-def drawn(outcome: str, verdicts: Iterable[Verdict]) -> Drawn:
-    """Return an outcome and verdicts, without those of checks of the rig."""
-    judged = [verdict for verdict in verdicts if verdict.layer != "rig"]
+def drawn(outcome: str, verdicts: Sequence[Verdict]) -> Drawn:
+    """Return an outcome and verdicts, without those of checks."""
+    judged = [verdict for verdict in verdicts if not verdict.is_check]
     read = [
         (by_reading(each, other), each.id) for each in judged for other in each.readings if not other.decides
     ]
     every = [*judged, *(reading for reading, _ in read)]
     margins = {each.id: share for each in every if (share := relative_margin(each)) is not None}
     statuses = {each.id: each.status for each in every}
-    return Drawn(outcome, statuses, margins, {reading.id: criterion for reading, criterion in read})
+    of_readings = {reading.id: criterion for reading, criterion in read}
+    return Drawn(outcome, statuses, margins, of_readings, not why_no_test(verdicts))
 
 
 @dataclass(frozen=True)
@@ -91,12 +94,16 @@ class Stops:
 
         What is required of a test does not count where there is none.
         """
-        nominal = self.usual(criterion)
         own = self.nominal[0].readings.get(criterion, criterion)
-        of_validity = own in self.validity or (criterion == OUTCOME and nominal == "invalid")
-        if drawn.outcome == "error" or (drawn.outcome == "invalid" and not of_validity):
+        of_validity = own in self.validity or (criterion == OUTCOME and not self._is_nominally_a_test)
+        if drawn.outcome == "error" or (not drawn.is_test and not of_validity):
             return None
-        return drawn.status(criterion) == nominal
+        return drawn.status(criterion) == self.usual(criterion)
+
+    @cached_property
+    def _is_nominally_a_test(self) -> bool:
+        """Whether most of the nominal stops were valid tests."""
+        return 2 * sum(each.is_test for each in self.nominal) > len(self.nominal)
 
     def turned_at(self, place: Place, criterion: str) -> list[Drawn]:
         """Return the stops at an end in which a verdict is another."""

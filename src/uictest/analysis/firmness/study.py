@@ -218,7 +218,8 @@ class FirmnessStudy:
             for each in criteria
         }
         low, high = (end.text for end in ranged.ends)
-        return NumberEffect(ranged.key, ranged.value.text, low, high, ranged.mark, ranged.reason, margins)
+        about = ranged.key, ranged.value.text, low, high, ranged.mark, ranged.reason
+        return NumberEffect(*about, margins, ranged.value.prior)
 
 
 def _status(noisy: bool, turns: bool, at_least: float | None) -> FirmnessStatus:

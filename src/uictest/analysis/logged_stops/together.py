@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
@@ -55,7 +56,7 @@ class StopsTogether:
             return report.Campaign((self.without_stop,))
         series = wet_series(self._stops)
         return report.Campaign(
-            (*self._group_sentences(series), self._rail_sentence()),
+            (*self._record_sentences(), *self._group_sentences(series), self._rail_sentence()),
             (
                 dry_table(self._stops),
                 *((friction_table(self._on_rail),) if self._on_rail else ()),
@@ -71,6 +72,17 @@ class StopsTogether:
             applied = report.counted(self._passed_over, "application")
             return f"no stop found: {applied} of the brake passed over, each with its reason"
         return "no stop found: by the channels of the map, the brake is never applied"
+
+    def _record_sentences(self) -> Iterator[str]:
+        """Yield how many stops are none of the scenario, and how many by each check of the record."""
+        of_stops = [
+            [each.id for each in stop.result.criteria if each.layer == "record" and each.status == "fail"]
+            for stop in self._stops
+        ]
+        if invalid := sum(map(bool, of_stops)):
+            counts = Counter(name for names in of_stops for name in names)
+            checks = ", ".join(f"{name} {count}" for name, count in counts.items())
+            yield f"invalid by the record: {invalid} of {report.counted(len(of_stops), 'stop')} ({checks})"
 
     def _group_sentences(self, series: SeriesResult | None) -> Iterator[str]:
         groups = dry_groups(self._stops)

@@ -44,9 +44,10 @@ def wet_series(stops: Sequence[LoggedStop]) -> judged_series.SeriesResult | None
 
 
 def _from_nominal_speed(stop: LoggedStop) -> CaseResult:
-    """Return a result with distances from the nominal speed, which no driver keeps as testers do."""
+    """Return a result with distances from the nominal speed of its group: no driver keeps one."""
     measures = dict(stop.result.measures or {})
     measures |= {name: stop.to_nominal * measures[name] for name in _DISTANCES if name in measures}
+    measures["corrected_distance_m"] = measures.get("braking_distance_m", math.nan)
     return replace(stop.result, measures=measures)
 
 

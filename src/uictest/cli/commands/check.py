@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from uictest import report, runs
-from uictest.cli.options import CheckFormat, Format, Paths, Trusted
-from uictest.cli.output import ExitCode, data, message
+from uictest.cli.options import CheckFormat, Format, Paths, StrictCheck, Trusted
+from uictest.cli.output import ExitCode, data, message, warn_of_implausible
 from uictest.plans import scenario, series, sweeps
 from uictest.plans.scenario import yaml
 
@@ -19,11 +19,12 @@ def check(
     paths: Paths = None,
     trusted: Trusted = None,
     shown: CheckFormat = Format.TEXT,
+    strict: StrictCheck = False,
 ) -> ExitCode:
     """Validate scenario, sweep and series files and what they refer to. Every error comes with its place."""
     places = runs.scenario_paths(paths)
     scenarios = [path for path in places if not (runs.is_sweep(path) or runs.is_series(path))]
-    errors, counts = _scenarios(scenarios, trusted or ())
+    errors, counts, checked = _scenarios(scenarios, trusted or ())
     sweep_paths, series_paths = list(runs.sweep_files(places)), list(runs.series_files(places))
     for path, load in [
         *((each, _load_sweep) for each in sweep_paths),
@@ -33,7 +34,10 @@ def check(
             errors.append(scenario.link_outside(path))
             continue
         with yaml.collecting(errors, yaml.whole_file(path)):
-            load(path, trusted or ())
+            checked += load(path, trusted or ())
+    implausible = runs.implausible_trains(checked)
+    errors += implausible if strict else ()
+    warn_of_implausible(() if strict else implausible)
     if errors:
         _show(errors, shown)
         message(f"uictest: {report.counted(len(errors), 'error')}")
@@ -42,37 +46,34 @@ def check(
         data("[]")
     sweeping = report.counted(len(sweep_paths), "sweep") if sweep_paths else ""
     of_series = f"{len(series_paths)} series" if series_paths else ""
-    message(f"uictest: {' and '.join(filter(None, (counts, sweeping, of_series)))}, no error")
+    warned = f", {report.counted(len(implausible), 'warning')}" if implausible else ""
+    message(f"uictest: {' and '.join(filter(None, (counts, sweeping, of_series)))}, no error{warned}")
     return ExitCode.MET
 
 
-def _scenarios(paths: Sequence[Path], trusted: Sequence[Path]) -> tuple[list[yaml.Diagnostic], str]:
-    """Return the errors of scenario files, and in words how many files and cases are without."""
+def _scenarios(
+    paths: Sequence[Path], trusted: Sequence[Path]
+) -> tuple[list[yaml.Diagnostic], str, list[scenario.Case]]:
+    """Return the errors of scenario files, in words how many files and cases are without, and the cases."""
     try:
         cases = scenario.load(paths, trusted=trusted)
         _require_fit(cases)
     except yaml.ScenarioErrors as errors:
-        return list(errors.diagnostics), ""
+        return list(errors.diagnostics), "", []
     files = {case.path for case in cases}
-    if not files:
-        return [], ""
-    return [], f"{report.counted(len(files), 'scenario')} with {report.counted(len(cases), 'case')}"
+    counts = f"{report.counted(len(files), 'scenario')} with {report.counted(len(cases), 'case')}"
+    return [], counts if files else "", cases
 
 
 def _misfits(case: scenario.Case) -> Iterator[yaml.Diagnostic]:
     """Yield why the stop of a case is invalid before it is run: its compensation is for another rig."""
-    if case.scenario.expect == "invalid":
-        return
     for each in scenario.misfits(case.scenario):
-        hint = "write `rig.topology: four-caliper` or `rig.compensation_model: identify`"
-        yield yaml.diagnose(_place(case, each.key), each.sentence, each.key, hint)
+        yield yaml.diagnose(_place(case, each.key), each.sentence, each.key, scenario.FIT_HINT)
 
 
 def _place(case: scenario.Case, key: str) -> yaml.Place:
-    """Return where the file of a case sets a key; the whole file where another one does."""
-    keys = tuple(key.split("."))
-    entry, depth = yaml.entry_at(yaml.read_file(case.path), keys)
-    return entry.node.place if depth == len(keys) else yaml.whole_file(case.path)
+    """Return where the file of a case, or one that it refers to, sets a key; else the whole file."""
+    return runs.place_of_key(case.path, key) or yaml.whole_file(case.path)
 
 
 def _reference_problem(path: str) -> str:
@@ -99,17 +100,19 @@ def _require_fit(cases: Iterable[scenario.Case]) -> None:
         raise yaml.ScenarioErrors(unfit)
 
 
-def _load_series(path: Path, trusted: Sequence[Path]) -> None:
-    loaded = series.load_series(path, trusted=trusted)
-    _require_fit(case for one in loaded for case in one.cases)
+def _load_series(path: Path, trusted: Sequence[Path]) -> list[scenario.Case]:
+    cases = [case for one in series.load_series(path, trusted=trusted) for case in one.cases]
+    _require_fit(cases)
+    return cases
 
 
-def _load_sweep(path: Path, trusted: Sequence[Path]) -> None:
+def _load_sweep(path: Path, trusted: Sequence[Path]) -> list[scenario.Case]:
     plan = sweeps.load_sweep(path, trusted=trusted)
     _require_fit([plan.base])
     for each in sweeps.drawn_ranges(plan):
         if not each.contains_nominal:
             message(f"{plan.file}: warning: {each}; sensitivities hold for the range only")
+    return [plan.base]
 
 
 def _show(diagnostics: Sequence[yaml.Diagnostic], shown: Format) -> None:

@@ -104,12 +104,12 @@ def _row(number: scenario.SourcedNumber) -> tuple[str, ...]:
 
 
 def _range(quantity: yaml.Quantity) -> str:
-    """Return the plausible range of a number, with the name of its source where that is another one."""
+    """Return the plausible range of a number, its prior, and the name of its source where it is another."""
     if quantity.range is None:
         return ""
     low, high = quantity.range
     source = "" if low.source == quantity.source else f" ({low.source})"
-    return f"plausible: {low.text} .. {high.text}{source}"
+    return f"plausible: {low.text} .. {high.text}, {quantity.prior}{source}"
 
 
 def _difference(

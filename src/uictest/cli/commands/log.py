@@ -67,7 +67,8 @@ def log(
     _require_many_triggers(map_name, mapped.preparation)
     settings = _settings(from_speed, to_speed, float(mapped.preparation.standstill_speed))
     stated = _case_of(scenario, expression, overrides or (), trusted)
-    stated("log", settings.from_speed)  # What is stated wrongly is told before the log is read.
+    # What is stated wrongly is told before the log is read.
+    known = stated("log", settings.from_speed).vehicle_stated
     selected = _selected_by(dry)
     found, written = _stops(files, mapped, settings, folder)
     if not quiet:
@@ -90,7 +91,6 @@ def log(
         )
     request = campaign.RecordingRequest("all")
     passed_over = [_sentence(event) for event in found.passed_over]
-    known = scenario is not None or _states_vehicle(overrides or ())
     together = logged_stops.StopsTogether(len(passed_over), vehicle_known=known)
     batch = runs.recorded_batch(stops, context.obj, request, strict=strict, observe=together.add)
     batch = batch._replace(passed_over=passed_over, together=together.campaign)
@@ -125,10 +125,6 @@ def _show_together(together: report.Campaign | None) -> None:
         sections: list[Table | Lines] = [Lines(together.sentences), *tables]
         for line in report.titled_lines(sections, terminal_width(sys.stdout)):
             data(line)
-
-
-def _states_vehicle(overrides: Sequence[str]) -> bool:
-    return any(each.partition("=")[0].strip().partition(".")[0] == "vehicle" for each in overrides)
 
 
 def _case_of(

@@ -20,7 +20,7 @@ from uictest.cli.cases import (
     series_lines,
 )
 from uictest.cli.options import option
-from uictest.cli.output import ExitCode, data, message, of_run, worst
+from uictest.cli.output import ExitCode, data, message, of_run, warn_of_implausible, worst
 from uictest.judging import evaluation
 from uictest.plans import scenario, series
 from uictest.running import campaign
@@ -39,6 +39,9 @@ Repeat = Annotated[
         min=1,
         max=1000,
     ),
+]
+SuggestExpect = Annotated[
+    bool, option("--suggest-expect", "Also print the `expect` lines that what came out meets, to paste.")
 ]
 Durations = Annotated[int | None, option("--durations N", "List the N slowest cases; 0 lists all.", min=0)]
 
@@ -73,6 +76,7 @@ def run(
     firm: options.Firm = False,
     calibrated_by: options.CalibratedBy = None,
     durations: Durations = None,
+    suggest_expect: SuggestExpect = False,
     in_process: options.InProcess = False,
     real_time: options.RealTime = False,
     quiet: options.Quiet = False,
@@ -115,6 +119,7 @@ def run(
         baseline=None if accept else accepted,
         drawn_first=drawn_first(selected, of_series, draw),
     )
+    warn_of_implausible(runs.implausible_trains(batch.all_cases))
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
     published = run_display.publish_and_show(
         batch, output, formats_wanted, options.junit_file(junit, output), display
@@ -122,6 +127,8 @@ def run(
     if published is None:
         return ExitCode.INTERRUPTED
     _show_slowest(published.content.all_results, durations)
+    for line in report.expectation_lines(published.content.results) if suggest_expect else ():
+        (data if shown is options.Format.TEXT else message)(line)
     code = worst(
         of_run(published),
         earlier_runs.accept_or_compare(choice, accepted, published, quiet=quiet),

@@ -29,7 +29,7 @@ from uictest.cli.options import (
     option,
     report_formats,
 )
-from uictest.cli.output import ExitCode, message
+from uictest.cli.output import ExitCode, message, warn_of_implausible
 from uictest.plans import sweeps
 from uictest.running import chunked
 
@@ -119,6 +119,7 @@ def sweep(
     accepted = report.sweep_format_names()
     format_names = None if formats is None else report_formats(formats, "--report", accepted)
     plan = sweeps.load_sweep(file, tuple(overrides or ()), seed, trusted or ())
+    warn_of_implausible(runs.implausible_trains([plan.base]))
     sweep_run.load_arrow()
     selection = sweep_run.selected_cases(plan, expression)
     if selection.size == 0:

@@ -1,3 +1,4 @@
+from .catalogue.reference import NO_REFERENCE as NO_REFERENCE
 from .catalogue.sliding import SLIDE_CLASS as SLIDE_CLASS, SLOW_SHARE_CLASS as SLOW_SHARE_CLASS
 from .contact import (
     begin_contact as begin_contact,

@@ -64,6 +64,7 @@ class Overview(NamedTuple):
         rank: in which a narrow terminal leaves it out.
         short: heading where it shows it; empty: the same.
         few_digits: where it shows it; None: as many.
+        unlike: a column that it must differ from in some case to be shown; empty: it always is.
 
     """
 
@@ -72,6 +73,7 @@ class Overview(NamedTuple):
     rank: int
     short: str = ""
     few_digits: int | None = None
+    unlike: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,6 +208,8 @@ class Measure:
         observed_by: fields of the scenario's `measures` part that decide what is observed.
         recorded: data of a record that it needs; None for one of a simulation.
         column: of results that needs the same data; None where results do not report it.
+        corrected: which of `nominal_speed` and `gradient` of the stop its value is corrected for: `read` is
+            given both beside the definitions.
         share_of: what a share is one of, behind its unit: `of the time`.
         finite_field: field of the record in which every simulated stop has a finite number; empty where NaN
             says that something never happened.
@@ -229,5 +233,6 @@ class Measure:
     observed_by: tuple[str, ...] = ()
     recorded: RecordedData | None = None
     column: StopColumn | WheelsetColumn | None = None
+    corrected: tuple[str, ...] = ()
     share_of: str = ""
     finite_field: str = ""

@@ -67,6 +67,7 @@ class StopMeasures(Record):
     track_brake_time_beside: float  # for which those of other cars of its train acted, the longest, s
     fault_time: float  # first cycle with a fault while the train moves, s
     reference_excess: float  # largest, of the controller's estimate over the train's speed since then, m/s
+    reference_distance: float  # shortest at any slide that is kept on the same rail, of a car alone, m
     has_diagnosis: float  # 1 where the controller can report something, else 0; NaN where that is not known
 
 

@@ -19,7 +19,7 @@ from uictest.core.measures.measure import (
 from uictest.core.measures.records import StopMeasures, WheelsetMeasures
 from uictest.core.units import in_unit
 
-_ORDER: Final = ["stopping", "deceleration", "sliding", "brake", "simulation", "diagnosis"]
+_ORDER: Final = ["stopping", "reference", "deceleration", "sliding", "brake", "simulation", "diagnosis"]
 """Order of the modules in results and lists; modules not named here follow in the order of their names."""
 
 

@@ -46,6 +46,7 @@ def begin_train(
     measures.samples = 1.0
     measures.fault_time = NAN
     measures.reference_excess = NAN
+    measures.reference_distance = NAN
     measures.has_diagnosis = NAN
 
 

@@ -46,7 +46,12 @@ from .disc_brake import (
     relaxed_share as relaxed_share,
     torque as torque,
 )
-from .dynamic_brake import dynamic_force as dynamic_force, friction_pressure as friction_pressure
+from .dynamic_brake import (
+    dynamic_force as dynamic_force,
+    friction_pressure as friction_pressure,
+    held_excess as held_excess,
+    loop_width as loop_width,
+)
 from .polach import (
     FITTED_TERMS as FITTED_TERMS,
     contact_stiffness as contact_stiffness,

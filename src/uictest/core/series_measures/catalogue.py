@@ -3,6 +3,7 @@
 K_wet: UNISIG SUBSET-040, 4.4.1.5. The deceleration distance is what remains of the distance to standstill
 behind the equivalent build-up time of the brake; K_wet = 100/(100 + increase of it over the dry stop in %),
 of the mean of the valid wet stops. One factor for all speeds takes the larger increase: the smaller K_wet.
+Distances are corrected: :func:`uictest.core.measures.catalogue.stopping.corrected_distance`.
 """
 
 from __future__ import annotations
@@ -21,8 +22,16 @@ from uictest.core.series_measures.measure import (
     of_stop,
 )
 
-_BRAKING_DISTANCE = of_stop("braking_distance_m")
-_DECELERATION_DISTANCE = of_stop("deceleration_distance_m")
+_BRAKING_DISTANCE = of_stop("corrected_distance_m")
+
+
+def deceleration_distance(stop: CountedStop) -> float:
+    """Return the deceleration distance, m, corrected as the braking distance is."""
+    measured, corrected, whole = (
+        stop.measures.get(name, math.nan)
+        for name in ("deceleration_distance_m", "corrected_distance_m", "braking_distance_m")
+    )
+    return measured * (corrected / whole) if whole else math.nan
 
 
 def increase(ratio: Estimate) -> Estimate:
@@ -62,7 +71,7 @@ _MEASURES: Final = (
         unit="%",
         meaning="mean increase of the deceleration distance over the mean of the dry stops of the same speed",
         worse="larger",
-        figure=_DECELERATION_DISTANCE,
+        figure=deceleration_distance,
         statistic=mean_of,
         of_ratio=increase,
     ),
@@ -72,7 +81,7 @@ _MEASURES: Final = (
         unit="1",
         meaning="100/(100 + mean increase of the deceleration distance in %)",
         worse="smaller",
-        figure=_DECELERATION_DISTANCE,
+        figure=deceleration_distance,
         statistic=mean_of,
         of_ratio=k_wet,
     ),
@@ -103,7 +112,7 @@ _MEASURES: Final = (
         unit="%",
         meaning="share of the wet stops that meet every requirement on a stop",
         worse="smaller",
-        figure=lambda stop: float(stop.passed),
+        figure=lambda stop: math.nan if stop.passed is None else float(stop.passed),
         statistic=share_of,
         pooled=True,
     ),

@@ -26,13 +26,13 @@ class CountedStop:
     Args:
         measures: column of stops -> number in the unit of the column, NaN where there is none.
         wheelsets: the same for every wheelset, from the leading end.
-        passed: whether it meets every requirement on a stop.
+        passed: whether it meets every requirement on a stop; None where one was left open.
 
     """
 
     measures: Mapping[str, float]
     wheelsets: tuple[Mapping[str, float], ...]
-    passed: bool
+    passed: bool | None
 
 
 Rail = Literal["", "cleaned", "uncleaned"]
@@ -88,7 +88,8 @@ class SeriesMeasure:
         worse: which of two values is the worse one. The value of a series is that of its worst speed.
         figure: of every wet stop.
         statistic: makes the estimate of these.
-        pooled: whether the value of the series is that of all its stops together instead.
+        pooled: whether it is of the stops from all speeds together instead; those on different kinds of rail
+            are never pooled, and the value of the series is that of its worst rail then.
         of_ratio: makes the value of the ratio of the estimate to the mean of the dry stops; None where the
             value is the estimate itself.
 
@@ -115,11 +116,19 @@ class SeriesMeasure:
             return self._over_dry(stops, confidence, self.of_ratio)
         return self._of_stops(stops.wet, confidence)
 
+    def groups(self, speeds: Sequence[SpeedStops]) -> list[list[SpeedStops]]:
+        """Return which stops make one value: those from one speed, or on one rail if it is pooled."""
+        if not self.pooled:
+            return [[each] for each in speeds]
+        rails = dict.fromkeys(each.rail for each in speeds)
+        return [[each for each in speeds if each.rail == rail] for rail in rails]
+
     def of_series(self, speeds: Sequence[SpeedStops], confidence: float) -> SeriesValue:
-        """Return the value of a series: that of its worst speed, or that of all stops together."""
-        if self.pooled:
-            return self._of_stops([stop for each in speeds for stop in each.wet], confidence)
-        return self._worst([self.of_speed(each, confidence) for each in speeds])
+        """Return the value of a series: that of its worst speed, or that of its worst rail."""
+        if not self.pooled:
+            return self._worst([self.of_speed(each, confidence) for each in speeds])
+        together = ([stop for each in group for stop in each.wet] for group in self.groups(speeds))
+        return self._worst([self._of_stops(stops, confidence) for stops in together])
 
     def percent_of_dry(self, speeds: Sequence[SpeedStops], confidence: float) -> SeriesValue:
         """Return the value of a series in % of the dry stops. Raises ValueError without a dry value."""

@@ -12,6 +12,8 @@ from .case import (
     evaluate_simulated as evaluate_simulated,
     may_be_biased as may_be_biased,
 )
+from .criterion_over_stops import OutcomeRule as OutcomeRule
+from .definitions import definition_texts as definition_texts
 from .effective_parts import (
     EffectiveParts as EffectiveParts,
     Program as Program,
@@ -28,7 +30,6 @@ from .firmness import (
     WrittenFirmness as WrittenFirmness,
 )
 from .json_values import (
-    Expectation as Expectation,
     Number as Number,
     Outcome as Outcome,
     absent_if_empty as absent_if_empty,
@@ -51,32 +52,45 @@ from .parameters import (
     parts_of as parts_of,
     parts_table as parts_table,
 )
+from .rail_validity import asks_for_rail as asks_for_rail, with_rail as with_rail
 from .repeated_case import (
-    OutcomeRule as OutcomeRule,
     SimulatedRepeat as SimulatedRepeat,
     evaluate_repeats as evaluate_repeats,
-    seeds_text as seeds_text,
 )
 from .repeats import (
     RepeatedStop as RepeatedStop,
     Repeats as Repeats,
     Spread as Spread,
     column_medians as column_medians,
-    is_expected as is_expected,
+    seeds_text as seeds_text,
     spread_of as spread_of,
 )
 from .result import (
     CaseResult as CaseResult,
     NamedParts as NamedParts,
     WrittenCaseResult as WrittenCaseResult,
+    narrowest_margin as narrowest_margin,
+)
+from .result_document import (
     cases_document as cases_document,
     cases_of as cases_of,
-    deciding_verdicts as deciding_verdicts,
-    narrowest_margin as narrowest_margin,
-    outcome_of as outcome_of,
     result_document as result_document,
     results_of as results_of,
     to_json as to_json,
+)
+from .statements import (
+    RailValidity as RailValidity,
+    RequirementStatus as RequirementStatus,
+    TestValidity as TestValidity,
+    deciding_verdicts as deciding_verdicts,
+    failed_checks as failed_checks,
+    is_expected as is_expected,
+    missed_requirements as missed_requirements,
+    outcome_of as outcome_of,
+    reasons_of as reasons_of,
+    requirements_of as requirements_of,
+    validity_of as validity_of,
+    why_no_test as why_no_test,
 )
 from .verdict import (
     AppliedDefinition as AppliedDefinition,
@@ -87,6 +101,5 @@ from .verdict import (
     Verdict as Verdict,
     VerdictInterval as VerdictInterval,
     WrittenVerdict as WrittenVerdict,
-    definition_texts as definition_texts,
     relative_margin as relative_margin,
 )

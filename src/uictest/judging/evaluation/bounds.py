@@ -133,7 +133,8 @@ class ObservedStop(NamedTuple):
     """The measures of a stop as far as it was observed.
 
     `cut_off` says why that was not to its end; empty where it was. `coverage` is None for a simulation.
-    `no_stopping` says why it is no stop to standstill under the brake alone; empty where it is.
+    `no_stopping` says why it is no stop to standstill under the brake alone; empty where it is. `resolved` is
+    the scenario, which states what distances are corrected for.
     """
 
     measures: StopMeasures
@@ -141,6 +142,14 @@ class ObservedStop(NamedTuple):
     cut_off: str = ""
     coverage: Coverage | None = None
     no_stopping: str = ""
+    resolved: scenario.Scenario | None = None
+
+    def definition(self, criterion: scenario.Criterion, stated: Mapping[str, float]) -> Mapping[str, float]:
+        """Return what the measure of a criterion is read by: definitions and what it is corrected for."""
+        if self.resolved is None or not criterion.corrected:
+            return stated
+        conditions = scenario.corrections(self.resolved, criterion)
+        return {**stated, **{name: float(value) for name, value in conditions.items()}}
 
     def missing(self, measure: str, count: int, *, settled: bool) -> tuple[MissingData | None, ...]:
         """Return what each of the `count` values of a measure lacks; empty where none lacks anything.

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 from uictest.core.units import with_unit
+from uictest.judging.evaluation.json_values import absent_if_empty
 from uictest.plans import scenario
+
+WrittenCarFigures = Annotated[scenario.CarFigures, absent_if_empty("implausible")]
+"""In JSON the figures of a car list what is implausible only where something is."""
 
 _KILONEWTON = 1e3
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Final
 
@@ -20,12 +20,14 @@ from uictest.core.measures import (
 from uictest.judging.evaluation.bounds import Coverage
 from uictest.judging.evaluation.car_in_train import CouplerForces, place_in_train
 from uictest.judging.evaluation.judgement import Detail, judge
-from uictest.judging.evaluation.result import CaseResult, outcome_of
+from uictest.judging.evaluation.result import CaseResult
 from uictest.judging.evaluation.rig_reasons import missed_deadlines
+from uictest.judging.evaluation.statements import outcome_of
 from uictest.judging.evaluation.verdict import Verdict
 from uictest.plans import scenario
 
 JUDGED_KEYS = (
+    "initial_speed",
     "brake.position",
     "brake.command",
     "rail.condition",
@@ -46,7 +48,9 @@ JUDGED_KEYS = (
     "faults",
     "criteria",
     "measures",
+    "record",
     "expect",
+    "test_validity",
     "requirements",
     "test_case",
 )
@@ -77,6 +81,7 @@ def evaluate(
     detail: Detail = "full",
     coverage: Coverage | None = None,
     response_times: ResponseTimes | None = None,
+    of_record: Iterable[Verdict] = (),
 ) -> CaseResult:
     """Return the judged result of a case whose stop was simulated or recorded.
 
@@ -88,12 +93,14 @@ def evaluate(
         detail: as for :func:`judge`.
         coverage: as for :func:`judge`.
         response_times: of the controller in a stop that was paced by the clock.
+        of_record: whether the record of a real stop agrees with the case.
 
     """
     verdicts = judge(case.scenario, measures, wheelset_measures, detail=detail, coverage=coverage)
-    verdicts = [*verdicts, *missed_deadlines(response_times)]
+    verdicts = [*verdicts, *missed_deadlines(response_times), *of_record]
     outcome, reason = outcome_of(verdicts)
-    of_stop = stop_column_values(measures, _column_definition(case.scenario.criteria))
+    corrections = {name: float(value) for name, value in scenario.corrections(case.scenario).items()}
+    of_stop = stop_column_values(measures, {**_column_definition(case.scenario.criteria), **corrections})
     of_wheelsets = [wheelset_column_values(wheelset) for wheelset in wheelset_measures]
     if case.scenario.drag is not None:
         of_stop = _without(_COLUMNS_OF_BRAKING, of_stop)
@@ -175,7 +182,10 @@ def may_be_biased(result: CaseResult, biases: Mapping[str, float]) -> bool:
     """
     if result.measures is None or math.isnan(result.measures["braking_time_s"]):
         return True
-    return any(_may_be_biased(each, biases.get(each.measure, math.inf)) for each in result.criteria)
+    return any(
+        _may_be_biased(each, biases.get(each.measure, math.inf))
+        for each in (*result.criteria, *result.decided)
+    )
 
 
 def _may_be_biased(verdict: Verdict, bias: float) -> bool:

@@ -41,7 +41,8 @@ def decide(
     criterion passes or fails only if it does so wherever in their intervals the values lie.
     """
     unit, course = criterion.unit, criterion.course
-    observed = MEASURES[criterion.measure].read(stop.measures, stop.wheelsets, definition)
+    read_by = stop.definition(criterion, definition)
+    observed = MEASURES[criterion.measure].read(stop.measures, stop.wheelsets, read_by)
     values = [in_unit(number, unit) for number in observed.values]
     settled = course == "settles" and not observed.unavailable_reason
     missing = stop.missing(criterion.measure, len(values) or 1, settled=settled)

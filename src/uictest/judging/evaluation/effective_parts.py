@@ -27,7 +27,7 @@ _PARTS: Final = {kind: dotted(key) for key, kind in PART_KINDS.items() if not PA
 _CONDITIONS: Final = ("brake.command", "brake.position", "rail.gradient", "rig.wsp")
 """Keys that describe a recorded stop, besides rail condition, criteria and measures."""
 
-_SECTIONS: Final = ("brake", "rail", "rig", "simulation")
+_SECTIONS: Final = ("brake", "rail", "rig", "simulation", "record")
 _OF_SAND: Final = "rail.sand."
 _RAIL_OVERRIDES: Final = ("friction", "cleaning", "variation")
 """Keys of the rail that replace what the rail condition has under the same name."""
@@ -68,6 +68,7 @@ class EffectiveParts:
         stated = [Parameter("rail.condition", condition.name, "", condition.name, "user")]
         for name in ("brake", "rail", "rig"):
             stated += [row for row in _section(scenario, name) if row.key.startswith(_CONDITIONS)]
+        stated += _section(scenario, "record")
         return {
             "conditions": EffectivePart("conditions", "", "", None, tuple(stated)),
             "measures": self.part(scenario.measures, "measures", "measures"),

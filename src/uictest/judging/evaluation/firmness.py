@@ -109,9 +109,11 @@ class NumberEffect:
         lowest: end of its range, as written.
         highest: the other end.
         mark: of the value: stated, published, identified, chosen, or user.
-        reason: why its range is what it is.
+        reason: why its range and its prior are what they are.
         margins: criterion -> its margin at the lowest and at the highest value, as a share of the limit:
             medians over some seeds; None where a stop has none.
+        prior: how likely the values of its range are in the draws: uniform or log-uniform; empty in a
+            document that does not say.
 
     """
 
@@ -124,6 +126,7 @@ class NumberEffect:
     margins: Annotated[Mapping[str, tuple[OptionalNumber, OptionalNumber]], PlainSerializer(json_form)] = (
         field(default_factory=dict)
     )
+    prior: str = ""
 
     def effect(self, criterion: str, nominal: float | None) -> float:
         """Return the largest change of a criterion's margin at an end; 0 where it is not known."""
@@ -148,7 +151,8 @@ class Firmness(VerdictFirmness):
         in_survey_steps: whether they were simulated in survey steps, except where the known bias of these may
             have decided a verdict.
         calibrated_by: ids of the stops by which the numbers are known.
-        without_range: keys of numbers of further brakes, sanders and couplers that state no range.
+        without_range: keys of the friction of the rail, and of numbers of further brakes, sanders and
+            couplers, that state no range.
 
     """
 

@@ -127,7 +127,6 @@ def _first_problem(error: ValidationError, place: str) -> str:
 
 
 Outcome = Literal["pass", "fail", "invalid", "inconclusive", "error", "skipped"]
-Expectation = Literal["pass", "fail", "invalid", "skipped"]
 
 
 def _columns(content: object, known: Collection[str]) -> dict[str, float]:

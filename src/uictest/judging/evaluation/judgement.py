@@ -17,19 +17,24 @@ from uictest.judging.evaluation.bounds import (
     why_no_stopping,
 )
 from uictest.judging.evaluation.decision import Decision, decide, sensitivity
+from uictest.judging.evaluation.definitions import applied_definitions, definition_texts
 from uictest.judging.evaluation.rig_reasons import why_rig_fails
 from uictest.judging.evaluation.verdict import (
     NOT_RECORDED,
     READINGS,
     ReadVerdict,
     Sensitivity,
+    Status,
     Verdict,
     VerdictInterval,
-    applied_definitions,
-    definition_texts,
 )
 from uictest.plans import scenario
-from uictest.plans.scenario import TestConditions, test_conditions_of, unmet_conditions
+from uictest.plans.scenario import (
+    TestConditions,
+    UnmetCondition,
+    test_conditions_of,
+    unmet_conditions,
+)
 
 DecideBy = Callable[[scenario.Criterion, Mapping[str, float]], Decision]
 """Decides a criterion that applies, or what it is by another reading, with given definitions (SI)."""
@@ -71,22 +76,23 @@ def judge(
     """
     conditions = test_conditions_of(resolved)
     cut_off = why_cut_off(resolved, measures, coverage)
-    stop = ObservedStop(measures, wheelset_measures, cut_off, coverage, why_no_stopping(resolved))
+    stop = ObservedStop(measures, wheelset_measures, cut_off, coverage, why_no_stopping(resolved), resolved)
     verdicts = []
     for profile in resolved.judged_by if coverage is None else resolved.criteria:
         for criterion in profile.criteria:
-            verdict = _judge(criterion, conditions, stop, resolved.measures, detail=detail)
+            verdict = _judge(criterion, profile, conditions, stop, resolved.measures, detail=detail)
             if verdict.layer == "rig" and verdict.status == "fail":
                 why = why_rig_fails(criterion, resolved, measures, list(wheelset_measures))
                 verdict = replace(verdict, reason=why or verdict.reason)
             if detail == "full":
-                verdict = with_definitions(verdict, criterion, profile, resolved.measures)
+                verdict = with_definitions(verdict, criterion, profile, resolved)
             verdicts.append(verdict)
     return verdicts
 
 
 def _judge(
     criterion: scenario.Criterion,
+    profile: scenario.Criteria,
     conditions: TestConditions,
     stop: ObservedStop,
     observation: scenario.MeasureDefinitions,
@@ -94,14 +100,14 @@ def _judge(
     detail: Detail,
 ) -> Verdict:
     bounds = bounds_of(criterion)
-    decided = undecided(criterion, conditions, stop, observation)
+    decided = undecided(criterion, profile, conditions, stop, observation)
     if decided is not None:
         return verdict_of(criterion, bounds, decided)
 
     def decide_by(read: scenario.Criterion, definition: Mapping[str, float]) -> Decision:
         if read is criterion:
             return decide(criterion, bounds, definition, stop)
-        without_value = undecided(read, conditions, stop, observation)
+        without_value = undecided(read, profile, conditions, stop, observation)
         return without_value or decide(read, bounds_of(read), definition, stop)
 
     return verdict_by(criterion, bounds, decide_by, detail=detail)
@@ -159,14 +165,14 @@ def with_definitions(
     verdict: Verdict,
     criterion: scenario.Criterion,
     profile: scenario.Criteria,
-    observation: scenario.MeasureDefinitions,
+    resolved: scenario.Scenario,
 ) -> Verdict:
     """Return a verdict with the definitions that it depends on."""
     return replace(
         verdict,
-        definition=definition_texts(criterion, profile, observation),
-        definitions=applied_definitions(criterion, profile, observation),
-        readings=tuple(_defined_readings(verdict.readings, criterion, profile, observation)),
+        definition=definition_texts(criterion, profile, resolved),
+        definitions=applied_definitions(criterion, profile, resolved),
+        readings=tuple(_defined_readings(verdict.readings, criterion, profile, resolved)),
     )
 
 
@@ -174,20 +180,21 @@ def _defined_readings(
     readings: Sequence[ReadVerdict],
     criterion: scenario.Criterion,
     profile: scenario.Criteria,
-    observation: scenario.MeasureDefinitions,
+    resolved: scenario.Scenario,
 ) -> Iterator[ReadVerdict]:
     """Yield what each reading says with its source and, but for the deciding one, its definitions."""
     others = {each.id: each for each in criterion.readings}
     for read in readings:
         other = others.get(read.id)
         source = profile.sources.get(other.source if other else criterion.reading_source)
-        texts = definition_texts(criterion.read_as(other), profile, observation) if other else {}
+        texts = definition_texts(criterion.read_as(other), profile, resolved) if other else {}
         mark, text = (source.mark, source.text) if source else ("user", "")
         yield replace(read, mark=mark, source=text, definition=texts)
 
 
 def undecided(
     criterion: scenario.Criterion,
+    profile: scenario.Criteria,
     conditions: TestConditions,
     stop: ObservedStop,
     observation: scenario.MeasureDefinitions,
@@ -195,19 +202,31 @@ def undecided(
     """Return the decision on a criterion that its measure has no part in; None where it has."""
     if criterion.needs_series:
         return Decision("not_applicable", None, _OVER_A_SERIES)
-    return _not_applicable(criterion, conditions, stop) or _unobserved(criterion, observation, stop)
+    return _not_applicable(criterion, profile, conditions, stop) or _unobserved(criterion, observation, stop)
 
 
 def _not_applicable(
-    criterion: scenario.Criterion, conditions: TestConditions, stop: ObservedStop
+    criterion: scenario.Criterion, profile: scenario.Criteria, conditions: TestConditions, stop: ObservedStop
 ) -> Decision | None:
     """Return the decision on a criterion that does not apply, or may not apply; None where it applies."""
     unknown = "" if stop.coverage is None else stop.coverage.no_initial_speed
     initial_speed = None if unknown else stop.measures.initial_speed
-    if unmet := unmet_conditions(criterion.applies, conditions, initial_speed):
-        return Decision("not_applicable", None, "; ".join(map(str, unmet)))
+
+    def unmet_by(other: scenario.Criterion) -> list[UnmetCondition]:
+        return unmet_conditions(other.applies, conditions, initial_speed)
+
+    if unmet := unmet_by(criterion):
+        # Another test of that kind, whose validity nothing in the profile judges.
+        of_validity = (each for each in profile.criteria if each.layer == "validity")
+        same = [each for each in of_validity if each.measure == criterion.measure]
+        of_kind = criterion.layer == "validity" and all(each.tells_tests_apart for each in unmet)
+        status: Status = "inconclusive" if of_kind and all(map(unmet_by, same)) else "not_applicable"
+        words = [each.no_such_test if status == "inconclusive" else str(each) for each in unmet]
+        return Decision(status, None, "; ".join(words))
     if stop.no_stopping and (criterion.of_standstill or (conditions.drag and criterion.of_braking)):
-        return Decision("not_applicable", None, stop.no_stopping)
+        # What would have shown that it is a test is missing.
+        status = "inconclusive" if criterion.layer == "validity" else "not_applicable"
+        return Decision(status, None, stop.no_stopping)
     if criterion.of_simulation and stop.coverage is not None:
         return Decision("not_applicable", None, "a balance of the simulation: a recorded stop has none")
     if stop.coverage is not None and (absent := stop.coverage.not_computed.get(criterion.measure)):
@@ -266,6 +285,7 @@ def verdict_of(criterion: scenario.Criterion, bounds: Bounds, decision: Decision
         measure=criterion.measure,
         requirements=criterion.requirements,
         missed_by=decision.missed_by,
+        in_valid_test=criterion.in_valid_test,
     )
 
 

@@ -2,43 +2,35 @@
 
 from __future__ import annotations
 
-import math
-import statistics
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import compress
+from operator import not_
 from typing import Final
 
 from uictest.core.measures import StopMeasures, Wheelsets
-from uictest.core.units import value_text, with_unit
-from uictest.judging.evaluation.bounds import Bounds, ObservedStop, bounds_of, why_cut_off, why_no_stopping
+from uictest.judging.evaluation.bounds import ObservedStop, bounds_of, why_cut_off, why_no_stopping
 from uictest.judging.evaluation.car_in_train import over_stops_of_train
+from uictest.judging.evaluation.criterion_over_stops import OutcomeRule, decision_over_stops, over_stops
 from uictest.judging.evaluation.decision import Decision, decide
-from uictest.judging.evaluation.json_values import Expectation, Outcome
-from uictest.judging.evaluation.judgement import Detail, undecided, verdict_by, with_definitions
-from uictest.judging.evaluation.repeats import RepeatedStop, Repeats, Rule, column_medians, is_expected
-from uictest.judging.evaluation.result import CaseResult, outcome_of
-from uictest.judging.evaluation.verdict import OverStops, Status, Verdict
+from uictest.judging.evaluation.json_values import Outcome
+from uictest.judging.evaluation.judgement import Detail, undecided, verdict_by, verdict_of, with_definitions
+from uictest.judging.evaluation.repeats import (
+    RepeatedStop,
+    Repeats,
+    column_medians,
+    seeds_text,
+)
+from uictest.judging.evaluation.result import CaseResult
+from uictest.judging.evaluation.statements import RailValidity, decided_by, outcome_of
+from uictest.judging.evaluation.verdict import Verdict
 from uictest.plans import scenario
-from uictest.plans.scenario import TestConditions, test_conditions_of
+from uictest.plans.scenario import Expectation, TestConditions, test_conditions_of
 
 _MOST_TELLING: Final[tuple[Outcome, ...]] = ("fail", "pass", "invalid", "skipped", "inconclusive")
-"""Outcomes that may not be the expected one, those that say most of a stop first."""
-
-_SEEDS_LISTED: Final = 6
-"""Seeds, or runs of them, that a reason names at most; chosen."""
-
-
-@dataclass(frozen=True, slots=True)
-class OutcomeRule:
-    """A rule with the share of stops that must come out alike, from 0 to 1; `median` asks for none."""
-
-    name: Rule
-    share: float = 1.0
-
-    def needed(self, stops: int) -> int:
-        """Return how many of so many stops that is."""
-        # Not 10 of 10 stops where 0.9 times 10 is a little above 9 in binary.
-        return math.ceil(self.share * stops - 1e-9)
+"""Outcomes of stops that are not as expected, those that say most first."""
+_OF_EXPECTED: Final[tuple[Outcome, ...]] = ("fail", "invalid", "pass", "skipped")
+"""Outcomes of stops that are: what is allowed comes before `pass`, unless enough stops pass."""
 
 
 def rule_of(resolved: scenario.Scenario) -> OutcomeRule:
@@ -49,99 +41,32 @@ def rule_of(resolved: scenario.Scenario) -> OutcomeRule:
     return OutcomeRule(stated)
 
 
-def decision_over_stops(
-    decisions: Sequence[Decision], bounds: Bounds, unit: str, rule: OutcomeRule
-) -> Decision:
-    """Return what a criterion says of all stops together, given its decision on each.
-
-    Stops that it does not apply to do not count. The value is the median of those that have one. Where the
-    remaining stops agree, so does the status. Otherwise `median` judges the median, in which a stop without a
-    value may have any; the other rules count the stops that pass: the criterion is inconclusive where those
-    that are inconclusive could make up the number needed.
-    """
-    judged = [decision for decision in decisions if decision.status != "not_applicable"]
-    if not judged:
-        return decisions[0]
-    values = [each.value for each in judged if each.value is not None and math.isfinite(each.value)]
-    status = _status(judged, values, bounds, rule)
-    reason = _reason(judged, values, len(decisions), with_unit(str(bounds), unit), rule)
-    if not values:
-        return Decision(status, None, reason)
-    value = statistics.median(values)
-    return Decision(status, value, reason, bounds.side(value))
-
-
-def over_stops(decisions: Sequence[Decision]) -> OverStops:
-    """Return how many of the decisions on one criterion have each status, and the range of their values."""
-    statuses = [decision.status for decision in decisions]
-    values = [each.value for each in decisions if each.value is not None and math.isfinite(each.value)]
-    return OverStops(
-        passed=statuses.count("pass"),
-        failed=statuses.count("fail"),
-        inconclusive=statuses.count("inconclusive"),
-        not_applicable=statuses.count("not_applicable"),
-        lowest=min(values, default=None),
-        highest=max(values, default=None),
-    )
-
-
-def _status(judged: Sequence[Decision], values: Sequence[float], bounds: Bounds, rule: OutcomeRule) -> Status:
-    statuses = [decision.status for decision in judged]
-    if len(set(statuses)) == 1:
-        return statuses[0]
-    if rule.name == "median":
-        unknown = [math.inf] * (len(judged) - len(values))
-        lowest = statistics.median([*(-each for each in unknown), *values])
-        holds = bounds.hold_throughout(lowest, statistics.median([*values, *unknown]))
-        return "inconclusive" if holds is None else "pass" if holds else "fail"
-    passed, needed = statuses.count("pass"), rule.needed(len(judged))
-    if passed >= needed:
-        return "pass"
-    return "inconclusive" if passed + statuses.count("inconclusive") >= needed else "fail"
-
-
-def _reason(
-    judged: Sequence[Decision], values: Sequence[float], stops: int, demand: str, rule: OutcomeRule
-) -> str:
-    text = f"{sum(decision.status == 'pass' for decision in judged)} of {len(judged)} stops pass"
-    if rule.name != "median":
-        text += f" ({rule.needed(len(judged))} needed)"
-    if len(judged) < stops:
-        text += f", not applicable to {stops - len(judged)} more"
-    if values:
-        middle, low, high = (
-            value_text(each, "1") for each in (statistics.median(values), min(values), max(values))
-        )
-        text += f": median {middle} in {low} .. {high}, against {demand}"
-    undecided = next((each.reason for each in judged if each.status == "inconclusive"), "")
-    return f"{text}; {undecided}" if undecided else text
-
-
 def outcome_over_stops(
     stops: Sequence[RepeatedStop], expect: Expectation, rule: OutcomeRule, at_median: tuple[Outcome, str]
 ) -> tuple[Outcome, str]:
     """Return the outcome of a repeated case and why.
 
     A stop that ended in an error makes the case one, under every rule. `median` takes the outcome that the
-    verdicts at the median have, `at_median`. The other rules count the stops with the expected outcome; where
+    verdicts at the median have, `at_median`. The other rules count the stops that are as expected; where
     these are too few, the outcome is `inconclusive` if inconclusive stops could make up the number, else the
-    most telling outcome that was not expected: fail, pass, invalid, skipped, inconclusive in this order.
+    most telling outcome of the others: fail, pass, invalid, skipped, inconclusive in this order.
     """
-    outcomes = [stop.outcome for stop in stops]
-    if "error" in outcomes:
+    if any(stop.outcome == "error" for stop in stops):
         return "error", _why(stops, "error")
     if rule.name == "median":
         return at_median
-    expected, needed = sum(is_expected(each, expect) for each in outcomes), rule.needed(len(stops))
-    if expected >= needed:
-        return _as_expected(stops, expect)
-    others = [each for each in _MOST_TELLING if each in outcomes and not is_expected(each, expect)]
-    possible = expected + outcomes.count("inconclusive") >= needed
-    return "inconclusive" if possible else others[0], "; ".join(_why(stops, each) for each in others)
-
-
-def _as_expected(stops: Sequence[RepeatedStop], expect: Expectation) -> tuple[Outcome, str]:
-    return expect, "" if expect == "pass" else _why(stops, expect)
+    held = [stop.as_expected(expect) for stop in stops]
+    expected, others = list(compress(stops, held)), list(compress(stops, map(not_, held)))
+    needed = rule.needed(len(stops))
+    if len(expected) >= needed:
+        enough_pass = sum(stop.outcome == "pass" for stop in expected) >= needed
+        found = {stop.outcome for stop in expected}
+        outcome = "pass" if enough_pass else next(each for each in _OF_EXPECTED if each in found)
+        return outcome, "" if outcome == "pass" else _why(stops, outcome)
+    telling = [each for each in _MOST_TELLING if each in {stop.outcome for stop in others}]
+    undecided = sum(stop.outcome == "inconclusive" for stop in others)
+    possible = len(expected) + undecided >= needed
+    return "inconclusive" if possible else telling[0], "; ".join(_why(stops, each) for each in telling)
 
 
 def _why(stops: Sequence[RepeatedStop], outcome: Outcome) -> str:
@@ -151,31 +76,6 @@ def _why(stops: Sequence[RepeatedStop], outcome: Outcome) -> str:
     text = f"{outcome} in {len(of_outcome)} of {len(stops)} stops"
     text, reason = f"{text} ({seeds_text(seeds)})", of_outcome[0].reason
     return f"{text}, with seed {seeds[0]}: {reason}" if reason else text
-
-
-def seeds_text(seeds: Sequence[int]) -> str:
-    """Return rising seeds for a reader, e.g. `seed 3`, `seeds 0, 2, 4..9`; of many the first ones."""
-    runs = list(_runs(seeds))
-    shown = ", ".join(_run_text(*run) for run in runs[:_SEEDS_LISTED])
-    more = sum(last - first + 1 for first, last in runs[_SEEDS_LISTED:])
-    named = f"seed {shown}" if len(seeds) == 1 else f"seeds {shown}"
-    return f"{named} and {more} more" if more else named
-
-
-def _runs(seeds: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """Yield the first and the last of each run of seeds that follow each other."""
-    first: int | None = None
-    for place, seed in enumerate(seeds):
-        first = seed if first is None else first
-        if place + 1 == len(seeds) or seeds[place + 1] != seed + 1:
-            yield first, seed
-            first = None
-
-
-def _run_text(first: int, last: int) -> str:
-    if last - first > 1:
-        return f"{first}..{last}"
-    return str(first) if first == last else f"{first}, {last}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,7 +100,9 @@ def evaluate_repeats(case: scenario.Case, repeats: Sequence[SimulatedRepeat]) ->
     rule = rule_of(case.scenario)
     verdicts = tuple(judge_repeats(case.scenario, repeats, rule))
     stops = tuple(_repeated_stop(each) for each in repeats)
-    outcome, reason = outcome_over_stops(stops, case.scenario.expect, rule, outcome_of(verdicts))
+    rail = _rail_over_stops(case.scenario, repeats, rule)
+    at_median = outcome_of(decided_by(verdicts, rail))
+    outcome, reason = outcome_over_stops(stops, case.scenario.expect, rule, at_median)
     simulated = [stop for stop in stops if stop.measures is not None]
     first = repeats[0].result
     return replace(
@@ -218,6 +120,7 @@ def evaluate_repeats(case: scenario.Case, repeats: Sequence[SimulatedRepeat]) ->
         # As of a single stop: whatever the other stops say, none of them is verified.
         requirements=scenario.named_requirements(case.scenario) if outcome == "error" else first.requirements,
         repeats=Repeats(rule.name, stops, rule.share if rule.name == "at_least" else None),
+        rail=rail,
         train=over_stops_of_train([each.result.train for each in repeats]),
         duration=sum(each.result.duration for each in repeats),
     )
@@ -225,8 +128,31 @@ def evaluate_repeats(case: scenario.Case, repeats: Sequence[SimulatedRepeat]) ->
 
 def _repeated_stop(repeat: SimulatedRepeat) -> RepeatedStop:
     result = repeat.result
-    own = result.outcome, result.reason, result.criteria, result.measures, result.wheelsets
+    own = result.outcome, result.reason, result.criteria, result.measures, result.wheelsets, result.rail
     return RepeatedStop(repeat.seed, *own)
+
+
+def _rail_over_stops(
+    resolved: scenario.Scenario, repeats: Sequence[SimulatedRepeat], rule: OutcomeRule
+) -> RailValidity | None:
+    """Return the validity of the rail over all stops; of stops that are tests it is their own."""
+    first = next((each.result.rail for each in repeats if each.result.rail is not None), None)
+    if first is None:
+        return None
+    of_stops = [
+        decided_by(each.result.criteria, each.result.rail and replace(each.result.rail, decides=True))
+        for each in repeats
+        if each.measures is not None
+    ]
+    criteria = {each.id: each for profile in resolved.judged_by for each in profile.criteria}
+
+    def over(name: str) -> Verdict:
+        own = [verdict for verdicts in of_stops for verdict in verdicts if verdict.id == name]
+        decisions = [Decision(each.status, each.value, each.reason) for each in own]
+        bounds, unit = bounds_of(criteria[name]), criteria[name].unit
+        return verdict_of(criteria[name], bounds, decision_over_stops(decisions, bounds, unit, rule))
+
+    return replace(first, criteria=tuple(over(each.id) for each in first.criteria))
 
 
 def judge_repeats(
@@ -244,16 +170,17 @@ def judge_repeats(
             each.wheelset_measures,
             why_cut_off(resolved, each.measures, None),
             no_stopping=why_no_stopping(resolved),
+            resolved=resolved,
         )
         for each in repeats
         if each.measures is not None
     ]
     for profile in resolved.judged_by if stops else ():
         for criterion in profile.criteria:
-            verdict = _judge(criterion, conditions, resolved.measures, rule, stops)
+            verdict = _judge(criterion, profile, conditions, resolved.measures, rule, stops)
             if verdict.layer == "rig" and verdict.status == "fail":
                 verdict = replace(verdict, reason=f"{verdict.reason}; {_first_reason(repeats, verdict.id)}")
-            yield with_definitions(verdict, criterion, profile, resolved.measures)
+            yield with_definitions(verdict, criterion, profile, resolved)
 
 
 def _first_reason(repeats: Sequence[SimulatedRepeat], criterion: str) -> str:
@@ -269,19 +196,20 @@ def _first_reason(repeats: Sequence[SimulatedRepeat], criterion: str) -> str:
 
 def _judge(
     criterion: scenario.Criterion,
+    profile: scenario.Criteria,
     conditions: TestConditions,
     observation: scenario.MeasureDefinitions,
     rule: OutcomeRule,
     stops: Sequence[ObservedStop],
 ) -> Verdict:
-    without_value = [undecided(criterion, conditions, stop, observation) for stop in stops]
+    without_value = [undecided(criterion, profile, conditions, stop, observation) for stop in stops]
     if criterion.layer == "rig" and rule.name == "median":
         rule = OutcomeRule("all")  # the figures of a stop whose rig is wrong are in every median
 
     def decisions(read: scenario.Criterion, definition: Mapping[str, float]) -> list[Decision]:
         own = without_value
         if read is not criterion:
-            own = [undecided(read, conditions, stop, observation) for stop in stops]
+            own = [undecided(read, profile, conditions, stop, observation) for stop in stops]
         pairs = zip(own, stops, strict=True)
         return [known or decide(read, bounds_of(read), definition, stop) for known, stop in pairs]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median, quantiles
 from typing import Annotated, Any, Final, Literal
@@ -15,13 +15,15 @@ from uictest.judging.evaluation.json_values import (
     BuiltWhenUsed,
     CaseMeasures,
     CaseWheelsetMeasures,
-    Expectation,
     OptionalNumber,
     Outcome,
+    absent_if_empty,
     json_form,
     required,
 )
+from uictest.judging.evaluation.statements import WrittenRailValidity, decided_by, is_expected
 from uictest.judging.evaluation.verdict import Verdict, WrittenVerdict
+from uictest.plans.scenario import Expectation
 
 Rule = Literal["all", "median", "at_least"]
 """What the outcome of a repeated case is: that of all its stops, that at the median of each value, or that of
@@ -41,10 +43,23 @@ class RepeatedStop:
     criteria: tuple[WrittenVerdict, ...] = ()
     measures: CaseMeasures | None = None
     wheelsets: tuple[CaseWheelsetMeasures, ...] = ()
+    rail: WrittenRailValidity | None = None
+
+    @property
+    def decided(self) -> tuple[Verdict, ...]:
+        """The verdicts that decide the outcome, see :func:`decided_by`."""
+        return decided_by(self.criteria, self.rail)
 
     def verdict(self, criterion: str) -> Verdict | None:
         """Return the verdict of a criterion on this stop; None where there is none."""
         return next((verdict for verdict in self.criteria if verdict.id == criterion), None)
+
+    def as_expected(self, expect: Expectation) -> bool:
+        """Return whether the stop came out as expected."""
+        return is_expected(self.outcome, self.decided, expect)
+
+
+_WrittenStop = Annotated[RepeatedStop, required("criteria", "measures", "wheelsets"), absent_if_empty("rail")]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +84,7 @@ class Repeats:
 
     rule: Rule
     stops: Annotated[
-        tuple[Annotated[RepeatedStop, required("criteria", "measures", "wheelsets")], ...],
+        tuple[_WrittenStop, ...],
         Field(min_length=1),
     ]
     required_share: OptionalNumber = None
@@ -78,6 +93,11 @@ class Repeats:
     def passed(self) -> int:
         """The number of stops that came out as `pass`."""
         return sum(stop.outcome == "pass" for stop in self.stops)
+
+    @property
+    def needed(self) -> int | None:
+        """How many stops must come out as expected; None where the verdicts at the median decide."""
+        return None if self.rule == "median" else stops_needed(self.required_share, len(self.stops))
 
     @property
     def none_judged(self) -> bool:
@@ -102,8 +122,8 @@ class Repeats:
         return len({stop.outcome for stop in self.stops}) > 1
 
     def as_expected(self, expect: Expectation) -> int:
-        """Return the number of stops with the expected outcome."""
-        return sum(is_expected(stop.outcome, expect) for stop in self.stops)
+        """Return the number of stops that came out as expected."""
+        return sum(stop.as_expected(expect) for stop in self.stops)
 
     def seeds(self, outcome: Outcome) -> list[int]:
         """Return the seeds of the stops with this outcome."""
@@ -119,9 +139,39 @@ class Repeats:
         return [stop.measures[column] for stop in self.stops if stop.measures is not None]
 
 
-def is_expected(outcome: Outcome, expect: Expectation) -> bool:
-    """Return whether an outcome is the expected one: nothing that was not judged counts as `pass`."""
-    return outcome == expect
+_SEEDS_LISTED: Final = 6
+"""Seeds, or runs of them, that a reason names at most; chosen."""
+
+
+def seeds_text(seeds: Sequence[int]) -> str:
+    """Return rising seeds for a reader, e.g. `seed 3`, `seeds 0, 2, 4..9`; of many the first ones."""
+    runs = list(_runs(seeds))
+    shown = ", ".join(_run_text(*run) for run in runs[:_SEEDS_LISTED])
+    more = sum(last - first + 1 for first, last in runs[_SEEDS_LISTED:])
+    named = f"seed {shown}" if len(seeds) == 1 else f"seeds {shown}"
+    return f"{named} and {more} more" if more else named
+
+
+def _runs(seeds: Sequence[int]) -> Iterator[tuple[int, int]]:
+    """Yield the first and the last of each run of seeds that follow each other."""
+    first: int | None = None
+    for place, seed in enumerate(seeds):
+        first = seed if first is None else first
+        if place + 1 == len(seeds) or seeds[place + 1] != seed + 1:
+            yield first, seed
+            first = None
+
+
+def _run_text(first: int, last: int) -> str:
+    if last - first > 1:
+        return f"{first}..{last}"
+    return str(first) if first == last else f"{first}, {last}"
+
+
+def stops_needed(share: float | None, stops: int) -> int:
+    """Return how many of so many stops a share of them is; None: all."""
+    # Not 10 of 10 stops where 0.9 times 10 is a little above 9 in binary.
+    return math.ceil((1.0 if share is None else share) * stops - 1e-9)
 
 
 def spread_of(values: Iterable[float]) -> Spread | None:

@@ -2,47 +2,47 @@
 
 from __future__ import annotations
 
-import json
-from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, Final
 
 from pydantic import (
-    ConfigDict,
+    BeforeValidator,
     Field,
     PlainSerializer,
     PlainValidator,
     SerializerFunctionWrapHandler,
-    TypeAdapter,
     ValidationInfo,
     WrapSerializer,
 )
 
 from uictest.controllers import ResponseTimes
-from uictest.core import envelope
-from uictest.judging.evaluation.car_in_train import CarInTrain
+from uictest.judging.evaluation.car_in_train import CarInTrain, WrittenCarFigures
 from uictest.judging.evaluation.firmness import WrittenFirmness
 from uictest.judging.evaluation.json_values import (
     CaseMeasures,
     CaseWheelsetMeasures,
-    Expectation,
     Outcome,
-    from_json_form,
-    json_form,
     required,
-    to_json_form,
 )
-from uictest.judging.evaluation.parameters import DomainOfValidity, EffectivePart, parts_document, parts_of
-from uictest.judging.evaluation.repeats import WrittenRepeats, is_expected
+from uictest.judging.evaluation.parameters import DomainOfValidity, EffectivePart
+from uictest.judging.evaluation.repeats import WrittenRepeats
+from uictest.judging.evaluation.statements import (
+    RequirementStatus,
+    TestValidity,
+    WrittenRailValidity,
+    decided_by,
+    is_expected,
+    requirements_of,
+    validity_of,
+)
 from uictest.judging.evaluation.verdict import (
-    Layer,
-    Status,
     Verdict,
     WrittenVerdict,
     relative_margin,
     with_outcome_of,
 )
+from uictest.plans.scenario import WrittenExpectation
 
 
 def _part_ids(parts: Mapping[str, EffectivePart]) -> dict[str, str]:
@@ -78,10 +78,10 @@ class CaseResult:
     management tool. `noise_key` names the noise of the sensors that a simulated stop met, together with its
     seed, see :mod:`uictest.rig.single_stop`. `domain_of_validity` says whether the case lies where the model
     was validated; None where nobody asked. `strict` says that the case is not met either where one of its
-    verdicts is not settled. `firmness` says whether numbers that nobody measured turn its verdicts, where
-    that was asked. `train` says where a car ran in its train. The document has these, and `repeats`, only
-    where they hold something. `duration` (seconds of wall clock) is for progress and JUnit only, never in the
-    document: a result must not depend on the machine.
+    verdicts is not settled. `firmness` says whether unmeasured numbers turn its verdicts, where that was
+    asked. `train` says where a car ran in its train, `car` its mass and what follows, `rail` whether the rail
+    itself makes the stop a test, where the stop with the WSP active is none. The document has these, and
+    `repeats`, only where they hold something, never `duration`, seconds for progress and JUnit.
 
     A case that repeats its stop has its stops in `repeats`: `measures` and `wheelsets` are then medians over
     them, and `criteria` are verdicts over all of them. `case_sha256` is that of the first.
@@ -90,7 +90,7 @@ class CaseResult:
     id: str
     scenario: str
     parameters: dict[str, str]
-    expect: Expectation
+    expect: WrittenExpectation
     outcome: Outcome
     reason: str = ""
     criteria: tuple[WrittenVerdict, ...] = ()
@@ -109,22 +109,61 @@ class CaseResult:
     strict: bool = False
     firmness: WrittenFirmness | None = None
     train: CarInTrain | None = None
+    rail: WrittenRailValidity | None = None
+    car: WrittenCarFigures | None = None
     duration: Annotated[float, Field(exclude=True)] = field(default=0.0, compare=False)
 
     @property
     def as_expected(self) -> bool:
-        """Whether the outcome is the expected one."""
-        return is_expected(self.outcome, self.expect)
+        """Whether it came out as expected; of a repeated case, as many of its stops as its rule asks for."""
+        if self.repeats is not None and self.repeats.needed is not None:
+            return self.outcome != "error" and self.repeats.as_expected(self.expect) >= self.repeats.needed
+        return is_expected(self.outcome, self.decided, self.expect)
+
+    @property
+    def decided(self) -> tuple[Verdict, ...]:
+        """The verdicts that decide the outcome, see :func:`decided_by`."""
+        return decided_by(self.criteria, self.rail)
+
+    @property
+    def test_validity(self) -> TestValidity:
+        """Whether the stop is a test as measured, also where the rail decides; over all stops of a case."""
+        return validity_of(self.criteria)
+
+    @property
+    def requirement_status(self) -> RequirementStatus:
+        """Whether the requirements are met, over all stops of a repeated case."""
+        return requirements_of(self.criteria)
+
+    @property
+    def allowed(self) -> tuple[Verdict, ...]:
+        """What is missed and was allowed: by name, for another controller than that of the case.
+
+        Of a repeated case whose stops are counted also what only some of them miss.
+        """
+        expect = self.expect
+        if not (expect.is_allowance and self.as_expected) or self.outcome == "pass":
+            return ()
+        counted = self.repeats.stops if self.repeats is not None and self.repeats.needed is not None else ()
+        named = (*expect.fail, *expect.invalid)
+        every = [each for own in (self.decided, *(stop.decided for stop in counted)) for each in own]
+        missed = [each for each in every if each.status == "fail" and each.id in named]
+        return tuple({each.id: each for each in reversed(missed)}.values())[::-1]
 
     @property
     def unsettled(self) -> tuple[Verdict, ...]:
         """The verdicts for which `strict` does not count the case as met; none without it."""
-        return tuple(each for each in self.criteria if self.strict and not each.settled)
+        return tuple(each for each in self.decided if self.strict and not each.settled)
 
     @property
     def met(self) -> bool:
-        """Whether the outcome is the expected one and, if `strict`, every verdict settled and it is firm."""
-        return self.as_expected and not self.unsettled and not self.lacks_firmness
+        """Whether it came out as expected and, if `strict`, with nothing left open.
+
+        Nothing is where every verdict is settled, the outcome is firm if that was asked, what may be missed
+        is named, and nothing is missed that is allowed only.
+        """
+        is_open = self.unsettled or self.lacks_firmness or self.expect.lacks_names or self.allowed
+        return self.as_expected and not (self.strict and is_open)
 
     @property
     def is_firm(self) -> bool:
@@ -153,60 +192,20 @@ class CaseResult:
             criteria=tuple(with_outcome_of(verdict, own) for verdict, own in pairs if own is not None),
             measures=first.measures,
             wheelsets=first.wheelsets,
+            rail=first.rail,
             repeats=None,
         )
-
-
-def outcome_of(verdicts: Iterable[Verdict]) -> tuple[Outcome, str]:
-    """Return the outcome of a stop and why."""
-    outcome, deciding = deciding_verdicts(verdicts)
-    reasons = "; ".join(f"{verdict.id}: {verdict.reason}" for verdict in deciding)
-    return outcome, reasons or ("no criterion" if outcome == "skipped" else "")
-
-
-_JUDGING: Final[tuple[Layer, ...]] = ("validity", "requirement")
-"""Layers whose criteria judge a stop."""
-
-
-def deciding_verdicts(verdicts: Iterable[Verdict]) -> tuple[Outcome, list[Verdict]]:
-    """Return the outcome of a stop and the verdicts that decide it, none where it passes.
-
-    A failed check of the rig or a failed validity criterion makes the stop invalid: it does not count as a
-    test, whatever its requirements. Checks of the rig decide nothing else. Otherwise a failed requirement
-    fails the stop, unless a validity criterion is inconclusive: the stop may be no test. Any other
-    inconclusive criterion makes the stop inconclusive. A stop that no criterion of validity or requirement
-    could judge is skipped.
-    """
-    verdicts = list(verdicts)
-    failed = [*_with_status(verdicts, ("fail",), "rig"), *_with_status(verdicts, ("fail",), "validity")]
-    if failed:
-        return "invalid", failed
-    verdicts = [verdict for verdict in verdicts if verdict.layer in _JUDGING]
-    failed = _with_status(verdicts, ("fail",), "requirement")
-    if failed and not _with_status(verdicts, ("inconclusive",), "validity"):
-        return "fail", failed
-    if _with_status(verdicts, ("inconclusive",)):
-        return "inconclusive", _with_status(verdicts, ("fail", "inconclusive"))
-    if not _with_status(verdicts, ("pass",)):
-        return "skipped", _with_status(verdicts, ("not_applicable",))
-    return "pass", []
-
-
-def _with_status(
-    verdicts: Sequence[Verdict], statuses: Sequence[Status], layer: Layer | None = None
-) -> list[Verdict]:
-    return [verdict for verdict in verdicts if verdict.status in statuses and layer in (None, verdict.layer)]
 
 
 def narrowest_margin(result: CaseResult) -> tuple[float | None, str]:
     """Return the smallest relative margin of a case and the id of its criterion; None and "" without any.
 
-    Checks of the rig have no part in it.
+    Checks of the rig and of the record have no part in it.
     """
     margins = [
         (margin, verdict.id)
         for verdict in result.criteria
-        if verdict.layer != "rig" and (margin := relative_margin(verdict)) is not None
+        if not verdict.is_check and (margin := relative_margin(verdict)) is not None
     ]
     return min(margins, default=(None, ""))
 
@@ -214,14 +213,24 @@ def narrowest_margin(result: CaseResult) -> tuple[float | None, str]:
 _OF_SOME: Final = (
     *("response_times", "controller_version", "controller_contract", "case_sha256"),
     *("requirements", "test_case", "noise_key", "repeats", "domain_of_validity", "strict", "firmness"),
-    "train",
+    *("train", "car", "rail"),
 )
 """Fields that the form of a result or a verdict has only where there is something in them."""
 
 
-def _without_empty(result: CaseResult, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+_STATEMENTS: Final = ("test_validity", "requirement_status")
+
+
+def _written(result: CaseResult, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
     form = _filled(write(result))
-    return {**form, "criteria": [_filled(verdict) for verdict in form["criteria"]]}
+    statements = {name: getattr(result, name) for name in _STATEMENTS}
+    return {**form, **statements, "criteria": [_filled(verdict) for verdict in form["criteria"]]}
+
+
+def _without_statements(content: object) -> object:
+    if isinstance(content, Mapping):
+        return {name: value for name, value in content.items() if name not in _STATEMENTS}
+    return content
 
 
 def _filled(form: Mapping[str, Any]) -> dict[str, Any]:
@@ -230,71 +239,9 @@ def _filled(form: Mapping[str, Any]) -> dict[str, Any]:
 
 # In code these three default to those of a case that was not simulated.
 WrittenCaseResult = Annotated[
-    CaseResult, required("criteria", "measures", "wheelsets"), WrapSerializer(_without_empty)
+    CaseResult,
+    required("criteria", "measures", "wheelsets"),
+    BeforeValidator(_without_statements),
+    WrapSerializer(_written),
 ]
-"""A result as documents hold it."""
-
-_CASES: Final = TypeAdapter(list[WrittenCaseResult], config=ConfigDict(extra="forbid", defer_build=True))
-
-
-def result_document(results: Iterable[CaseResult], **header: Any) -> dict[str, Any]:
-    """Return the head of results, the header, `parts` and `cases`, with NaN and infinity as None.
-
-    Cases name their parts by ids: a part that many cases share is there once.
-    """
-    results = list(results)
-    return {
-        **envelope.head(envelope.RESULT, "run"),
-        **json_form(header),
-        "parts": parts_document(result.parts for result in results),
-        "cases": cases_document(results),
-    }
-
-
-def cases_document(results: Iterable[CaseResult]) -> list[dict[str, Any]]:
-    """Return the JSON form of results, NaN and infinity as None, without how long they took."""
-    form: list[dict[str, Any]] = to_json_form(_CASES, list(results))
-    return form
-
-
-def cases_of(content: object, parts: Mapping[str, EffectivePart], place: str = "cases") -> list[CaseResult]:
-    """Return the results whose JSON form is `content`; `parts` are those they may name, by id.
-
-    `place` is where the content stands in its document. Raises ValueError where a case lacks or adds a field,
-    or names another part.
-    """
-    return from_json_form(_CASES, content, place=place, context=parts)
-
-
-def results_of(content: Mapping[str, Any]) -> list[CaseResult]:
-    """Return the results in a document.
-
-    Raises:
-        ValueError: the document is of another schema or kind, or a case in it lacks or adds a field, or two
-            share an id.
-
-    """
-    try:
-        envelope.require(content, envelope.RESULT, "run")
-        results = cases_of(content["cases"], parts_of(content))
-        _require_distinct(results)
-    except KeyError as error:
-        raise ValueError(f"no {error}") from error
-    return results
-
-
-def _require_distinct(results: Iterable[CaseResult]) -> None:
-    # Readers look cases up by id: of two, one would be compared and the other never seen.
-    counts = Counter(result.id for result in results)
-    if repeated := [case_id for case_id, count in counts.items() if count > 1]:
-        raise ValueError(f"two cases have the id {repeated[0]!r}")
-
-
-def to_json(content: Mapping[str, Any]) -> str:
-    """Return the document as JSON text: two spaces of indentation, newline at the end.
-
-    Raises:
-        ValueError: a value in it is NaN or infinite.
-
-    """
-    return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+"""A result as documents hold it; what its verdicts come to stands there for readers that need no more."""

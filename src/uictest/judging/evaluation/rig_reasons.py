@@ -18,7 +18,8 @@ def why_rig_fails(
 ) -> str:
     """Return which sensors are limited, or what the compensation was not identified for; else nothing."""
     if criterion.measure == "compensation_misfit":
-        return "; ".join(map(str, scenario.misfits(resolved)))
+        misfits = scenario.misfits(resolved)
+        return "; ".join((*map(str, misfits), scenario.FIT_HINT)) if misfits else ""
     if criterion.measure not in _SATURATIONS:
         return ""
     limited = list(_limited(criterion.measure, resolved, measures, wheelsets))
@@ -54,7 +55,7 @@ def missed_deadlines(times: ResponseTimes | None) -> Iterator[Verdict]:
         missed = float(times.missed_deadlines)
         yield Verdict(
             id=CRITERION,
-            layer="validity",
+            layer="rig",
             value=missed,
             unit="1",
             lower=None,

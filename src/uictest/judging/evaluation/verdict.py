@@ -8,25 +8,19 @@ from typing import Annotated, Any, Final, Literal
 
 from pydantic import BeforeValidator, Field, SerializerFunctionWrapHandler, WrapSerializer
 
-from uictest.core.units import in_unit, value_text, with_unit
-from uictest.judging.evaluation.bounds import bounds_of
+from uictest.core.measures import NO_REFERENCE
 from uictest.judging.evaluation.json_values import Number, OptionalNumber, absent_if_empty
-from uictest.plans import scenario
-from uictest.plans.scenario import yaml
 
 NOT_RECORDED: Final = "not recorded: "  # how a reason begins
 Status = Literal["pass", "fail", "not_applicable", "inconclusive"]
-"""What a criterion says of a stop.
-
-not_applicable: the criterion says nothing about such a stop. inconclusive: data to judge it are missing.
-"""
+"""not_applicable: the criterion says nothing of such a stop. inconclusive: data to judge it are missing."""
 
 READINGS: Final = "readings"
 """Name among the definitions of a criterion for its readings, taken together."""
 
-Layer = Literal["rig", "validity", "requirement"]
-"""rig: the rig can be believed. validity: the stop counts as a test. requirement: the vehicle or its WSP is
-good enough."""
+Layer = Literal["rig", "record", "validity", "requirement"]
+"""rig: the rig can be believed. record: the recorded stop agrees with its scenario. validity: the stop counts
+as a test. requirement: the vehicle or its WSP is good enough."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,7 +152,7 @@ class OverStops:
     @property
     def turns(self) -> bool:
         """Whether the verdict is not the same in all stops."""
-        return max(self.passed, self.failed, self.inconclusive, self.not_applicable) < self.stops
+        return self.stops not in (self.passed, self.failed, self.inconclusive, self.not_applicable)
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,10 +163,10 @@ class Verdict:
     `margin` is the distance to the nearest bound, positive on the good side. For a criterion over wheelsets
     `value` is the one of the wheelset that decides. `measure` and `definitions` hold the name of the measure
     and the definitions that are numbers. `definition` maps each definition to its text, for people only.
-    `requirements` holds the ids of those that the criterion verifies.
-    `readings` holds what each reading of the criterion says, the deciding one first; empty where there is
-    only one. `over_stops` is None but for a repeated case, in which `value` is the median over the stops.
-    `missed_by` holds the wheelsets, from 1, that miss the bounds in the one stop of a case.
+    `requirements` holds the ids of those that the criterion verifies, `readings` what each of its readings
+    says, the deciding one first; empty where there is only one. `over_stops` is None but for a repeated case,
+    in which `value` is the median. `missed_by` holds the wheelsets, from 1, that miss the bounds in one stop.
+    `in_valid_test` requirements stand in a valid test alone.
     """
 
     id: str
@@ -192,12 +186,18 @@ class Verdict:
     over_stops: OverStops | None = None
     readings: tuple[ReadVerdict, ...] = ()
     missed_by: tuple[int, ...] = ()
+    in_valid_test: bool = False
+
+    @property
+    def is_check(self) -> bool:
+        """Whether it says that the figures are those of the test, and judges nothing else."""
+        return self.layer in ("rig", "record")
 
     @property
     def lacks_channel(self) -> bool:
-        """Whether a requirement was left out, as the record has no channel of a kind that is computed."""
+        """Whether a requirement was left out for lack of a channel in the record, or of a reference."""
         left_out = self.layer == "requirement" and self.status == "not_applicable"
-        return left_out and self.reason.startswith(NOT_RECORDED)
+        return left_out and self.reason.startswith((NOT_RECORDED, NO_REFERENCE))
 
     @property
     def turns(self) -> bool:
@@ -224,7 +224,7 @@ def with_outcome_of(verdict: Verdict, other: Verdict) -> Verdict:
     return replace(other, definition=verdict.definition, definitions=verdict.definitions)
 
 
-WrittenVerdict = Annotated[Verdict, absent_if_empty("over_stops", "readings", "missed_by")]
+WrittenVerdict = Annotated[Verdict, absent_if_empty("over_stops", "readings", "missed_by", "in_valid_test")]
 """In JSON what only some verdicts have is absent from the others."""
 
 
@@ -240,60 +240,3 @@ def relative_margin(verdict: Verdict) -> float | None:
     bound = max(abs(verdict.lower or 0.0), abs(verdict.upper or 0.0))
     share = verdict.margin / bound if bound else min(verdict.margin, 0.0)
     return share if verdict.steady else min(share, 0.0)
-
-
-def definition_texts(
-    criterion: scenario.Criterion, profile: scenario.Criteria, observation: scenario.MeasureDefinitions
-) -> dict[str, str]:
-    """Return clause, measure, bound, aggregation and every definition of a verdict, as text for people.
-
-    Definitions of the criterion come with their range. Those of `observation`, which turned samples into
-    measures while the stop was observed, have none.
-    """
-    bound = with_unit(str(bounds_of(criterion)), criterion.unit)
-    if criterion.of_dry_stop:
-        bound = f"{bound} of the dry stop"
-    texts = {"clause": criterion.clause, "measure": criterion.meaning, "bound": bound}
-    if aggregation := criterion.aggregation:
-        texts["wheelsets"] = aggregation
-    if criterion.readings:
-        own = profile.sources.get(criterion.reading_source)
-        texts["reading"] = f"{criterion.reading} ({f'{own.mark}: {own.text}' if own else 'user'})"
-    for name, parameter in criterion.definition.parameters().items():
-        texts[name] = _parameter(parameter, profile.sources)
-    for name in criterion.observed_by:
-        quantity = getattr(observation, name)
-        texts[name] = f"{quantity.text} ({scenario.mark_of(quantity, observation.sources)})"
-    return texts
-
-
-def applied_definitions(
-    criterion: scenario.Criterion, profile: scenario.Criteria, observation: scenario.MeasureDefinitions
-) -> tuple[AppliedDefinition, ...]:
-    """Return every definition that a verdict depends on, as numbers; names as in :func:`definition_texts`."""
-    own = (
-        AppliedDefinition(
-            name,
-            float(parameter.value),
-            parameter.value.unit,
-            scenario.mark_of(parameter.value, profile.sources),
-            *map(float, parameter.range),
-        )
-        for name, parameter in criterion.definition.parameters().items()
-    )
-    observed = (
-        AppliedDefinition(
-            name, float(quantity), quantity.unit, scenario.mark_of(quantity, observation.sources)
-        )
-        for name in criterion.observed_by
-        for quantity in (getattr(observation, name),)
-    )
-    return (*own, *observed)
-
-
-def _parameter(parameter: scenario.RangedDefinition, sources: Mapping[str, yaml.Source]) -> str:
-    value, lower, upper = (
-        value_text(in_unit(number, parameter.unit), parameter.unit)
-        for number in (parameter.value, *parameter.range)
-    )
-    return f"{value} ({scenario.mark_of(parameter.value, sources)}; range {lower} .. {upper})"

@@ -11,7 +11,7 @@ from uictest.core.series_measures import CountedStop, Rail, SpeedStops, of_stop
 from uictest.core.units import KILOMETRE_PER_HOUR, in_unit
 from uictest.judging import evaluation
 from uictest.judging.evaluation import CaseResult, Outcome, RepeatedStop, Verdict
-from uictest.judging.series.result import NOT_COUNTED, SeriesCase, StopCounts, UncountedStop
+from uictest.judging.series.result import SeriesCase, StopCounts, UncountedStop
 from uictest.plans import scenario as scenarios
 from uictest.plans.scenario import Criterion
 from uictest.plans.series import Role, Series
@@ -19,7 +19,11 @@ from uictest.plans.series import Role, Series
 
 @dataclass(frozen=True, slots=True)
 class SeriesStop:
-    """One stop of a case: itself, or one of its repeats."""
+    """One stop of a case: itself, or one of its repeats.
+
+    `not_counted` says why it does not count as a test: it failed to run, it could not be judged, it is none;
+    None where it counts, whatever requirements it misses.
+    """
 
     role: Role
     speed_kmh: float
@@ -28,13 +32,14 @@ class SeriesStop:
     seed: int | None
     outcome: Outcome
     reason: str
+    not_counted: Outcome | None
     criteria: tuple[Verdict, ...]
     figures: CountedStop
 
     @property
     def counts(self) -> bool:
-        """Whether the stop counts as a test: its own criteria were judged, and those of validity hold."""
-        return self.outcome not in NOT_COUNTED
+        """Whether the stop counts as a test: it was judged, and its criteria of validity hold."""
+        return self.not_counted is None
 
     def verdict(self, criterion: str) -> Verdict | None:
         """Return its verdict on a criterion, None where it has none."""
@@ -44,8 +49,7 @@ class SeriesStop:
 def observed_stops(cases: Sequence[SeriesCase], speed_tolerance_kmh: float) -> list[SeriesStop]:
     """Return all stops of cases, repeats one by one.
 
-    A stop whose initial speed is farther from the nominal one than the tolerance (km/h) is invalid: distances
-    are not corrected for it.
+    A stop whose initial speed is farther from the nominal one than the tolerance (km/h) is invalid.
     """
     return [stop for each in cases for stop in _stops_of_case(each, speed_tolerance_kmh)]
 
@@ -53,18 +57,43 @@ def observed_stops(cases: Sequence[SeriesCase], speed_tolerance_kmh: float) -> l
 def _stops_of_case(each: SeriesCase, tolerance: float) -> Iterator[SeriesStop]:
     case = each.case
     for seed, stop in _observed(case):
-        other_speed = _other_speed(stop.measures or {}, each.speed_kmh, tolerance)
+        why, reason = _why_not_counted(stop)
+        if why is None and (other := _other_speed(stop.measures or {}, each.speed_kmh, tolerance)):
+            why, reason = "invalid", other
         yield SeriesStop(
             role=each.role,
             speed_kmh=each.speed_kmh,
             rail=each.rail,
             case=case.id,
             seed=seed,
-            outcome="invalid" if other_speed and stop.outcome not in NOT_COUNTED else stop.outcome,
-            reason="; ".join(filter(None, (stop.reason, other_speed))),
+            outcome=stop.outcome,
+            reason=reason,
+            not_counted=why,
             criteria=stop.criteria,
-            figures=CountedStop(dict(stop.measures or {}), tuple(stop.wheelsets), stop.outcome == "pass"),
+            figures=CountedStop(dict(stop.measures or {}), tuple(stop.wheelsets), _passed(stop)),
         )
+
+
+def _why_not_counted(stop: CaseResult | RepeatedStop) -> tuple[Outcome | None, str]:
+    """Return what keeps a stop from counting, and the reason; None where it counts.
+
+    Validity is asked, whatever requirements it misses or leaves open, and that it was observed to its end.
+    """
+    if stop.outcome in ("error", "skipped"):
+        return stop.outcome, stop.reason
+    if no_test := evaluation.why_no_test(stop.decided):
+        failed = any(each.status == "fail" for each in no_test)
+        return "invalid" if failed else "inconclusive", evaluation.reasons_of(no_test)
+    if stop.outcome == "inconclusive" and math.isnan(
+        (stop.measures or {}).get("braking_distance_m", math.nan)
+    ):
+        return "inconclusive", stop.reason
+    return None, ""
+
+
+def _passed(stop: CaseResult | RepeatedStop) -> bool | None:
+    """Return whether a stop meets every requirement; None where one was left open."""
+    return None if stop.outcome == "inconclusive" else stop.outcome == "pass"
 
 
 def _observed(case: CaseResult) -> Iterator[tuple[int | None, CaseResult | RepeatedStop]]:
@@ -95,17 +124,17 @@ def counts_of(stops: Sequence[SeriesStop], role: Role) -> StopCounts:
 def not_counted(stops: Sequence[SeriesStop]) -> tuple[UncountedStop, ...]:
     """Return the stops that do not count, with the reason of each."""
     return tuple(
-        UncountedStop(stop.case, stop.role, stop.seed, stop.outcome, stop.reason)
+        UncountedStop(stop.case, stop.role, stop.seed, stop.not_counted, stop.reason)
         for stop in stops
-        if not stop.counts
+        if stop.not_counted is not None
     )
 
 
 def with_relations(series: Series, stops: Sequence[SeriesStop]) -> list[SeriesStop]:
     """Return the stops with a verdict on every criterion whose bounds are shares of the dry stop.
 
-    A wet stop that misses one does not pass any more. One that would pass otherwise, but lacks data for one,
-    is inconclusive.
+    A wet stop that misses one does not pass any more; of one that would pass otherwise, but lacks data for
+    one, it is not known.
     """
     criteria = [
         criterion
@@ -125,10 +154,9 @@ def _judged(
         return stop
     verdict = _verdict(criterion, _percent_of_dry(criterion, stop, stops))
     verdicts = (*(each for each in stop.criteria if each.id != criterion.id), verdict)
-    if stop.figures.passed and verdict.status == "inconclusive":
-        reason = f"{criterion.id}: {verdict.reason}"
-        return replace(stop, criteria=verdicts, outcome="inconclusive", reason=reason)
-    passed = stop.figures.passed and verdict.status == "pass"
+    passed = stop.figures.passed
+    if verdict.status != "pass":
+        passed = None if passed is not False and verdict.status == "inconclusive" else False
     return replace(stop, criteria=verdicts, figures=replace(stop.figures, passed=passed))
 
 

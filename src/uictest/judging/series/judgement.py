@@ -59,9 +59,9 @@ def judge_series(series: Series, cases: Sequence[SeriesCase]) -> SeriesResult:
         speed_tolerance_kmh=tolerance,
         criteria=verdicts,
         measures={
-            name: each.of_series(observed.speeds, observed.confidence)
-            if each.pooled or not observed.has_rails
-            else SeriesValue(unavailable_reason="stated for each rail")
+            name: SeriesValue(unavailable_reason="stated for each rail")
+            if observed.has_rails
+            else each.of_series(observed.speeds, observed.confidence)
             for name, each in SERIES_MEASURES.items()
         },
         speeds=tuple(map(observed.speed_result, observed.speeds)),
@@ -182,7 +182,7 @@ class _ObservedSeries:
 
 
 def _outcome(stops: Sequence[SeriesStop], verdicts: Sequence[SeriesVerdict]) -> tuple[Outcome, str]:
-    failed = [stop for stop in stops if stop.outcome == "error"]
+    failed = [stop for stop in stops if stop.not_counted == "error"]
     if failed:
         return "error", f"{len(failed)} of {len(stops)} stops failed to run; {failed[0].reason}"
     return evaluation.outcome_of(each.verdict for each in verdicts)

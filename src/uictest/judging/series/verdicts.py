@@ -39,8 +39,7 @@ def _verdict_of(
     stops: Sequence[SeriesStop],
     too_few: str,
 ) -> SeriesVerdict:
-    observation = series.stops[0].case.scenario.measures
-    definition = evaluation.definition_texts(criterion, profile, observation)
+    definition = evaluation.definition_texts(criterion, profile, series.stops[0].case.scenario)
     if too_few:
         return SeriesVerdict(_verdict(criterion, definition, None, "inconclusive", too_few))
     if criterion.scope == "stop":
@@ -59,9 +58,8 @@ def _over_series(
     if not speeds:
         reason = "it applies to none of the wet stops"
         return SeriesVerdict(_verdict(criterion, definition, None, "not_applicable", reason))
-    pooled = SERIES_MEASURES[criterion.measure].pooled
-    rails = dict.fromkeys(each.rail for each in speeds)
-    together = [[s for s in speeds if s.rail == rail] for rail in rails] if pooled else [[s] for s in speeds]
+    measure = SERIES_MEASURES[criterion.measure]
+    together = measure.groups(speeds)
     values = [_value(criterion, each, confidence) for each in together]
     estimates = [value.estimate for value in values if value.estimate is not None]
     if len(estimates) < len(values) or not values:
@@ -73,7 +71,7 @@ def _over_series(
     estimate = estimates[deciding]
     status: evaluation.Status = "pass" if bounds.hold(estimate.value) else "fail"
     decisive = together[deciding][0]
-    of_one_speed = None if pooled else round(decisive.speed / KILOMETRE_PER_HOUR, 9)
+    of_one_speed = None if measure.pooled else round(decisive.speed / KILOMETRE_PER_HOUR, 9)
     place = place_text(of_one_speed, decisive.rail)
     reason = "" if status == "pass" else _missed(estimate.value, bounds, criterion, place)
     verdict = _verdict(criterion, definition, estimate.value, status, reason)
@@ -152,6 +150,7 @@ def _verdict(
         definition=definition,
         measure=criterion.measure,
         requirements=criterion.requirements,
+        in_valid_test=criterion.in_valid_test,
     )
 
 

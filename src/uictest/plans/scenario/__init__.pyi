@@ -1,16 +1,23 @@
 from .applicability import (
     TestConditions as TestConditions,
+    UnmetCondition as UnmetCondition,
     applies_to as applies_to,
+    corrections as corrections,
+    observed_quantities as observed_quantities,
     test_conditions_of as test_conditions_of,
     unmet_conditions as unmet_conditions,
 )
+from .brake_force import brake_deceleration as brake_deceleration
 from .case import (
     Case as Case,
     TrainPlace as TrainPlace,
     chosen_case as chosen_case,
     chosen_train as chosen_train,
+    with_another_controller as with_another_controller,
+    with_wsp_bypassed as with_wsp_bypassed,
 )
 from .compensation_fit import (
+    FIT_HINT as FIT_HINT,
     FIT_KEYS as FIT_KEYS,
     RIG_SOURCE as RIG_SOURCE,
     misfit as misfit,
@@ -27,6 +34,13 @@ from .expansion import (
     Variant as Variant,
     expand as expand,
 )
+from .expectation import (
+    PASS as PASS,
+    Expect as Expect,
+    Expectation as Expectation,
+    WrittenExpectation as WrittenExpectation,
+    expectation_of as expectation_of,
+)
 from .files import (
     SERIES_SUFFIXES as SERIES_SUFFIXES,
     SWEEP_SUFFIXES as SWEEP_SUFFIXES,
@@ -39,6 +53,7 @@ from .identifiers import (
     LONGEST as LONGEST,
     case_id as case_id,
     controller_labels as controller_labels,
+    sets_controller as sets_controller,
     short_keys as short_keys,
     value_label as value_label,
 )
@@ -98,6 +113,7 @@ from .parts.reading import (
     RangedDefinition as RangedDefinition,
     supposed_definition as supposed_definition,
 )
+from .parts.record import check_id as check_id
 from .parts.sand import Sand as Sand, Sander as Sander
 from .parts.track_brake import EMERGENCY as EMERGENCY, TrackBrake as TrackBrake
 from .parts.vary import (
@@ -118,6 +134,12 @@ from .parts.wheelsets import (
     values_in as values_in,
     wheelset_keys as wheelset_keys,
     wheelset_value as wheelset_value,
+)
+from .plausibility import (
+    CarFigures as CarFigures,
+    Implausible as Implausible,
+    car_figures as car_figures,
+    plausible_spans as plausible_spans,
 )
 from .rail_friction import (
     CONDITION as CONDITION,

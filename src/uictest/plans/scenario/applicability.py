@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import Final, NamedTuple
 
 from uictest.core.units import in_unit, value_text
 from uictest.plans import scenario
@@ -45,6 +45,54 @@ def test_conditions_of(resolved: scenario.Scenario) -> TestConditions:
     )
 
 
+def corrections(
+    resolved: scenario.Scenario, criterion: scenario.Criterion | None = None
+) -> dict[str, scenario.Quantity]:
+    """Return what distances and adhesions are corrected for: nominal speed and gradient.
+
+    The nominal speed is the one that the criterion is for. Without one it is that of the first criterion of
+    the scenario that is for stops from its initial speed, else this speed itself.
+    """
+    own = criterion.applies.initial_speed if criterion else None
+    nominal = own.value if own else next(_nominal_speeds(resolved), resolved.initial_speed)
+    return {"nominal_speed": nominal, "gradient": resolved.rail.gradient}
+
+
+def _nominal_speeds(resolved: scenario.Scenario) -> Iterator[scenario.Quantity]:
+    for profile in resolved.criteria:
+        for criterion in profile.criteria:
+            accepted = criterion.applies.initial_speed
+            if accepted is not None and _within(resolved.initial_speed, accepted):
+                yield accepted.value
+
+
+def observed_quantities(
+    criterion: scenario.Criterion, profile: scenario.Criteria, resolved: scenario.Scenario
+) -> Iterator[tuple[str, scenario.Quantity, str]]:
+    """Yield what the scenario gives the measure of a criterion of a profile, with its mark.
+
+    That is the definitions by which it was observed, and what it is corrected for.
+    """
+    observation = resolved.measures
+    for name in criterion.observed_by:
+        quantity = getattr(observation, name)
+        yield name, quantity, scenario.mark_of(quantity, observation.sources)
+    of_others = {key: each for other in resolved.criteria for key, each in other.sources.items()}
+    sources = {**of_others, **profile.sources}
+    conditions = corrections(resolved, criterion) if criterion.corrected else {}
+    for name in criterion.corrected:
+        yield name, conditions[name], scenario.mark_of(conditions[name], sources)
+
+
+_OF_TESTS: Final = {
+    "initial speed": "from",
+    "brake command": "at a brake command of",
+    "gradient": "on a gradient of",
+    "brake position": "in brake position",
+}
+"""Conditions that tell tests of one kind apart, on the same kind of rail, and how they are named."""
+
+
 class UnmetCondition(NamedTuple):
     """A condition of a criterion that a stop does not meet: names, or a nominal value in `unit`."""
 
@@ -52,6 +100,23 @@ class UnmetCondition(NamedTuple):
     value: str | float
     accepted: Sequence[str] | scenario.Nominal
     unit: str = ""
+
+    @property
+    def tells_tests_apart(self) -> bool:
+        """Whether it is of the test, not of the kind of rail or of the rig."""
+        return self.what in _OF_TESTS
+
+    @property
+    def no_such_test(self) -> str:
+        """That the stop is no such test: `no stop from 120 km/h (it is 124 km/h, tolerance 3 km/h)`."""
+        which = f"no stop {_OF_TESTS[self.what]}"
+        if not isinstance(self.accepted, scenario.Nominal):
+            return f"{which} {' or '.join(self.accepted)} (it is {self.value})"
+        shown, nominal, tolerance = (
+            value_text(in_unit(float(number), self.unit), self.unit)
+            for number in (self.value, self.accepted.value, self.accepted.tolerance)
+        )
+        return f"{which} {nominal} (it is {shown}, tolerance {tolerance})"
 
     def __str__(self) -> str:
         """Return what the stop has and what the criterion is for."""

@@ -1,6 +1,6 @@
 """The case: one stop of a car on the rig, alone or coupled to others."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -44,14 +44,20 @@ class Case:
     """Every file read for it, by shown name, and its SHA-256."""
     train: TrainPlace | None = None
     """Where it runs in a train; None for a car alone."""
+    vehicle_stated: bool = True
+    """Whether anyone said which vehicle it is; of a record that is judged without a scenario nobody may."""
 
     def with_values(self, **changes: Any) -> "Case":
         """The case with other values of what a train has once; so have the cars that it is coupled to."""
-        scenario = self.scenario.model_copy(update=changes)
+        return self.changed(lambda scenario: scenario.model_copy(update=changes))
+
+    def changed(self, change: Callable[[Scenario], Scenario]) -> "Case":
+        """The case with its scenario changed; so with the cars that it is coupled to."""
+        scenario = change(self.scenario)
         if self.train is None:
             return replace(self, scenario=scenario)
         # Equal cars share their scenario, so that the rig is assembled for them once.
-        changed = {id(each): each.model_copy(update=changes) for each in self.train.scenarios}
+        changed = {id(each): change(each) for each in self.train.scenarios}
         scenarios = tuple(changed[id(each)] for each in self.train.scenarios)
         return replace(self, scenario=scenario, train=replace(self.train, scenarios=scenarios))
 
@@ -69,6 +75,21 @@ class Case:
         scenarios = list(self.train.scenarios)
         scenarios[self.train.number - 1] = self.scenario
         return tuple(replace(self, scenario=each, train=None) for each in scenarios)
+
+
+def with_wsp_bypassed(scenario: Scenario) -> Scenario:
+    """A scenario in which the controller does not act on the valves."""
+    return scenario.model_copy(update={"rig": scenario.rig.model_copy(update={"wsp": "bypassed"})})
+
+
+def with_another_controller(scenario: Scenario) -> Scenario:
+    """A scenario with what of its expectation holds for another controller than its own.
+
+    That is all of it where the WSP is bypassed: no controller acts.
+    """
+    if scenario.rig.wsp == "bypassed":
+        return scenario
+    return scenario.model_copy(update={"expect": scenario.expect.of_another_controller()})
 
 
 def chosen_case(cases: Sequence[Case], case_id: str | None) -> Case:

@@ -23,6 +23,8 @@ FIT_KEYS: Final = (
 
 RIG_SOURCE: Final = "identified-for"
 """Source of the numbers of a listed rig."""
+FIT_HINT: Final = "write `rig.compensation_model: identify` or `rig.topology: four-caliper`"
+"""What to write where a compensation does not fit."""
 _LEAST: Final = 1e-300
 """What a tolerance of a number that is zero is at least: any other number is beyond it."""
 

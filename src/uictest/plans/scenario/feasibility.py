@@ -1,33 +1,24 @@
-"""What no stop can do: brakes without grip, stops without end, pole wheels that cannot be.
+"""What no stop can do: stops without end, pole wheels that cannot be.
 
 And the longest step with which the integration follows the car on its springs and the air behind its valves.
 """
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
-from uictest.core import physics
 from uictest.core.physics import REFERENCE_DENSITY, orifice_law
 from uictest.core.units import STANDARD_GRAVITY
+from uictest.plans.scenario.brake_force import running_resistance
 from uictest.plans.scenario.files import Files
-from uictest.plans.scenario.parts.brake import BrakeSystem, Caliper, Disc
-from uictest.plans.scenario.parts.compensation import Compensation
+from uictest.plans.scenario.parts.brake import BrakeSystem, Caliper
 from uictest.plans.scenario.parts.criteria import Criteria
 from uictest.plans.scenario.parts.vehicle import Vehicle
 from uictest.plans.scenario.parts.wheelsets import WHEELSET_NUMBERS, deciding_key, wheelset_value
 from uictest.plans.scenario.references import Parts
 from uictest.plans.scenario.yaml import Document, Inconsistency, Model, Place, Scalar, total
-
-
-class BrakedWheelset(NamedTuple):
-    """What of a wheelset decides its brake force: a share, a coefficient and a radius in m."""
-
-    brake_force: float
-    pad_friction: float
-    wheel_radius: float
 
 
 def stopping_time_at_least(scenario: Any) -> float:
@@ -37,8 +28,7 @@ def stopping_time_at_least(scenario: Any) -> float:
     track brake and a held speed act in full until the end.
     """
     speed, vehicle = scenario.initial_speed, scenario.vehicle
-    resistance = vehicle.running_resistance
-    drag = resistance.constant + resistance.linear * speed + resistance.quadratic * speed**2
+    drag = running_resistance(vehicle, speed)
     if scenario.brake.track is not None:
         drag += scenario.brake.track.largest_force
     friction = highest_friction(scenario) + scenario.rail.gradient
@@ -54,24 +44,6 @@ def highest_friction(scenario: Any) -> float:
     rail = scenario.rail
     found: float = rail.highest_friction_after_cleaning
     return max(found, rail.sand.friction) if scenario.sanders else found
-
-
-def largest_clamping_force(caliper: Caliper, compensation: Compensation, pressure: float) -> float:
-    """Return the larger force, N, of caliper and compensation at a gauge pressure in Pa."""
-    lines = (compensation.linear, compensation.hysteresis.bc_releasing, compensation.hysteresis.wsp_releasing)
-    net = max(0.0, caliper.piston_area * pressure - caliper.preload)
-    return max(caliper.lever_ratio * net, *(line.force(pressure) for line in lines))
-
-
-def braking_force(disc: Disc, wheelsets: Iterable[BrakedWheelset], clamping_force: float) -> float:
-    """Return the force at the rims of all wheelsets, N, with ``clamping_force`` N at every caliper."""
-    calipers, pads, radius = disc.calipers_per_wheelset, disc.pads_per_caliper, disc.mean_radius
-    return total(
-        each.brake_force
-        * physics.torque(clamping_force, calipers, pads, each.pad_friction, radius)
-        / each.wheel_radius
-        for each in wheelsets
-    )
 
 
 RIG_CHECKS: Final = "uictest-rig"

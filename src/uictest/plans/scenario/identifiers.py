@@ -11,7 +11,16 @@ from uictest.plans.scenario.expansion import Setting, Variant
 from uictest.plans.scenario.program_files import PROGRAM_FILES
 from uictest.plans.scenario.references import Parts, is_path
 from uictest.plans.scenario.resolution import PART_KEYS
-from uictest.plans.scenario.yaml import Map, Node, Scalar, ScenarioErrors, Sequence
+from uictest.plans.scenario.yaml import (
+    Map,
+    Node,
+    Scalar,
+    ScenarioErrors,
+    Sequence,
+    as_written,
+    quoted,
+    single_error,
+)
 
 LONGEST: Final = 200
 """Longest id: with an extension it must still be a file name everywhere."""
@@ -21,6 +30,9 @@ FAULTS: Final = "faults"
 
 CONTROLLER: Final = "controller"
 """Key of the controller of a scenario."""
+
+EXPECT: Final = "expect"
+"""Key of what is expected of a case, which is no part of its id."""
 
 CAR: Final = "car"
 """What tells the cases of the cars of a train apart."""
@@ -79,6 +91,11 @@ def _told_apart(program: tuple[str, str, str], programs: set[tuple[str, str, str
         return name
     distinct = all(versions) and len(set(versions)) == len(versions)
     return "@".join(filter(None, (name, version if distinct else digits)))
+
+
+def sets_controller(keys: Iterable[str]) -> bool:
+    """Return whether one of some dotted keys is that of a controller, of a car or of all, or below it."""
+    return any(CONTROLLER in key.split(".") for key in keys)
 
 
 def short_keys(keys: list[str]) -> dict[str, str]:
@@ -141,3 +158,20 @@ def _name_of_fault(node: Node) -> str:
     """Return what tells a fault from others: `speed-sensor-stuck-2-3s`."""
     named = (node.get(key) for key in _NAMED_BY) if isinstance(node, Map) else ()
     return "-".join(each.text for each in named if isinstance(each, Scalar))
+
+
+def duplicate_id(identifier: str, variant: Variant, first: Variant) -> ScenarioErrors:
+    """The error of a second case with the same id: at the value that a list repeats, else at the case."""
+    of_first = {setting.key: setting for setting in first}
+    pairs = [(setting, of_first[setting.key]) for setting in variant if setting.key in of_first]
+    others = [(one, other) for one, other in pairs if one.value.node is not other.value.node]
+    setting, twin = others[0]
+    message, key = f"a second case {quoted(identifier)}", ""
+    if len(others) == 1 and setting.value.key == twin.value.key:  # both stand in the list of one key
+        one, other = quoted(as_written(setting.value.node)), quoted(as_written(twin.value.node))
+        message = f"{one} appears twice" if one == other else f"{one} and {other} make the same case id"
+        key = setting.key
+    hint = f"remove one; the first is in line {twin.value.node.place.line}"
+    if key == CONTROLLER:
+        hint += "; or give each a `name` or a `version` of its own"
+    return single_error(setting.value.node.place, message, key, hint)

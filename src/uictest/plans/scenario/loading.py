@@ -4,25 +4,29 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from uictest.plans.scenario.case import Case, TrainPlace
+from uictest.plans.scenario.case import Case, TrainPlace, with_another_controller
 from uictest.plans.scenario.expansion import EXPANSION_KEYS, Variant, distinct, expand_valid
 from uictest.plans.scenario.files import Files, Roots, scenario_trees
 from uictest.plans.scenario.identifiers import (
     CAR,
     CONTROLLER,
+    EXPECT,
     LONGEST,
     Labels,
     case_id,
     controller_labels,
+    duplicate_id,
+    sets_controller,
     short_keys,
 )
 from uictest.plans.scenario.model import Scenario
-from uictest.plans.scenario.overrides import Override, apply_overrides, parse_overrides, with_value
+from uictest.plans.scenario.overrides import OF_CAR, Override, apply_overrides, parse_overrides, with_value
 from uictest.plans.scenario.rail_friction import changed_alone, overridden_alone
 from uictest.plans.scenario.references import Parts
 from uictest.plans.scenario.resolution import with_default_parts
 from uictest.plans.scenario.resolved_cars import reaching_no_car, resolved_cars
 from uictest.plans.scenario.train import (
+    is_older,
     is_train,
     with_default_vehicles,
     without_inherited_vehicle,
@@ -116,6 +120,13 @@ class _ScenarioFile(NamedTuple):
     labels: Labels
     vary: Entry | None
     ids: dict[str, Variant]
+    inherits_expectation: bool
+    """Whether it stands in a parent of the file that names the controller."""
+
+
+def _conditions(variant: Variant) -> Variant:
+    """Return what a case has of its own, but for what is expected of it: that is no condition of a stop."""
+    return tuple(each for each in variant if OF_CAR.sub("", each.key) != EXPECT)
 
 
 class _Loader:
@@ -150,6 +161,8 @@ class _Loader:
         # Every scenario has its own name: an inherited one would not be unique.
         merged = merged.without("name") if own_name is None else merged.with_entry("name", own_name)
         merged, vary = self._without_vary(tree, merged)
+        expect, controller = merged.entries.get(EXPECT), merged.entries.get(CONTROLLER)
+        inherits = expect is not None and controller is not None and is_older(expect, controller, documents)
         merged = without_inherited_vehicle(merged, documents)
         merged = with_default_vehicles(merged) if is_train(merged) else with_default_parts(merged)
         self.diagnostics.extend(overridden_alone(merged, self.overrides))
@@ -163,7 +176,7 @@ class _Loader:
         settings = [setting for variant in variants for setting in variant]
         short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
         labels = controller_labels(settings, self.parts)
-        return _ScenarioFile(path, base, documents, short, labels, vary, {}), variants
+        return _ScenarioFile(path, base, documents, short, labels, vary, {}, inherits), variants
 
     def _without_vary(self, own: Map, merged: Map) -> tuple[Map, Entry | None]:
         """Take off what a sweep varies. Raises ScenarioErrors where the file should be none, or is none."""
@@ -197,8 +210,11 @@ class _Loader:
         given = {each.key: Entry(each.place, each.values[0]) for each in self.overrides}
         given |= {setting.key: setting.value for setting in variant}
         self.diagnostics.extend(reaching_no_car(tree, given))
+        expects = any(OF_CAR.sub("", key) == EXPECT for key in given)
+        if (file.inherits_expectation or sets_controller(given)) and not expects:
+            cars = [((with_another_controller(own), read), car) for (own, read), car in cars]
         scenarios = tuple(scenario for (scenario, _), _ in cars)
-        named = scenarios[0].name, variant, file.short, file.labels
+        named = scenarios[0].name, _conditions(variant), file.short, file.labels
         if not is_train(tree):
             return [self._case(file, variant, case_id(*named), *cars[0])]
         read = tuple(document for (_, documents), _ in cars for document in documents)
@@ -221,7 +237,7 @@ class _Loader:
         train: TrainPlace | None = None,
     ) -> LoadedCase:
         scenario, documents = resolved
-        swept = {setting.key: as_written(setting.value.node) for setting in variant}
+        swept = {setting.key: as_written(setting.value.node) for setting in _conditions(variant)}
         case = Case(
             id=self._claimed(identifier, file, variant),
             scenario=scenario,
@@ -257,23 +273,6 @@ class _Loader:
             message = f"case {quoted(identifier)} is also in {quoted(display_name(other.path))}"
             raise single_error(name, message, "name", "give every scenario a name of its own")
         if identifier in file.ids:
-            raise _duplicate_id(identifier, variant, file.ids[identifier])
+            raise duplicate_id(identifier, variant, file.ids[identifier])
         file.ids[identifier] = variant
         return identifier
-
-
-def _duplicate_id(identifier: str, variant: Variant, first: Variant) -> ScenarioErrors:
-    """The error of a second case with the same id: at the value that a list repeats, else at the case."""
-    of_first = {setting.key: setting for setting in first}
-    pairs = [(setting, of_first[setting.key]) for setting in variant if setting.key in of_first]
-    others = [(one, other) for one, other in pairs if one.value.node is not other.value.node]
-    setting, twin = others[0]
-    message, key = f"a second case {quoted(identifier)}", ""
-    if len(others) == 1 and setting.value.key == twin.value.key:  # both stand in the list of one key
-        one, other = quoted(as_written(setting.value.node)), quoted(as_written(twin.value.node))
-        message = f"{one} appears twice" if one == other else f"{one} and {other} make the same case id"
-        key = setting.key
-    hint = f"remove one; the first is in line {twin.value.node.place.line}"
-    if key == CONTROLLER:
-        hint += "; or give each a `name` or a `version` of its own"
-    return single_error(setting.value.node.place, message, key, hint)

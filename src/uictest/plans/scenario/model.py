@@ -8,16 +8,15 @@ from uictest.controllers import DEFAULT as DEFAULT_CONTROLLER
 from uictest.core.physics import LONGEST_DELAY_CYCLES
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans.faults import MOST_FAULTS
+from uictest.plans.scenario.brake_force import largest_braking_force, largest_clamping_force
 from uictest.plans.scenario.compensation_fit import unresolved_air, unresolved_cylinder
 from uictest.plans.scenario.courses import endless_stop, impossible_courses
+from uictest.plans.scenario.expectation import PASS, Expect
 from uictest.plans.scenario.fault_checks import impossible_faults
 from uictest.plans.scenario.feasibility import (
     RIG_CHECKS,
-    BrakedWheelset,
     ValveConductances,
-    braking_force,
     impossible_pole_wheels,
-    largest_clamping_force,
     limit_of_air,
     limit_of_vehicle,
     line_leak,
@@ -31,6 +30,7 @@ from uictest.plans.scenario.parts.criteria import Criteria
 from uictest.plans.scenario.parts.fault import Fault
 from uictest.plans.scenario.parts.measures import MeasureDefinitions
 from uictest.plans.scenario.parts.named_file import OutcomeOfRepeats, Repeat, TestFile, seeds_too_large
+from uictest.plans.scenario.parts.record import Record, RecordTolerances, check_id
 from uictest.plans.scenario.parts.sand import Sander, impossible_sanders
 from uictest.plans.scenario.parts.track_brake import never_requested
 from uictest.plans.scenario.parts.vehicle import Vehicle
@@ -92,8 +92,14 @@ class Scenario(TestFile):
     measures: Annotated[MeasureDefinitions, PartReference(MeasureDefinitions, "standard")] = field(
         "Definitions of the measures: a library name, a relative path or an inline mapping."
     )
-    expect: Literal["pass", "fail", "invalid", "skipped"] = field(
-        "The expected outcome; skipped: no criterion is to judge the stop.", default="pass"
+    expect: Expect = field(
+        "The expected outcome, or what may be missed by name: {fail: [locked-wheels]};"
+        " skipped: no criterion is to judge the stop.",
+        default=PASS,
+    )
+    test_validity: Literal["measured", "rail"] = field(
+        "What says whether the stop is a test: the stop itself, or the same with the WSP bypassed, the rail.",
+        default="measured",
     )
     seed: int = field("Seed of noise and random rails.", default=0, ge=0, le=2**32 - 1, strict=True)
     repeat: Repeat = 1
@@ -104,6 +110,7 @@ class Scenario(TestFile):
         strict=True,
     )
     simulation: Simulation = field("Step and longest duration.", default=Simulation())
+    record: Record = field("Checks of a recorded stop.", default=Record())
     matrix: dict[str, Any] | None = optional(
         "Lists of values by dotted key; every combination is a case, first key slowest."
     )
@@ -142,6 +149,7 @@ class Scenario(TestFile):
             yield from unresolved_cylinder(self)
         yield from unresolved_air(self)
         yield from self._criteria_of_the_same_name()
+        yield from self.expect.unknown_names(self.criteria)
         yield from self._delay_too_long()
         if self.tank_volume_with_caliper > 0.0:
             yield from self._step_too_long()
@@ -200,16 +208,8 @@ class Scenario(TestFile):
         """Yield a brake that would need more adhesion than the largest friction coefficient gives."""
         if any(name not in self.brake.system.positions for _, _, name in self.brake.commands):
             return  # reported by the brake itself
-        pressure = self.brake.highest_commanded_pressure * load_share(
-            self.brake.system.load_valve, self.vehicle
-        )
-        wheelsets = [
-            BrakedWheelset(*(wheelset_value(self, number, name) for name in BrakedWheelset._fields))
-            for number in WHEELSET_NUMBERS
-        ]
-        force = largest_clamping_force(self.rig.caliper, self.rig.compensation_model, pressure)
-        braking = self.brake.pad.largest_factor * braking_force(self.brake.system.disc, wheelsets, force)
-        deceleration = braking / self.vehicle.total_mass
+        force = largest_clamping_force(self.rig.caliper, self.rig.compensation_model, self.highest_pressure)
+        deceleration = largest_braking_force(self, force) / self.vehicle.total_mass
         if deceleration > STANDARD_GRAVITY:
             yield Inconsistency(
                 ("brake",),
@@ -224,6 +224,7 @@ class Scenario(TestFile):
         profile_of: dict[str, str] = {}
         if all(profile.name != RIG_CHECKS for profile in self.criteria):
             profile_of |= {criterion.id: RIG_CHECKS for criterion in rig_checks().criteria}
+        profile_of |= dict.fromkeys(map(check_id, RecordTolerances.model_fields), "checks of a record")
         for number, profile in enumerate(self.criteria):
             for index, criterion in enumerate(profile.criteria):
                 if criterion.id in profile_of:
@@ -247,6 +248,11 @@ class Scenario(TestFile):
                     f"wheelset {number} has no caliper in the rig with one caliper: its module is a tank",
                     "write `rig.topology: four-caliper`, or leave it out",
                 )
+
+    @property
+    def highest_pressure(self) -> float:
+        """The highest pressure of the brake line that any command asks for at this load, gauge, Pa."""
+        return self.brake.highest_commanded_pressure * load_share(self.brake.system.load_valve, self.vehicle)
 
     @property
     def developed_pressure(self) -> float:

@@ -30,7 +30,7 @@ from uictest.plans.scenario.yaml import (
 FIXED: Final = frozenset({"schema", "name", "extends", "matrix", "zip", "include", "exclude", "vary"})
 """Keys that belong to the file and not to a case."""
 
-_OF_CAR: Final = re.compile(r"^train\.\d+\.")
+OF_CAR: Final = re.compile(r"^train\.\d+\.")
 """Before a key that a car of a train has of its own."""
 
 
@@ -87,7 +87,7 @@ def _mapping(node: Node | None, key: str, place: Place) -> Map:
         return Map({}, place)
     if isinstance(node, Map):
         return node
-    if isinstance(node, Scalar) and _OF_CAR.sub("", key) in DOTTED_PART_KEYS:
+    if isinstance(node, Scalar) and OF_CAR.sub("", key) in DOTTED_PART_KEYS:
         return Map({"extends": Entry(node.place, node)}, place)
     raise single_error(place, f"{quoted(key)} is {describe(node)} and has no keys of its own", key)
 

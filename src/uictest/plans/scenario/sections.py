@@ -201,6 +201,16 @@ class Rail(Model):
         return factor * (self.condition.friction if self.friction is None else self.friction)
 
     @property
+    def friction_as_found(self) -> str:
+        """The friction coefficient before anything slides: `0.09`, `0.05 .. 0.15 along the track`."""
+        if isinstance(self.friction, FrictionProfile):
+            along = [at.friction for at in self.friction.points]
+            text = f"{min(along):.3g} .. {max(along):.3g} along the track"
+        else:
+            text = f"{self.condition.friction if self.friction is None else self.friction:.3g}"
+        return text if self.variation_in_force is None else f"{text}, varying at random"
+
+    @property
     def cleaning_in_force(self) -> Cleaning | None:
         """How sliding cleans the rail, or None where it does not."""
         return self.condition.cleaning if self.cleaning is None else self.cleaning

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, Final
 
+from uictest.plans.scenario.expectation import Expect
 from uictest.plans.scenario.model import Scenario
 from uictest.plans.scenario.parts.controller import Controller
 from uictest.plans.scenario.parts.criteria import Criteria
@@ -64,9 +65,7 @@ class TrainCar(Model):
         Annotated[MeasureDefinitions, PartReference(MeasureDefinitions, PART_KEYS["measures",].default)]
         | None
     ) = optional("Definitions of the measures.")
-    expect: Literal["pass", "fail", "invalid", "skipped"] | None = optional(
-        "The expected outcome of these cars."
-    )
+    expect: Expect | None = optional("The expected outcome of these cars.")
 
 
 def is_train(tree: Map) -> bool:
@@ -97,9 +96,13 @@ def without_inherited_vehicle(tree: Map, documents: Sequence[Document]) -> Map:
     train, vehicle = _written(tree, "train"), _written(tree, "vehicle")
     if train is None or vehicle is None:
         return tree
+    return tree.without("vehicle") if is_older(vehicle, train, documents) else tree
+
+
+def is_older(one: Entry, other: Entry, documents: Sequence[Document]) -> bool:
+    """Return whether an entry comes from a parent of the file that another one comes from."""
     age = {id(document): place for place, document in enumerate(documents)}
-    older = age[id(vehicle.key.document)] > age[id(train.key.document)]
-    return tree.without("vehicle") if older else tree
+    return age[id(one.key.document)] > age[id(other.key.document)]
 
 
 def with_default_vehicles(tree: Map) -> Map:

@@ -24,6 +24,7 @@ from uictest.plans.scenario import (
     controller_labels,
     expand,
     parse_overrides,
+    sets_controller,
     short_keys,
     without_axis,
 )
@@ -100,8 +101,10 @@ def load_series(
     every: list[Series] = []
     for variant in variants:
         own = [Override(each.key, each.value.key, (each.value.node,)) for each in variant]
-        listed = read_stops(tree, file, files, common, [*own, *fixed])
+        judged, listed = file, read_stops(tree, file, files, common, [*own, *fixed])
         cases = [case for each in listed for case in each.read.cases]
+        if sets_controller(each.key for each in (*own, *fixed)):
+            judged = file.model_copy(update={"expect": file.expect.of_another_controller()})
         read = {shown: digest for case in cases for shown, digest in case.inputs.items()}
         parameters = {each.key: as_written(each.value.node) for each in variant}
         for car in _judged_cars(file, cars_of(listed)):
@@ -109,7 +112,7 @@ def load_series(
             of_all_cars = case_id(file.name, variant, short, labels)
             stops = StopReader(name, of_all_cars, file.criteria, car).stops(listed)
             of_car = {**parameters, CAR: str(car)} if car else parameters
-            every.append(Series(name, Path(display_name(path)), file, of_car, stops, {**inputs, **read}))
+            every.append(Series(name, Path(display_name(path)), judged, of_car, stops, {**inputs, **read}))
     return every
 
 

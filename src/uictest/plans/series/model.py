@@ -12,9 +12,11 @@ from pydantic import BeforeValidator, Field
 from uictest.core.series_measures import Rail
 from uictest.core.units import in_unit
 from uictest.plans.scenario import (
+    PASS,
     Case,
     Criteria,
     Criterion,
+    Expect,
     TestFile,
     schema_of,
 )
@@ -82,7 +84,7 @@ class SeriesFile(TestFile):
         default="80 %",
     )
     speed_tolerance: Quantity = quantity(
-        "Largest deviation of an initial speed that counts: distances are not corrected for it.",
+        "Largest deviation of an initial speed that counts.",
         "speed",
         "0 km/h .. 50 km/h",
         default="3 km/h",
@@ -90,8 +92,8 @@ class SeriesFile(TestFile):
     confidence: Quantity = quantity(
         "Confidence of the intervals.", "share", "50 % .. 99.99 %", default="95 %"
     )
-    expect: Literal["pass", "fail", "invalid", "skipped"] = field(
-        "The expected outcome; fail is for series that must not pass.", default="pass"
+    expect: Expect = field(
+        "The expected outcome, or what may be missed by name: {fail: [k-wet]}.", default=PASS
     )
     firm: bool = field(
         "Whether `uictest run` finds out how firm the verdicts are, as with --firm.",
@@ -127,6 +129,7 @@ class SeriesFile(TestFile):
                     key = ("criteria", number, "criteria", index, "id")
                     yield Inconsistency(key, message, "leave one profile out")
             seen |= {criterion.id: profile.name for criterion in profile.criteria}
+        yield from self.expect.unknown_names(self.criteria)
 
 
 _STOPS: Final = {"anyOf": [{"type": "string"}, {"$ref": "#/definitions/Stops"}]}

@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 
 from uictest.core.series_measures import Rail
 from uictest.plans import scenario as scenarios
-from uictest.plans.scenario import LONGEST, Case, Criteria, Scenario
+from uictest.plans.scenario import LONGEST, PASS, Case, Criteria, Expectation, Scenario
 from uictest.plans.scenario.yaml import (
     Diagnostic,
     Entry,
@@ -105,13 +105,14 @@ class StopReader(NamedTuple):
             judged = any(scenarios.applies_to(criterion, scenario) for criterion in of_k_wet)
             if stop.role == "wet" and scenario.rig.wsp == "active" and judged:
                 # Wheels lock: a stop that fails is nothing to record or to draw before others.
-                changed = _bypassed(scenario).model_copy(update={"expect": "fail"})
+                case = stop.case.changed(scenarios.with_wsp_bypassed)
+                changed = case.scenario.model_copy(update={"expect": Expectation("fail")})
                 name = f"{self.series}.bypassed.{stop.case.id.removeprefix(f'{self.series}.')}"
-                case = replace(stop.case, id=name[:LONGEST], scenario=changed)
-                if (place := stop.case.train) is not None:
-                    train = f"{self.of_all_cars}.bypassed.{place.train.removeprefix(f'{self.of_all_cars}.')}"
-                    cars = tuple(map(_bypassed, place.scenarios))
-                    case = replace(case, train=replace(place, train=train, scenarios=cars))
+                case = replace(case, id=name[:LONGEST], scenario=changed)
+                if case.train is not None:
+                    own = case.train.train.removeprefix(f"{self.of_all_cars}.")
+                    train = replace(case.train, train=f"{self.of_all_cars}.bypassed.{own}")
+                    case = replace(case, train=train)
                 yield PlannedStop("bypassed", case, rail=stop.rail)
 
     def _of_entry(self, listed: ListedStops) -> Iterator[PlannedStop]:
@@ -140,7 +141,7 @@ class StopReader(NamedTuple):
             message = f"the id {quoted(name)} is longer than {LONGEST} characters"
             raise single_error(reference.place, message, "name")
         # What is expected of the scenario alone, by its own criteria, says nothing about a stop of a series.
-        judged_by = {"criteria": (*case.scenario.criteria, *further), "expect": "pass"}
+        judged_by = {"criteria": (*case.scenario.criteria, *further), "expect": PASS}
         own_train = f"{self.of_all_cars}.{case.train.train}" if case.train is not None else ""
         return replace(
             case,
@@ -149,10 +150,6 @@ class StopReader(NamedTuple):
             # Neighbours with the same train run at once: those of the series of other cars, too.
             train=None if case.train is None else replace(case.train, train=own_train),
         )
-
-
-def _bypassed(scenario: Scenario) -> Scenario:
-    return scenario.model_copy(update={"rig": scenario.rig.model_copy(update={"wsp": "bypassed"})})
 
 
 def _repeated(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:

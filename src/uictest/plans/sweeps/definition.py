@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from math import prod
 from pathlib import Path
 from typing import Final
@@ -13,13 +14,17 @@ from uictest.plans.scenario import (
     CAR,
     FIXED,
     LONGEST,
+    PASS,
     Files,
     Override,
     Parts,
     Roots,
+    Scenario,
     parse_overrides,
+    sets_controller,
     sets_friction,
     short_keys,
+    with_another_controller,
 )
 from uictest.plans.scenario.yaml import (
     Diagnostic,
@@ -93,11 +98,12 @@ def load_sweep(
         reject_other_steps((key for group in groups for key in group.keys), survey)
     documents = (parts.files.at(path).place.document, *reader.documents)
     read = {document.display: document.sha256 for document in documents if document.sha256}
+    compares_controllers = sets_controller(key for group in groups for key in group.keys)
     return Plan(
         name=file.name,
         title=file.title,
         file=display_name(path),
-        base=file.base.case,
+        base=file.base.case.changed(partial(_expecting, compares_controllers)),
         groups=groups,
         short=short_keys([key for group in groups for key in group.keys]),
         inputs=dict(sorted({**file.base.case.inputs, **read}.items())),
@@ -105,6 +111,12 @@ def load_sweep(
         cases_sha256=file.cases_sha256,
         own_keys=file.base.own_keys(key for group in groups for key in group.keys),
     )
+
+
+def _expecting(compares_controllers: bool, scenario: Scenario) -> Scenario:
+    """Return a scenario that allows another controller nothing: a sweep lists no case with what it misses."""
+    judged = with_another_controller(scenario) if compares_controllers else scenario
+    return judged.model_copy(update={"expect": PASS}) if judged.expect.is_allowance else judged
 
 
 _Axis = tuple[str, Mapping[str, Entry]]

@@ -13,6 +13,7 @@ from uictest.plans.scenario import Scenario, mark_of
 from uictest.plans.scenario.yaml import (
     Key,
     Part,
+    Prior,
     Quantity,
     Source,
     dotted,
@@ -25,8 +26,11 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-_SCALE_FACTOR: Final = 2.0
-"""A range whose ends differ by this factor or more is drawn evenly in its logarithm; chosen."""
+_REASONS: Final[Mapping[Prior, str]] = {
+    "uniform": "No value in the range is preferred",
+    "log-uniform": "The order of magnitude is known: half and twice a value are as likely",
+}
+"""Why a number has its prior where no source says so: it stands in a scenario."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +41,7 @@ class RangedNumber:
         key: where it stands in a scenario, dotted.
         value: its nominal value; `value.range` holds the ends.
         mark: of its source: stated, published, identified, chosen, or user.
-        reason: text of the source of its range.
+        reason: text of the source of its range, which says why it has its prior, too.
 
     """
 
@@ -52,11 +56,10 @@ class RangedNumber:
         assert self.value.range is not None  # made by :func:`ranged_numbers`
         return self.value.range
 
-    @cached_property
+    @property
     def is_logarithmic(self) -> bool:
-        """Whether draws are even in the logarithm of the value."""
-        low, high = self._numbers
-        return low > 0.0 and high >= _SCALE_FACTOR * low
+        """Whether draws are even in the logarithm of the value, and not in the value."""
+        return self.value.prior == "log-uniform"
 
     @cached_property
     def nominal_place(self) -> float:
@@ -151,24 +154,32 @@ def ranged_numbers(scenario: Scenario) -> list[RangedNumber]:
         for key, quantity in quantities_in(getattr(scenario, section), (section,)):
             if quantity.range is not None and _is_used(scenario, key):
                 sources = _sources_at(scenario, key)
-                reason = sources[of_range].text if (of_range := quantity.range[0].source) in sources else ""
+                stated = sources.get(quantity.range[0].source)
+                reason = _REASONS[quantity.prior] if stated is None else stated.text
                 numbers.append(RangedNumber(dotted(key), quantity, mark_of(quantity, sources), reason))
     return numbers
 
 
 def numbers_without_range(scenario: Scenario) -> list[str]:
-    """Return the keys of those numbers of further brakes, sanders and couplers that state no range.
+    """Return the key of the friction of the rail, and of further equipment's numbers, if without a range.
 
-    A scenario writes them itself, and no part of the library with a reason why a number has none.
+    A scenario writes them itself, and no part of the library with a reason why a number has none. Friction
+    scatters from test to test: where nobody says how much, it is the same in every draw.
     """
+    rail = scenario.rail
+    of_rail = (("rail", "condition", "friction"), rail.condition.friction)
+    place, friction = of_rail if rail.friction is None else (("rail", "friction"), rail.friction)
+    frictions = [each for key, each in quantities_in(friction, place) if key[-1] == "friction"]
+    varied = any(each.range is not None for each in frictions)
     equipment = (("brake", "dynamic"), scenario.brake.dynamic), (("brake", "track"), scenario.brake.track)
     others = (("sanders",), scenario.sanders), (("coupler",), scenario.coupler)
-    return [
+    unranged = [
         dotted(key)
-        for place, value in (*equipment, *others)
-        for key, quantity in quantities_in(value, place)
+        for section, value in (*equipment, *others)
+        for key, quantity in quantities_in(value, section)
         if quantity.range is None
     ]
+    return unranged if varied else [dotted(place), *unranged]
 
 
 def _sources_at(scenario: Scenario, key: Key) -> Mapping[str, Source]:

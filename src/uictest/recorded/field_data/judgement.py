@@ -28,6 +28,7 @@ from uictest.judging import evaluation
 from uictest.judging.evaluation import CaseResult, evaluate
 from uictest.plans import scenario
 from uictest.plans.scenario import Case, Scenario
+from uictest.recorded.field_data.agreement import record_verdicts
 from uictest.recorded.field_data.channel_map import CHANNEL_UNITS, WHEELSETS
 from uictest.recorded.field_data.recorded_stop import RecordedStop
 from uictest.recorded.field_data.support import coverage_of
@@ -128,7 +129,14 @@ def judge_recording(case: scenario.Case, stop: RecordedStop) -> tuple[CaseResult
     recording carries the metadata that a simulated one has.
     """
     observed = observe(stop, case.scenario)
-    result = evaluate(case, observed.measures, observed.wheelset_measures, coverage=observed.coverage)
+    case = case.changed(scenario.with_another_controller)  # that of the train, not of the scenario
+    result = evaluate(
+        case,
+        observed.measures,
+        observed.wheelset_measures,
+        coverage=observed.coverage,
+        of_record=record_verdicts(case, stop),
+    )
     preparation = dict(stop.choices)
     if stop.defects:
         preparation["defects"] = "; ".join(map(str, stop.defects))

@@ -84,7 +84,8 @@ def _not_computed(stop: RecordedStop) -> Iterator[tuple[str, str]]:
     for measure in (name for name, data in _NEEDS.items() if data.computed):
         for pattern in _NEEDS[measure].channels:
             if not any(pattern.format(n=n) in stop.recording.channels for n in WHEELSETS):
-                yield measure, " .. ".join(pattern.format(n=n) for n in (WHEELSETS[0], WHEELSETS[-1]))
+                ends = dict.fromkeys(pattern.format(n=n) for n in (WHEELSETS[0], WHEELSETS[-1]))
+                yield measure, " .. ".join(ends)
 
 
 def _missing(stop: RecordedStop, measure: str, channels: Channels) -> MissingData | None:
@@ -163,4 +164,5 @@ def stated_case(
             raise single_error(entry.key, "a recording is one stop: several values make no sense", section)
     scenario, documents = resolve(tree, Parts(Files(Roots.of((), trusted))))
     inputs = {each.display: each.sha256 for each in documents if each.sha256}
-    return Case(name, scenario, Path(document.display), {}, inputs)
+    of_vehicle = any(each.partition("=")[0].strip().partition(".")[0] == "vehicle" for each in statements)
+    return Case(name, scenario, Path(document.display), {}, inputs, vehicle_stated=of_vehicle)

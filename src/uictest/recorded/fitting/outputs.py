@@ -102,7 +102,7 @@ def fitted_yaml(
         "title": f"{case.scenario.name} with the friction of a recorded stop",
         "description": "\n".join(["Fitted to a recorded stop.", *map(str, fit.estimates)]),
         "extends": (scenario if ships else Path(os.path.relpath(scenario, folder))).as_posix(),
-        "expect": case.scenario.expect,
+        "expect": case.scenario.expect.form(),
         **dict.fromkeys(EXPANSION_KEYS),
     }
     for key, value in {**case.parameters, **statements}.items():

@@ -53,7 +53,8 @@ def summary_table(results: Sequence[evaluation.CaseResult], uictest_version: str
     columns = [
         *("id", "scenario"),
         *keys,
-        *("expect", "outcome", "met", "reason", "controller", "controller_version"),
+        *("expect", "outcome", "test_validity", "rail_validity", "requirement_status", "met", "reason"),
+        *("controller", "controller_version"),
         *("changed_parameters", "test_case", "requirements"),
         *(TRAIN_COLUMNS if any_in_train(results) else ()),
         *_of_repeated(results, SHARE_COLUMNS),
@@ -82,7 +83,8 @@ def criteria_table(results: Sequence[evaluation.CaseResult]) -> Data:
 def repeats_table(results: Sequence[evaluation.CaseResult]) -> Data:
     """Return one row per stop of every repeated case: seed, outcome, measures."""
     wheelsets = (f"{name}_{position}" for position in WHEELSETS for name in WHEELSET_COLUMNS)
-    columns = ["id", "seed", "outcome", "reason", *STOP_COLUMNS, *wheelsets]
+    statements = ("outcome", "test_validity", "requirement_status", "reason")
+    columns = ["id", "seed", *statements, *STOP_COLUMNS, *wheelsets]
     return Data(columns, list(stop_rows(results)))
 
 
@@ -125,7 +127,9 @@ def _of_repeated(results: Sequence[evaluation.CaseResult], columns: Iterable[str
 
 def _summary_row(result: evaluation.CaseResult, uictest_version: str) -> dict[str, Cell]:
     parameters = {f"parameters.{key}": text for key, text in result.parameters.items()}
-    own = {name: getattr(result, name) for name in ("id", "scenario", "expect", "outcome", "met", "reason")}
+    names = ("id", "scenario", "outcome", "test_validity", "requirement_status", "met", "reason")
+    own: dict[str, Cell] = {name: getattr(result, name) for name in names}
+    own |= {"expect": str(result.expect), "rail_validity": result.rail.test_validity if result.rail else ""}
     controller, version = controller_of(result, uictest_version)
     return {
         **parameters,

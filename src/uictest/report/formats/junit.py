@@ -9,6 +9,8 @@ from uictest.core.document import Suite, Testcase, TestcaseStatus, class_name
 from uictest.judging import evaluation
 from uictest.plans.scenario import in_order_of_ids
 from uictest.report import series as series_views
+from uictest.report.car_wording import implausible_sentences
+from uictest.report.case_words import DIFFERS
 from uictest.report.content import RunContent
 from uictest.report.difference import (
     BaselineComparison,
@@ -23,7 +25,7 @@ from uictest.report.junit import WITH_TEST_PROPERTIES, junit_text, suite_propert
 from uictest.report.part_wording import changes_line, controller_of, controllers_text, domain_sentences
 from uictest.report.repeat_wording import repeat_sentences
 from uictest.report.requirements import requirements_of
-from uictest.report.verdict_sentences import DIFFERS, real_time_sentences
+from uictest.report.verdict_sentences import allowed_sentences, real_time_sentences, statement_sentence
 
 if TYPE_CHECKING:
     from uictest.judging.series import SeriesResult
@@ -87,7 +89,8 @@ def _testcase(
     explain: Callable[[evaluation.CaseResult], list[str]] | None,
 ) -> Testcase:
     status = _status(result, differs=bool(differences))
-    remarks = [*real_time_sentences(result), *domain_sentences(result), *changes_line(result)]
+    remarks = [*real_time_sentences(result), *domain_sentences(result), *implausible_sentences(result)]
+    remarks += changes_line(result)
     remarks += firmness_sentences(result)
     is_of_baseline = status != "passed" and case_word(result, differences) == DIFFERS
     if status != "passed":
@@ -96,7 +99,8 @@ def _testcase(
         reasons = explain(result) if explain else case_explanation(result, differences)
         remarks = [*reasons, *tested, *remarks]
     else:
-        remarks = [*repeat_sentences(result), *remarks]
+        statements = [statement_sentence(result)] if result.criteria else []
+        remarks = [*allowed_sentences([result]), *repeat_sentences(result), *remarks, *statements]
     return Testcase(
         class_name(result.scenario),
         result.id,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -169,6 +170,10 @@ def _headline(result: evaluation.CaseResult) -> Iterator[HeadlineMeasure]:
     measures = result.measures
     if measures is not None:
         yield "braking distance", _number(measures["braking_distance_m"]), "m"
+        corrected = measures["corrected_distance_m"]
+        if math.isfinite(corrected) and corrected != measures["braking_distance_m"]:
+            yield "corrected distance", _number(corrected), "m"
+        yield "reference distance", _number(measures["reference_distance_m"]), "m"
         yield "braking time", _number(measures["braking_time_s"]), "s"
         yield "mean deceleration", _number(measures["mean_deceleration_mps2"]), "m/s²"
         yield "initial adhesion", _number(measures["initial_adhesion_g"]), "g"

@@ -14,6 +14,7 @@ from uictest.report.difference import difference_sentences
 from uictest.report.page.case_view import CaseView
 from uictest.report.page.links import case_anchor, fragment, rerun_command, series_anchor
 from uictest.report.page.stop.margins import Margin, Margins, margins_of
+from uictest.report.verdict_sentences import statement_sentence
 
 MOST_FINDINGS: Final = 12
 """Cases that the first screen names; the table below it has all of them, these first."""
@@ -81,7 +82,8 @@ def _of_case(
     causes = cause_sentences(result)
     sentences = [each for each in content.explanation(result, _DIFFERENCES) if each not in causes]
     if missed:
-        sentences = list(difference_sentences(content.differences(result.id), _DIFFERENCES))
+        differences = difference_sentences(content.differences(result.id), _DIFFERENCES)
+        sentences = [statement_sentence(result), *differences]
     return Finding(
         content.word(result),
         result.id,

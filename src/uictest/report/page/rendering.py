@@ -19,6 +19,8 @@ from markupsafe import Markup
 
 from uictest.core import user_cache
 from uictest.core.document import Tone
+from uictest.report.car_wording import car_facts, implausible_sentences
+from uictest.report.case_words import tone
 from uictest.report.counts import counted, counted_in
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences, firmness_table
@@ -32,7 +34,13 @@ from uictest.report.part_wording import (
 )
 from uictest.report.repeat_wording import any_repeated, stops_text
 from uictest.report.train_wording import train_facts, train_text
-from uictest.report.verdict_sentences import listed, number, reading_sentences, reading_sources, tone
+from uictest.report.verdict_sentences import (
+    listed,
+    number,
+    reading_sentences,
+    reading_sources,
+    statement_sentence,
+)
 
 _UPLOT: Final = MappingProxyType(
     {
@@ -121,7 +129,8 @@ _WORDS: Final[tuple[Callable[..., Any], ...]] = (
         part_sentences,
         slide_speed,
     ),
-    *(counted, counted_in, listed, number, reading_sentences, reading_sources, tone),
+    *(car_facts, implausible_sentences),
+    *(counted, counted_in, listed, number, reading_sentences, reading_sources, statement_sentence, tone),
     *(any_repeated, stops_text),
     *(firmness_sentences, firmness_table, train_facts, train_text),
 )

@@ -13,7 +13,7 @@ from uictest.report.case_table import measure_columns
 from uictest.report.repeat_wording import drawn_sentence, repeat_sentences
 from uictest.report.text_tables import number_cell
 from uictest.report.traces.quantities import WHEELSETS
-from uictest.report.verdict_sentences import failing_first, without_rig_that_holds
+from uictest.report.verdict_sentences import failing_first, without_checks_that_hold
 
 MOST_STOPS = 100
 """Stops that are listed and drawn one by one; the numbers and the counts are those of all."""
@@ -101,7 +101,7 @@ def repeats_view(result: evaluation.CaseResult) -> RepeatsView | None:
 
 
 def _criteria(result: evaluation.CaseResult, repeats: evaluation.Repeats) -> Iterator[CriterionDots]:
-    for verdict in failing_first(without_rig_that_holds(result.criteria)):
+    for verdict in failing_first(without_checks_that_hold(result.criteria)):
         counts = verdict.over_stops
         if counts is not None and counts.lowest is not None and counts.highest is not None:
             yield _dots(verdict, counts, repeats.stops[:MOST_STOPS])

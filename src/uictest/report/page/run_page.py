@@ -10,6 +10,7 @@ from typing import Any
 from uictest.judging import evaluation
 from uictest.report.campaign import STOPS
 from uictest.report.case_table import measure_columns
+from uictest.report.case_words import CASE_WORDS
 from uictest.report.close_calls import MOST_CLOSE, NARROW
 from uictest.report.content import DRAWN, MOST_DRAWN, RunContent, drawn_cases, worst_first
 from uictest.report.counts import counted
@@ -33,7 +34,6 @@ from uictest.report.page.rendering import render
 from uictest.report.page.repeats_view import RepeatsView, repeats_view
 from uictest.report.part_wording import vehicles_text
 from uictest.report.requirements import REQUIREMENT_TONES, verified_requirements
-from uictest.report.verdict_sentences import CASE_WORDS
 
 
 def page_html(content: RunContent) -> str:

@@ -12,6 +12,7 @@ from uictest.core.document import Column, Table, Tone
 from uictest.core.series_measures import SERIES_MEASURES
 from uictest.judging import evaluation
 from uictest.judging.series import SeriesResult, SeriesStop, SpeedResult, observed_stops
+from uictest.report.case_words import tone
 from uictest.report.page.axis import Axis
 from uictest.report.page.links import fragment, series_anchor
 from uictest.report.page.plot import ROW_PIXELS, Label, Plot, Shape, dot, row_at, rows_plot
@@ -30,9 +31,9 @@ from uictest.report.series.tables import (
     judged_criteria,
     value_with_interval,
 )
-from uictest.report.verdict_sentences import MOST_URGENT, tone
+from uictest.report.verdict_sentences import MOST_URGENT
 
-_DISTANCE = "braking_distance_m"
+_DISTANCE = "corrected_distance_m"
 _OF_DISTANCE = ("braking_distance", "median_braking_distance", "worst_braking_distance")
 """Measures whose bounds are drawn as lines."""
 

@@ -8,21 +8,18 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final
 
 from uictest.core import statistics
-from uictest.core.series_measures import SERIES_MEASURES, Estimate, Method
+from uictest.core.series_measures import Estimate, Method
+from uictest.report.case_words import CASE_WORDS, line_word, result_word
 from uictest.report.counts import counted
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences
 from uictest.report.github import annotation
 from uictest.report.verdict_sentences import (
-    CASE_WORDS,
-    UNSETTLED,
     counts_text,
     limits,
-    line_word,
     margin_text,
     number,
     outcome_sentence,
-    outcome_word,
     quantity,
     unsettled_sentences,
 )
@@ -49,9 +46,7 @@ _REASONS_SHOWN: Final = 3
 
 def series_word(result: SeriesResult) -> str:
     """Return the word of a series, one of those of cases."""
-    if result.as_expected and not result.met:
-        return UNSETTLED
-    return outcome_word(result.outcome, met=result.met)
+    return result_word(result)
 
 
 def is_uncertain(result: SeriesResult) -> bool:
@@ -244,9 +239,7 @@ def series_explanation(result: SeriesResult) -> list[str]:
     deciding = [each for each in result.criteria if each.verdict.status in ("fail", "inconclusive")]
     names = [each.verdict.id for each in deciding]
     return [
-        outcome_sentence(
-            *(result.outcome, result.expect, names), unsettled=bool(result.unsettled) or result.lacks_firmness
-        ),
+        outcome_sentence(result, names),
         *([printable(result.reason)] if result.reason and not deciding else []),
         *(series_verdict_sentence(each, result.confidence) for each in deciding),
         *unsettled_of_series(result),
@@ -270,10 +263,11 @@ def series_line(result: SeriesResult) -> str:
     words = [line_word(series_word(result)), printable(result.id)]
     words += [f"outcome={result.outcome}", f"expect={result.expect}"]
     for name in SHOWN_MEASURES:
-        of_rails = {f"{name}[{each.place.replace(' ', '')}]": each for each in result.speeds if each.rail}
-        pooled = SERIES_MEASURES[name].pooled or not of_rails
-        for key, measured in ({name: result} if pooled else of_rails).items():
-            estimate = measured.measures[name].estimate
+        of_rails = {
+            f"{name}[{each.place.replace(' ', '')}]": each.measures for each in result.speeds if each.rail
+        }
+        for key, measures in (of_rails or {name: result.measures}).items():
+            estimate = measures[name].estimate
             words.append(f"{key}={number(None if estimate is None else estimate.value)}")
     if not result.met:
         reasons = [result.reason] if result.reason else unsettled_of_series(result)

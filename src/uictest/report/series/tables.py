@@ -8,6 +8,7 @@ from typing import Final, NamedTuple
 from uictest.core.document import Column, Document, Lines, Table, Tone
 from uictest.core.series_measures import SeriesValue
 from uictest.judging.series import SeriesResult, SeriesVerdict
+from uictest.report.case_words import tone
 from uictest.report.counts import counted
 from uictest.report.escaping import printable
 from uictest.report.series.series_sentences import (
@@ -20,7 +21,7 @@ from uictest.report.series.series_sentences import (
     short,
 )
 from uictest.report.terminal.table_lines import document_lines, table_lines
-from uictest.report.verdict_sentences import limits, margin_text, quantity, tone
+from uictest.report.verdict_sentences import limits, margin_text, quantity
 
 _TONES: Final[Mapping[str, Tone]] = {"pass": "good", "fail": "bad", "inconclusive": "odd"}
 _REMARKS: Final = {"fail": "fail", "inconclusive": "inconclusive", "not_applicable": "not applicable"}

@@ -7,6 +7,7 @@ from typing import Final, NamedTuple
 
 from uictest.core.document import Column, Document, Lines, Table
 from uictest.judging import evaluation
+from uictest.report.case_words import tone
 from uictest.report.escaping import printable
 from uictest.report.firmness_sentences import firmness_sentences, firmness_table
 from uictest.report.sweep.map_text import folded, is_large, short_label
@@ -31,7 +32,6 @@ from uictest.report.sweep.sweep_sentences import (
 )
 from uictest.report.sweep.values import SweptValue
 from uictest.report.text_tables import number_cell
-from uictest.report.verdict_sentences import tone
 
 _MOST_ROWS: Final = 30
 """Values of a parameter, or lines of the frontier, that a reader is shown."""

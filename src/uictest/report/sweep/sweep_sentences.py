@@ -10,6 +10,7 @@ from typing import Any, Final
 from uictest.core.document import Suite, Testcase, TestcaseStatus, class_name
 from uictest.core.measures import column_unit
 from uictest.judging import evaluation
+from uictest.report.case_words import outcome_word, result_word
 from uictest.report.counts import counted
 from uictest.report.escaping import argument, printable
 from uictest.report.github import annotation
@@ -17,7 +18,7 @@ from uictest.report.junit import suite_properties, test_properties
 from uictest.report.measure_heading import measure_heading
 from uictest.report.sweep.result import Circumstances, Flip, MissedCase, OutcomeCount, SweepResult
 from uictest.report.sweep.values import DrawnInterval, SweptValue, range_label
-from uictest.report.verdict_sentences import counts_text, explanation, outcome_word, result_word
+from uictest.report.verdict_sentences import counts_text, explanation
 
 _MOST_LISTED = 3  # values that are listed rather than counted
 

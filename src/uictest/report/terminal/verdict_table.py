@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any, Final
 from uictest.core.document import Column, Table, Tone
 from uictest.core.measures import MEASURES, STOP_COLUMNS, WHEELSET_COLUMNS
 from uictest.judging import evaluation
+from uictest.report.car_wording import car_facts
 from uictest.report.case_table import FAILING, measure_columns
+from uictest.report.case_words import DIFFERS, EXPLAINED, line_word, tone
 from uictest.report.difference import (
     BaselineComparison,
     Difference,
@@ -23,16 +25,14 @@ from uictest.report.repeat_wording import any_repeated, range_cells, repeat_sent
 from uictest.report.terminal.table_lines import columns_not_shown, fitted, table_columns
 from uictest.report.train_wording import train_cells
 from uictest.report.verdict_sentences import (
-    DIFFERS,
     criterion_sentences,
     definition_sentence,
-    line_word,
     listed,
     number,
     reading_sources,
     real_time_sentences,
-    tone,
-    without_rig_that_holds,
+    statement_sentence,
+    without_checks_that_hold,
 )
 
 if TYPE_CHECKING:
@@ -52,11 +52,21 @@ MOST_DIFFERENCES: Final = 3
 def case_line(result: evaluation.CaseResult, differences: Sequence[Difference] = ()) -> str:
     """Return the line of one case, ending with the reason if it is not met or differs from the baseline."""
     words = [line_word(case_word(result, differences)), printable(result.id)]
-    words += [f"outcome={result.outcome}", f"expect={result.expect}", *_stops(result), *_measures(result)]
-    if differences or not result.met:
-        outcomes, *reasons = case_explanation(result, differences, MOST_DIFFERENCES)
+    words += [f"outcome={result.outcome}", f"expect={_one_word(result.expect)}"]
+    if result.criteria:
+        words += [f"test_validity={result.test_validity}", f"requirements={result.requirement_status}"]
+    if result.rail is not None:
+        words.append(f"rail_validity={result.rail.test_validity}")
+    words += [*_stops(result), *_measures(result)]
+    if differences or not result.met or result.outcome in EXPLAINED:
+        outcomes, *more = case_explanation(result, differences, MOST_DIFFERENCES)
+        reasons = [each for each in more if each != statement_sentence(result)]
         words.append(f"reason={'; '.join(reasons or [outcomes])}")
     return " ".join(words)
+
+
+def _one_word(text: object) -> str:
+    return str(text).replace(" ", "")
 
 
 def missing_lines(baseline: BaselineComparison) -> Iterator[str]:
@@ -76,7 +86,7 @@ def definition_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     """Yield the definitions of each criterion, once for all cases in which they are the same."""
     cases: dict[tuple[str, str], list[str]] = {}
     for result in results:
-        for verdict in without_rig_that_holds(result.criteria):
+        for verdict in without_checks_that_hold(result.criteria):
             cases.setdefault((verdict.id, definition_sentence(verdict)), []).append(result.id)
             for reading, sentence in reading_sources(verdict).items():
                 cases.setdefault((f"{verdict.id} read as {reading}", sentence), []).append(result.id)
@@ -91,7 +101,9 @@ def part_lines(results: Sequence[evaluation.CaseResult]) -> Iterator[str]:
     """Yield the parts that cases were run with and their changes, once for all cases with the same part."""
     cases: dict[tuple[str, str], list[str]] = {}
     for result in results:
-        for role, sentence in part_sentences(result.parts, result.controller_version).items():
+        of_car = ", ".join(f"{name} {text}" for name, text in car_facts(result).items())
+        sentences = {"car": of_car} if of_car else {}
+        for role, sentence in (sentences | part_sentences(result.parts, result.controller_version)).items():
             cases.setdefault((role, sentence), []).append(result.id)
     for (role, sentence), names in cases.items():
         where = "" if len(names) == len(results) else f" (in {listed(names)})"
@@ -124,6 +136,11 @@ def _measures(result: evaluation.CaseResult) -> Iterator[str]:
         yield f"start_jitter_s={number(times.start_jitter_s)}"
 
 
+def _deciding(result: evaluation.CaseResult) -> evaluation.CaseResult | evaluation.RailValidity:
+    return result.rail if result.rail is not None and result.rail.decides else result
+
+
+_SHORT: Final = {"valid": "yes", "not_valid": "no", "not_judged": "-", "met": "met", "missed": "missed"}
 _STYLES: Final[dict[Tone, str]] = {"good": "green", "bad": "bold red", "odd": "bold magenta"}
 
 
@@ -157,7 +174,8 @@ def _columns(
         Column(heading="case", text=lambda result: result.id, wraps=True),
         Column(heading="verdict", text=word),
         Column(heading="stops", text=lambda result: stops_text(result) or ("-" if repeated else "")),
-        Column(heading="outcome", text=lambda result: result.outcome, rank=2),
+        Column(heading="valid\ntest", text=lambda result: _SHORT[_deciding(result).test_validity], rank=1),
+        Column(heading="require-\nments", text=lambda result: _SHORT[result.requirement_status], rank=1),
         *measure_columns(results, terminal=True, failing=missed.values()),
     ]
     shown = {name for name, column in (STOP_COLUMNS | WHEELSET_COLUMNS).items() if column.overview}

@@ -1,13 +1,15 @@
 """The dynamic brake: its demand once per controller cycle, its torque in every step.
 
 The friction demand is one for the car, since one brake line feeds its four wheelsets; what the motors of the
-car can give at the speed of the train is taken off it, whether or not they all can use it. The friction
-brake replaces what fade-out, power limit or a failure take, through the dynamics of its line.
+car give at the speed of the train is taken off it. So the friction brake replaces what is still to build up
+and what fade-out, power limit, a failure or the WSP take, through the dynamics of its line.
 
-A controller of contract version 2 takes a share of it off single wheelsets, which the friction brake does not
-replace: the blending counts on what is available. One of version 1 cannot and loses it: with its first hold
-or vent the dynamic brake of the car drops, for the rest of the application, and the friction brake takes
-over.
+A controller of contract version 2 takes a share of it off single wheelsets. One of version 1 cannot and loses
+it: with its first hold or vent the dynamic brake of the car drops, for the rest of the application.
+
+A friction brake that is relieved holds its force within the loop of its caliper. From the pressure of the
+brake line the blending knows what the calipers hold, and while that is too much, it demands the pressure of
+the releasing line.
 """
 
 from collections.abc import Sequence
@@ -17,10 +19,15 @@ from uictest.core.physics import (
     clamp,
     demanded_pressure,
     dynamic_force,
+    held_excess,
+    loop_width,
     maximum,
 )
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car, Wheelset
+
+_BAND = 0.005
+"""Share of the commanded force, chosen, by which friction may miss its demand before the loop is changed."""
 
 
 def start_dynamic_brake(wheelset: Wheelset, number: int, p: Parameters) -> None:
@@ -36,18 +43,41 @@ def demand_dynamic_brake(car: Car, wheelsets: Sequence[Wheelset], p: Parameters)
     pressure = demanded_pressure(
         car.time, car.demand_start, car.demand_change, car.demand_begins, car.demand_rate
     )
-    wanted = p.force_per_pressure * maximum(pressure - p.zero_force_pressure, 0.0)
+    excess = maximum(pressure - p.zero_force_pressure, 0.0)
+    wanted = p.force_per_pressure * excess
     available = 0.0
+    given = 0.0
     for i in range(4):
-        available += _available(wheelsets[i], car, p)
-    share = 0.0
+        force = _force_at_train_speed(wheelsets[i], car, p)
+        available += (1.0 - car.dynamic_dropped) * (1.0 - car.dynamic_failed) * force
+        given += wheelsets[i].motor_effort * force
+    car.blended_share = clamp(given / wanted, 0.0, 1.0) if wanted > 0.0 else 0.0
+    of_friction = (1.0 - car.blended_share) * excess
+    _watch_calipers(car, wheelsets, of_friction, _BAND * excess, p)
+    if excess > 0.0 and car.relieved > 0.0:
+        car.blended_share += loop_width(of_friction, p.coulomb_width, p.load_width) / excess
     request = 0.0
     if available > 0.0:
-        share = 1.0 if wanted <= available else available / wanted
         request = 1.0 if wanted >= available else wanted / available
-    car.blended_share += clamp(share - car.blended_share, -p.blending_change, p.blending_change)
     for i in range(4):
         _follow(wheelsets[i], car, request, p)
+
+
+def _watch_calipers(
+    car: Car, wheelsets: Sequence[Wheelset], wanted: float, band: float, p: Parameters
+) -> None:
+    """Find what the calipers hold, and whether that is too much; a vented one begins its loop anew.
+
+    ``wanted`` is the pressure above zero force that squeezing calipers would need, Pa.
+    """
+    for i in range(4):
+        if wheelsets[i].valve_command != FILL:
+            car.held_excess = 0.0
+    in_line = car.line_pressure - p.atmospheric_pressure - p.zero_force_pressure
+    car.held_excess = held_excess(car.held_excess, in_line, p.coulomb_width, p.load_width)
+    surplus = car.held_excess - wanted
+    if abs(surplus) > band:
+        car.relieved = 1.0 if surplus > 0.0 else 0.0
 
 
 def _drop_if_wheels_slide(car: Car, wheelsets: Sequence[Wheelset]) -> None:
@@ -56,11 +86,9 @@ def _drop_if_wheels_slide(car: Car, wheelsets: Sequence[Wheelset]) -> None:
             car.dynamic_dropped = 1.0
 
 
-def _available(wheelset: Wheelset, car: Car, p: Parameters) -> float:
-    works = (1.0 - car.dynamic_dropped) * (1.0 - car.dynamic_failed)
-    return works * dynamic_force(
-        maximum(car.speed, 0.0), wheelset.motor_force, wheelset.motor_power, p.fade_end, p.fade_rate
-    )
+def _force_at_train_speed(wheelset: Wheelset, car: Car, p: Parameters) -> float:
+    speed = maximum(car.speed, 0.0)
+    return dynamic_force(speed, wheelset.motor_force, wheelset.motor_power, p.fade_end, p.fade_rate)
 
 
 def _follow(wheelset: Wheelset, car: Car, request: float, p: Parameters) -> None:

@@ -68,9 +68,10 @@ class Parameters(
     motor_response: float = derived()  # share of the missing effort that a motor gains in a controller cycle
     fade_end: float = derived()  # m/s
     fade_rate: float = derived()  # s/m
-    blending_change: float = derived()  # largest change of the blended share in a controller cycle
     zero_force_pressure: float = derived()  # gauge, Pa
     force_per_pressure: float = derived()  # of the car at the rims above that, N/Pa
+    coulomb_width: float = derived()  # of the loop of the caliper without load, Pa
+    load_width: float = derived()  # what it gains per pressure above zero_force_pressure
     # brake operating unit, reservoir, compressor, brake line
     commanded_pressure: float = derived()  # demanded once the brake is fully applied, gauge, Pa
     dead_time: float = derived()  # from the command to the first demand, s

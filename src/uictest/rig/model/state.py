@@ -49,7 +49,9 @@ class Car(Frame, BrakedTrain):
     demand_change: float  # Pa
     demand_begins: float  # s
     demand_rate: float  # 1/s
-    blended_share: float  # of the commanded force that the dynamic brake is to give
+    blended_share: float  # of the demanded pressure above zero force that is taken off for it
+    held_excess: float  # physics.held_excess of the brake line, Pa
+    relieved: float  # 1 while the friction brake gives more than is wanted, and until it gives less
     dynamic_dropped: float  # 1 once a controller that cannot reduce it has acted
     dynamic_failed: float  # 1 while it has a fault
     line_saturated_steps: float  # in which its sensor was read and limited by its range

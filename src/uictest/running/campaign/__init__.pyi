@@ -12,6 +12,7 @@ from .batch import (
     shortest_cycle as shortest_cycle,
 )
 from .descriptions import descriptions_of as descriptions_of
+from .rail import with_rails as with_rails
 from .requirement_coverage import (
     CoveredRequirement as CoveredRequirement,
     Verifier as Verifier,

@@ -169,6 +169,7 @@ class RunSettings:
         firmness: returns how firm the verdicts of the case of an id are, None where that was not asked.
         parts: effective parts by case id.
         domains: whether cases, by id, lie in the domain of a validation; of those for which it was asked.
+        cars: figures of the cars of simulated cases, by id.
 
     """
 
@@ -183,18 +184,20 @@ class RunSettings:
     firmness: Callable[[str], evaluation.Firmness | None] | None = None
     parts: PartsOfCases = field(default_factory=dict)
     domains: Mapping[str, evaluation.DomainOfValidity] = field(default_factory=dict)
+    cars: Mapping[str, scenario.CarFigures] = field(default_factory=dict)
 
     def asks_firmness_of(self, case: scenario.Case) -> bool:
         """Return whether it is asked how firm the verdicts of a case are."""
         return case.scenario.firm if self.firm is None else self.firm
 
     def completed(self, result: evaluation.CaseResult) -> evaluation.CaseResult:
-        """Return the result of a case with what it says besides: its parts, its domain and `strict`."""
+        """Return the result of a case with what it says besides: its parts, domain, car and `strict`."""
         return replace(
             result,
             parts=self.parts.get(result.id, {}),
             domain_of_validity=self.domains.get(result.id),
             strict=self.strict,
+            car=self.cars.get(result.id),
         )
 
 

@@ -75,7 +75,7 @@ def _named_in_case(case: scenario.Case) -> Iterator[tuple[str, Verifier]]:
 
 def _verifies(criterion: scenario.Criterion, resolved: scenario.Scenario) -> bool:
     applies = not criterion.needs_series and scenario.applies_to(criterion, resolved)
-    return applies and resolved.expect == "pass"
+    return applies and resolved.expect.outcome == "pass"
 
 
 def _named_in_series(series: Series) -> Iterator[tuple[str, Verifier]]:
@@ -84,7 +84,9 @@ def _named_in_series(series: Series) -> Iterator[tuple[str, Verifier]]:
         yield requirement, Verifier("series", series.file.name, series=(series.id,))
     for profile in series.criteria:
         for criterion in profile.criteria:
-            verified = (series.id,) if series.file.expect == "pass" and _judges(series, criterion) else ()
+            verified = (
+                (series.id,) if series.file.expect.outcome == "pass" and _judges(series, criterion) else ()
+            )
             for requirement in criterion.requirements:
                 yield requirement, Verifier("criterion", criterion.id, profile.name, series=verified)
 

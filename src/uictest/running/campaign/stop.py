@@ -15,6 +15,7 @@ from uictest.core.recording import Recording
 from uictest.judging import evaluation
 from uictest.plans import scenario
 from uictest.rig import bench
+from uictest.running.campaign.rail import with_rails
 
 
 class RecordingRequest(NamedTuple):
@@ -177,6 +178,7 @@ def _run(
         simulated = simulate(cases, interval_at_once(stops[0], request))
         seconds = (perf_counter() - started) / len(stops)
         results = [_judged(*each, seconds) for each in zip(stops, cases, simulated, strict=True)]
+        results = with_rails(cases, results)
         # A stop is reproducible to the bit, so it can be recorded once the case is known to have missed.
         if not stops[0].is_repeated and simulated[0].recording is None and any(map(request.wants, results)):
             simulated = simulate(cases, request.every)

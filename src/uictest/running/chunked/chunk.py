@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import io
 from abc import ABC, abstractmethod
 from collections import namedtuple
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, groupby
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,16 +15,21 @@ from numpy.typing import NDArray
 from uictest import rig
 from uictest.core.ensemble import rows_at
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.judging.evaluation import CaseResult, Detail, error_result, evaluate_simulated, may_be_biased
+from uictest.judging.evaluation import (
+    CaseResult,
+    Detail,
+    asks_for_rail,
+    error_result,
+    evaluate_simulated,
+    may_be_biased,
+    with_rail,
+)
 from uictest.plans.scenario import Case
 from uictest.plans.sweeps import Plan, in_survey_steps, programs_of, train_problem
 from uictest.running.campaign import RecordingRequest, ThreadedMap, run_trains, stops_together
 from uictest.running.chunked.case_blocks import BlockAssembler, CaseBlock, CaseValues
 from uictest.running.chunked.case_selection import CaseSelection
-from uictest.running.chunked.table import REPEATED_TEXTS, biases_by_measure, rows
-
-if TYPE_CHECKING:
-    import pyarrow as pa
+from uictest.running.chunked.table import biases_by_measure, parquet_bytes, rows
 
 RunBlock = Callable[[rig.BlockInputs], rig.BlockRun]
 """Simulates a block in which a controller comes from outside: here, or in child processes."""
@@ -167,7 +171,34 @@ class BlockRunner(ChunkRunner):
                 return self._run_one_by_one(block, error)
             of_each = zip(stops.tolist(), wheelsets.tolist(), strict=True)
             records = dict(zip(places.tolist(), of_each, strict=True))
-        return [self._result(block, place, records.get(place)) for place in range(len(block.ids))]
+        results = [self._result(block, place, records.get(place)) for place in range(len(block.ids))]
+        return self._with_rails(block, results)
+
+    def _with_rails(self, block: CaseBlock, results: list[CaseResult]) -> list[CaseResult]:
+        """Return results in which the rail decides where scenarios say so: the same stops, WSP bypassed."""
+        if self.plan.base.scenario.test_validity != "rail" and "test_validity" not in self.plan.keys:
+            return results
+        cases = [self.assembler.case(block, place) for place in range(len(results))]
+        places = np.array(
+            [
+                place
+                for place, (case, result) in enumerate(zip(cases, results, strict=True))
+                if case.scenario.test_validity == "rail" and asks_for_rail(case, result)
+            ],
+            np.int64,
+        )
+        if places.size:
+            bypassed = block.take(places)
+            bypassed.parameters["wsp_active"] = 0
+            stops, wheelsets = self._simulated(bypassed, np.arange(places.size))
+            of_each = zip(
+                places.tolist(), bypassed.rejections, stops.tolist(), wheelsets.tolist(), strict=True
+            )
+            for place, failure, stop, own in of_each:
+                if not failure:
+                    records = _Stop(*stop), [_Wheelset(*each) for each in own]
+                    results[place] = with_rail(results[place], cases[place], *records)
+        return results
 
     def _result(self, block: CaseBlock, place: int, records: Records | None) -> CaseResult:
         case, reason = self.assembler.case(block, place), block.rejections[place]
@@ -193,6 +224,7 @@ class BlockRunner(ChunkRunner):
         run = self.run_block(rig.BlockInputs(programs, configs, *inputs))
         for place, failure in zip(places, run.failures, strict=True):
             block.rejections[place] = failure
+        run.measures["reference_distance"] = rig.reference_distances(*inputs)
         return run.measures, run.wheelset_measures
 
     def _run_one_by_one(self, block: CaseBlock, error: Exception) -> list[CaseResult]:
@@ -263,19 +295,3 @@ def queues_of(numbers: Sequence[int], jobs: int, chunk_size: int) -> list[Sequen
         queues.append(left[:size])
         left = left[size:]
     return queues
-
-
-def parquet_bytes(table: pa.Table) -> bytes:
-    """Return a table as a Parquet file; the same table gives the same bytes."""
-    import pyarrow.parquet as pq
-
-    buffer = io.BytesIO()
-    pq.write_table(
-        table,
-        buffer,
-        compression="lz4",
-        use_dictionary=list(REPEATED_TEXTS),
-        write_statistics=False,  # a chunk is read as a whole
-        write_page_checksum=True,
-    )
-    return buffer.getvalue()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
 
 
 WHEELSETS: Final = 4
-_OWN: Final = ("expect", "outcome", "reason")
+_STATED: Final = ("outcome", "test_validity", "requirement_status", "reason")
+_OWN: Final = ("expect", *_STATED)
 _NO_WHEELSETS: Final[Sequence[Mapping[str, float]]] = ({},) * WHEELSETS
 TIME_STEP_COLUMN: Final = "time_step_ms"
 """Column of a survey: the step that the case was simulated in in the end."""
@@ -98,7 +100,8 @@ def rows(
         columns[text_column(key)] = column.written
     for key in plan.numeric_keys:
         columns[number_column(key)] = block.settings[key].numbers
-    for name in (*_OWN, "met"):
+    columns["expect"] = [str(each.expect) for each in results]
+    for name in (*_STATED, "met"):
         columns[name] = [getattr(each, name) for each in results]
     names = (named_controller(each) for each in _controllers(plan, block))
     columns |= zip(_CONTROLLER, zip(*((each.name, each.version) for each in names), strict=True), strict=True)
@@ -117,6 +120,22 @@ def rows(
             columns[numbered] = [of_each[place].get(name) for of_each in wheelsets]
     schema = row_schema(plan)
     return pa.table([pa.array(columns[each.name], each.type, from_pandas=True) for each in schema], schema)
+
+
+def parquet_bytes(table: pa.Table) -> bytes:
+    """Return a table as a Parquet file; the same table gives the same bytes."""
+    import pyarrow.parquet as pq
+
+    buffer = io.BytesIO()
+    pq.write_table(
+        table,
+        buffer,
+        compression="lz4",
+        use_dictionary=list(REPEATED_TEXTS),
+        write_statistics=False,  # a chunk is read as a whole
+        write_page_checksum=True,
+    )
+    return buffer.getvalue()
 
 
 def named_controller(controller: Any) -> SweptController:

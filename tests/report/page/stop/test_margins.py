@@ -9,6 +9,7 @@ from uictest.judging.evaluation import (
     VerdictInterval,
     narrowest_margin,
 )
+from uictest.plans.scenario import PASS
 from uictest.report.page.stop.margins import margin_share, margins_of
 from uictest.report.page.stop.marks import taken_at
 from uictest.report.traces.trace import PlotTrace, trace_of
@@ -76,7 +77,7 @@ def test_a_verdict_that_turns_has_nothing_to_spare_as_where_cases_are_ranked(
     assert (shown.verdict.id, shown.share_text, shown.turns_text) == (verdict.id, spare, words)
     assert shown.bar[1] == pytest.approx(abs(10.0 * margin) / 2)
     narrowest, criterion = narrowest_margin(
-        CaseResult("c", "s", {}, "pass", "pass", criteria=(steady, verdict))
+        CaseResult("c", "s", {}, PASS, "pass", criteria=(steady, verdict))
     )
     assert criterion == verdict.id
     assert shown.to_spare == pytest.approx(100.0 * (narrowest or 0.0))

@@ -8,6 +8,7 @@ from operator import attrgetter
 from typing import Any, Final
 
 from uictest.core.measures.measure import (
+    DefinitionValues,
     Measure,
     MeasureValue,
     Overview,
@@ -21,6 +22,7 @@ from uictest.core.measures.measure import (
     value_per_wheelset,
 )
 from uictest.core.measures.records import StopMeasures
+from uictest.core.units import STANDARD_GRAVITY
 
 _DEFAULT_FIRST_PHASE: Final = 3.0
 """s; chosen. Used for the column of a case none of whose criteria defines its own first phase."""
@@ -37,13 +39,14 @@ _FILTERING = ("deceleration_filter", "moving_speed")
 _POSITIONS = {1: "leading", 2: "trailing"}
 
 
-def initial_adhesion(stop: StopMeasures, first_phase_duration: float) -> MeasureValue:
-    """Return (v(0) - v(T)) / T in m/s2, T = `first_phase_duration` (s) counted from the first sliding.
+def initial_adhesion(stop: StopMeasures, first_phase_duration: float, gradient: float = 0.0) -> MeasureValue:
+    """Return (v(0) - v(T)) / T - g i in m/s2, T = `first_phase_duration` (s) counted from the first sliding.
 
-    v is known at whole seconds after the first sliding and taken as linear between them. There is no value
-    where no wheelset slid, or where the train stood or the record ended before the phase was over: the phase
-    would then not be one of sliding at all. Nor is there one where a track brake slowed the train as well,
-    be it that of another car.
+    i is the gradient, positive uphill, where weight slows the train as well as the rail. v is known at whole
+    seconds after the first sliding and taken as linear between them. There is no value where no wheelset
+    slid, or where the train stood or the record ended before the phase was over: the phase would then not be
+    one of sliding at all. Nor is there one where a track brake slowed the train as well, be it that of
+    another car.
     """
     if stop.track_brake_time > 0.0:
         return unavailable("the track brake acted, so the deceleration is not that of the wheels' adhesion")
@@ -59,7 +62,11 @@ def initial_adhesion(stop: StopMeasures, first_phase_duration: float) -> Measure
         return unavailable(
             f"the stop or its record ended within {first_phase_duration:.4g} s of the first sliding"
         )
-    return one_value((at_start - at_end) / first_phase_duration)
+    return one_value((at_start - at_end) / first_phase_duration - STANDARD_GRAVITY * gradient)
+
+
+def _initial_adhesion(stop: StopMeasures, definition: DefinitionValues) -> MeasureValue:
+    return initial_adhesion(stop, definition["first_phase_duration"], definition["gradient"])
 
 
 def _speed_after(stop: StopMeasures, seconds: float) -> float:
@@ -139,9 +146,10 @@ MEASURES = (
         unit="g",
         course="settles",
         meaning="mean deceleration of the train over the first phase, counted from the first sliding of any"
-        " wheelset",
+        " wheelset, less that by the gradient",
         of_braking=True,
-        read=lambda stop, wheelsets, definition: initial_adhesion(stop, definition["first_phase_duration"]),
+        corrected=("gradient",),
+        read=lambda stop, wheelsets, definition: _initial_adhesion(stop, definition),
         decided=ShownWhen(
             how="span",
             plot="deceleration",
@@ -161,7 +169,7 @@ MEASURES = (
             "g",
             meaning="initial adhesion by the first phase of the first criterion that defines one, else 3 s",
             overview=Overview("initial adhesion\ng", digits=4, rank=7, short="adhesion\ng", few_digits=3),
-            read=lambda stop, definition: _or_nan(initial_adhesion(stop, definition["first_phase_duration"])),
+            read=lambda stop, definition: _or_nan(_initial_adhesion(stop, definition)),
             defaults={"first_phase_duration": _DEFAULT_FIRST_PHASE},
         ),
     ),

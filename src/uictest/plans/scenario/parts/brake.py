@@ -242,6 +242,16 @@ class Caliper(Part):
         "Clamping force over the net force at the piston.", "number", "0.01 .. 20"
     )
 
+    @property
+    def closing_force(self) -> float:
+        """Force at the squeezing piston with which the pads touch the disc, N."""
+        return self.preload + self.spring_rate * self.clearance + self.coulomb_friction
+
+    def squeezing_force(self, pressure: float) -> float:
+        """Clamping force of the squeezing caliper at a gauge pressure in Pa, N."""
+        net = max(self.piston_area * pressure - self.closing_force, 0.0)
+        return self.lever_ratio * net / (1.0 + self.load_friction)
+
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield a piston that nothing holds before the pads touch."""
         yield from super().inconsistencies()

@@ -27,6 +27,8 @@ from uictest.plans.scenario.parts.reading import (
 from uictest.plans.scenario.yaml import SCENARIO_SOURCE, Inconsistency, Model, Part, quoted, suggestion
 from uictest.plans.scenario.yaml.quantity_field import field, optional, schema_field
 
+Stands = Literal["always", "in a valid test"]
+
 
 class Criterion(Model):
     """One bound on one measure."""
@@ -39,6 +41,10 @@ class Criterion(Model):
     layer: Literal["rig", "validity", "requirement"] = field(
         "validity: if it fails, the stop is no test; requirement: if it fails, the stop fails;"
         " rig: a check of the rig, which makes the stop invalid and judges nothing else."
+    )
+    stands: Stands = field(
+        "Where a requirement stands: always, or in a valid test, as labs discard and repeat others.",
+        default="always",
     )
     applies: Applicability = field(
         "Stops that the criterion applies to; of a series the wet ones that are judged.",
@@ -77,6 +83,11 @@ class Criterion(Model):
         return self.model_copy(update={**own, "readings": ()})
 
     @property
+    def in_valid_test(self) -> bool:
+        """Whether, as a requirement, it stands in a valid test alone."""
+        return self.stands == "in a valid test"
+
+    @property
     def of_dry_stop(self) -> bool:
         """Whether the bounds are shares of the dry stop; values are then in % of it."""
         return isinstance(self.lower, DryBound) or isinstance(self.upper, DryBound)
@@ -100,6 +111,11 @@ class Criterion(Model):
     def observed_by(self) -> tuple[str, ...]:
         """The fields of the scenario's `measures` part that decide what was observed."""
         return () if self.scope == "series" else self._declared.observed_by
+
+    @property
+    def corrected(self) -> tuple[str, ...]:
+        """The conditions of a stop that the measure is corrected for."""
+        return () if self.scope == "series" else self._declared.corrected
 
     @property
     def course(self) -> Course:
@@ -150,6 +166,9 @@ class Criterion(Model):
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield missing or crossed bounds, a wrong number of wheelsets, missing or unused definitions."""
         yield from repeated_requirements(self.requirements)
+        if self.in_valid_test and self.layer != "requirement":
+            message = f"criterion {quoted(self.id)} is one of {self.layer}: `stands` belongs to requirements"
+            yield Inconsistency(("stands",), message, "leave it out")
         yield from self._bound_problems()
         yield from self._dry_bound_problems()
         if self.scope == "series":

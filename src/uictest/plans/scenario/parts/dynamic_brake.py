@@ -29,8 +29,7 @@ class DynamicBrake(Model):
         default=(default("10 km/h", "speed"), default("5 km/h", "speed")),
     )
     response_time: Quantity = quantity(
-        "Time constant with which a motor follows what is asked of it, and time in which the share of the"
-        " dynamic brake in the force goes from nothing to all.",
+        "Time constant with which a motor follows what is asked of it.",
         "time",
         "10 ms .. 10 s",
         default="0.3 s",

@@ -209,7 +209,7 @@ def definition_problems(measure: str, definition: Definition) -> Iterator[Incons
 
 
 class NominalSpeed(Model):
-    """An initial speed with the tolerance within which a stop is judged, uncorrected."""
+    """An initial speed with the tolerance within which a stop is judged; distances are corrected to it."""
 
     value: Quantity = quantity("Nominal initial speed.", "speed", "> 0 km/h .. 600 km/h")
     tolerance: Quantity = quantity("Largest deviation either way.", "speed", "0 km/h .. 600 km/h")
@@ -247,6 +247,6 @@ class Applicability(Model):
     wsp: tuple[Literal["active", "bypassed"], ...] | None = optional("States of the WSP.")
     brake_position: tuple[str, ...] | None = optional("Brake positions, e.g. R.")
     topology: tuple[Literal["one-caliper", "four-caliper"], ...] | None = optional("Topologies of the rig.")
-    initial_speed: NominalSpeed | None = optional("Initial speed, uncorrected.")
+    initial_speed: NominalSpeed | None = optional("Initial speed; distances are corrected to it.")
     command: NominalShare | None = optional("Share of the full service command.")
     gradient: NominalGradient | None = optional("Gradient of the track.")

@@ -26,6 +26,7 @@ from .quantities import (
     SCENARIO_SOURCE as SCENARIO_SOURCE,
     DecimalQuantity as DecimalQuantity,
     DecimalQuantityField as DecimalQuantityField,
+    Prior as Prior,
     Quantity as Quantity,
     QuantityError as QuantityError,
     common_unit as common_unit,

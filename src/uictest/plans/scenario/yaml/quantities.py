@@ -10,7 +10,7 @@ from decimal import Context, Decimal
 from fractions import Fraction
 from functools import lru_cache, reduce
 from operator import add
-from typing import Annotated, Any, Final, NamedTuple, Self
+from typing import Annotated, Any, Final, Literal, NamedTuple, Self
 
 from pydantic import PlainSerializer, PlainValidator, WithJsonSchema
 from pydantic_core import PydanticCustomError
@@ -22,6 +22,10 @@ SCENARIO_SOURCE: Final = "scenario"
 """Source of a number that a user wrote in a scenario."""
 DEFAULT_SOURCE: Final = "default"
 """Source of a number that nobody wrote: the default of a field."""
+Prior = Literal["uniform", "log-uniform"]
+"""How likely the values of a plausible range are: all of them alike, or all factors of one size alike."""
+DEFAULT_PRIOR: Final = "uniform"
+"""Where a range states none: two ends and nothing else prefer no value; chosen."""
 
 # Bounded digits and exponent: an exact fraction of 1e999999999 would fill the memory.
 NUMBER_PATTERN: Final = r"[-+]?(?:[0-9]{1,30}(?:\.[0-9]{0,30})?|\.[0-9]{1,30})(?:[eE][-+]?[0-9]{1,3})?"
@@ -35,15 +39,16 @@ class Quantity(float):
 
     ``text`` is the value as written, ``unit`` the canonical unit, ``source`` a key of the part's ``sources``
     or ``"scenario"`` or ``"default"``. ``range`` holds the ends of its plausible range where one is stated;
-    their source is that of the range.
+    their source is that of the range, and ``prior`` says how likely the values between them are.
     """
 
-    __slots__ = ("range", "source", "text", "unit")
+    __slots__ = ("prior", "range", "source", "text", "unit")
 
     text: str
     unit: str
     source: str
     range: tuple[Quantity, Quantity] | None
+    prior: Prior
 
     def __new__(
         cls,
@@ -52,6 +57,7 @@ class Quantity(float):
         unit: str,
         source: str = SCENARIO_SOURCE,
         range: tuple[Quantity, Quantity] | None = None,  # noqa: A002 - the key of a file
+        prior: Prior = DEFAULT_PRIOR,
     ) -> Self:
         """A quantity of ``value`` in the canonical ``unit``, written as ``text``."""
         quantity = super().__new__(cls, value)
@@ -59,6 +65,7 @@ class Quantity(float):
         quantity.unit = unit
         quantity.source = source
         quantity.range = range
+        quantity.prior = prior
         return quantity
 
     def __getnewargs__(self) -> tuple[Any, ...]:

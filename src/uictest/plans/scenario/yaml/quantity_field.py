@@ -4,16 +4,18 @@ import re
 from collections.abc import Callable
 from functools import cache
 from operator import ge, gt, le, lt
-from typing import Any, Final, NamedTuple
+from typing import Any, Final, NamedTuple, cast, get_args
 
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from uictest.core.units import KINDS, Kind
 from uictest.plans.scenario.yaml.quantities import (
+    DEFAULT_PRIOR,
     DEFAULT_SOURCE,
     NUMBER_PATTERN,
     SCENARIO_SOURCE,
+    Prior,
     Quantity,
     QuantityError,
     described,
@@ -23,7 +25,7 @@ from uictest.plans.scenario.yaml.quantities import (
 )
 from uictest.plans.scenario.yaml.tree import quoted
 
-_MARKED_KEYS: Final = frozenset({"value", "source", "range", "range_source"})
+_MARKED_KEYS: Final = frozenset({"value", "source", "range", "range_source", "prior"})
 QUANTITY_KEYWORD: Final = "x-quantity"
 """Keyword that stands for the definition of a kind while a JSON Schema is put together."""
 
@@ -73,7 +75,8 @@ class QuantityField(NamedTuple):
             )
         bare = self._read(value["value"])
         ends = self._read_range(value["range"], bare, of_range) if "range" in value else None
-        return Quantity(float(bare), bare.text, bare.unit, source, ends)
+        prior = _read_prior(value["prior"], ends) if "prior" in value else DEFAULT_PRIOR
+        return Quantity(float(bare), bare.text, bare.unit, source, ends, prior)
 
     def _read_range(self, ends: object, value: Quantity, source: str) -> tuple[Quantity, Quantity]:
         """The plausible range of a value: two bounds that hold it, in its unit."""
@@ -147,6 +150,12 @@ class QuantityField(NamedTuple):
                     **source,
                     "description": "Source of the range, if it is not that of the value.",
                 },
+                "prior": {
+                    "enum": list(get_args(Prior)),
+                    "default": DEFAULT_PRIOR,
+                    "description": "How likely the values of the range are: all alike, or all factors of one"
+                    " size alike.",
+                },
             },
             "required": ["value"],
             "anyOf": [{"required": ["source"]}, {"required": ["range"]}],
@@ -189,7 +198,22 @@ def written(quantity: Quantity) -> str | dict[str, Any]:
         form["range"] = [end.text for end in quantity.range]
         if (source := quantity.range[0].source) != quantity.source:
             form["range_source"] = source
+        if quantity.prior != DEFAULT_PRIOR:
+            form["prior"] = quantity.prior
     return form
+
+
+def _read_prior(prior: object, ends: tuple[Quantity, Quantity] | None) -> Prior:
+    """Return the prior of a range; a logarithmic one takes ends above zero, as written."""
+    if prior not in get_args(Prior):
+        raise QuantityError(f"unknown prior {quoted(str(prior))}", f"accepted: {', '.join(get_args(Prior))}")
+    if ends is None:
+        raise QuantityError("a prior without a range", "write `range: [lowest, highest]` beside it")
+    if prior == "log-uniform" and parse_decimal_quantity(ends[0].text).number <= 0:
+        raise QuantityError(
+            f"a log-uniform prior of a range from {ends[0].text}", "accepted: ends above zero"
+        )
+    return cast(Prior, prior)
 
 
 def _symbol(quantity: Quantity) -> str:

@@ -13,12 +13,12 @@ from uictest.report.traces.quantities import LOOPS, PANELS, STRIPS, WHEELSETS
 from uictest.report.traces.trace import PlotTrace
 from uictest.report.verdict_sentences import (
     MOST_URGENT,
+    check_sentence,
     margin_text,
     missed_by_text,
     quantity,
-    rig_sentence,
     value_and_limits,
-    without_rig_that_holds,
+    without_checks_that_hold,
 )
 
 _WORDS: Final = {"pass": "met", "fail": "missed"}
@@ -161,11 +161,11 @@ def margins_of(
         )
         if verdict.status in _WORDS
         else Margin(verdict, None, None, accepted.get(verdict.id))
-        for verdict in without_rig_that_holds(verdicts)
+        for verdict in without_checks_that_hold(verdicts)
     ]
     criteria.sort(key=_urgency)
     applicable = [each for each in criteria if each.verdict.status != "not_applicable"]
-    return Margins(applicable, criteria[len(applicable) :], rig_sentence(verdicts))
+    return Margins(applicable, criteria[len(applicable) :], check_sentence(verdicts))
 
 
 def _urgency(margin: Margin) -> tuple[int, bool, float]:
