@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from uictest.plans import scenario
+from uictest.plans import library, scenario
 from uictest.plans.scenario import yaml
 
 
@@ -23,6 +23,7 @@ def implausible_trains(cases: Iterable[scenario.Case]) -> list[yaml.Diagnostic]:
 
 def place_of_key(path: Path, key: str) -> yaml.Place | None:
     """Return where a scenario file, or a file that it refers to, sets a key; None where none does."""
+    path = library.named_scenario(path)
     node: yaml.Node | None = yaml.read_file(path)
     names = key.split(".")
     for depth, name in enumerate(names):

@@ -238,6 +238,13 @@ def test_an_implausible_train_is_warned_of_and_stands_in_every_report(call, scen
         assert "implausible: axle load 40.7 t, plausible 4 to 25 t" in (folder / name).read_text()
 
 
+def test_a_shipped_scenario_that_options_make_implausible_is_warned_of_and_run(call, workplace):
+    answer = call("run", "dry-120", "--set", "vehicle.body.mass=150 t", code=0)
+    assert "dry-120:1:1: vehicle.body.mass: warning: axle load 40.7 t, plausible 4 to 25 t" in answer.err
+    (case,) = json.loads((workplace / "reports" / "latest" / "results.json").read_text())["cases"]
+    assert [found["name"] for found in case["car"]["implausible"]] == ["axle-load"]
+
+
 def test_a_usual_train_has_its_figures_and_no_warning(call, scenario, workplace):
     answer = call("run", scenario("a"))
     assert "warning" not in answer.err
