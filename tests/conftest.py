@@ -20,7 +20,7 @@ from typer.main import get_command
 from uictest import rig
 from uictest.cli import entry
 from uictest.controllers import CONTROLLERS
-from uictest.core import lanes
+from uictest.core import files, lanes
 from uictest.core.physics import FILL, VENT, arithmetic, fma
 from uictest.core.record import fields_of
 from uictest.core.recording.formats import isolation, reader
@@ -151,21 +151,26 @@ def fma_as_written():
     fma.__code__ = before
 
 
-READ_IN_PROCESS = isolation._read_in_process
+READ_APART = isolation.read_apart
 """Reads a recording in a process of its own."""
 
 
-def _read_here(name, path, dialect, folder, seconds):
+def read_here(name, path, request, seconds=0.0):
     """Read a recording as that process does, in this one; formats of libraries are read there."""
     if name not in ("csv", "parquet"):
-        return READ_IN_PROCESS(name, path, dialect, folder, seconds)
-    return reader.read_into(folder, name, path, dialect)
+        yield from READ_APART(name, path, request, seconds)
+        return
+    with files.temporary_folder() as folder:
+        pieces = reader.pieces_of(name, path, request)
+        isolation._reject_failure(reader.leave(folder, name, pieces, lambda: True), name, path, folder)
+        contents = isolation._collect(folder)
+    yield contents
 
 
 @pytest.fixture(autouse=True, scope="session")
 def _reading():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(isolation, "_read_in_process", _read_here)
+        patch.setattr(isolation, "read_apart", read_here)
         yield
 
 

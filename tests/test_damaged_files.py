@@ -7,7 +7,6 @@ swapped and given other types, and bytes are damaged. `FOUND` holds what a searc
 import contextlib
 import csv
 import functools
-import hashlib
 import io
 import json
 import pickle
@@ -18,7 +17,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, get_args
-from unittest.mock import MagicMock
+from unittest.mock import patch
 from xml.etree import ElementTree
 
 import fmpy
@@ -273,8 +272,9 @@ def described_fmu(description):
     command("check uses-fmu.yaml")(description)
     fmu = Path("any.fmu")
     with contextlib.suppress(ControllerError):
-        folder, read = fmu_slave.unpack(fmu, hashlib.sha256(fmu.read_bytes()).hexdigest())
-        slave = fmu_slave.Slave(MagicMock(), read, folder)
+        unpacked = fmu_slave.unpack(fmu.read_bytes())
+        with patch.object(fmu_slave, "_instantiated"):
+            slave = fmu_slave.Slave(unpacked)
         try:
             fmu_instance.FmuInstance(slave, [], Config(4, 0.01, 20.0, (0.46,) * 4, {"late": 1}), {})
         finally:

@@ -14,7 +14,7 @@ import pytest
 import uictest
 
 PACKAGE = Path(uictest.__file__).parent
-LONGEST = 300
+LONGEST = 500
 """Lines that a file may have: beyond, it holds two ideas."""
 
 

@@ -62,6 +62,14 @@ def test_numbers_are_finite(value):
         override_texts({"rail.friction": value})
 
 
+def test_a_value_that_is_nested_too_deeply_is_refused():
+    value = []
+    for _ in range(5000):
+        value = [value]
+    with pytest.raises(ValueError, match="set: a value is nested too deeply"):
+        override_texts({"rail": value})
+
+
 def test_another_type_is_named():
     with pytest.raises(TypeError, match="set: rail is a object; write a text, a number or a list of them"):
         override_texts({"rail": object()})

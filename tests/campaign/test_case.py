@@ -28,6 +28,7 @@ class Rig:
             controller_contract=2,
             case_sha256="ab" * 32,
             noise_key="00c0ffee",
+            controller_output="",
         )
 
     def evaluate(self, case, measures, wheelsets, duration, *, detail, response_times, couplers):

@@ -101,6 +101,17 @@ def test_memory_that_controllers_share_is_found(examine):
     assert finding.reason.startswith("after reset 0 cycles differ, with a second controller ")
 
 
+def test_what_is_learnt_for_good_is_found_also_by_situations_that_come_first(examine):
+    """A reset that forgets to clear it: nothing differs any more once all has been learnt."""
+    examination = examine("        self.reference_speed = self.initial_speed\n", LEARNT)
+    [finding] = [each for each in examination.findings if each.id == "same-after-reset"]
+    assert finding.status == "fail"
+
+
+LEARNT = """\
+        self.reference_speed = 0.0 if hasattr(MyWsp, "learnt") else self.initial_speed
+        MyWsp.learnt = True
+"""
 SHARED = """\
         if not hasattr(self, "number"):
             type(self).created = getattr(type(self), "created", 0) + 1
@@ -133,9 +144,9 @@ def test_only_fields_of_answers_are_compared():
     """A controller in C that assigns the whole structure leaves anything behind them."""
     one, other = np.zeros((2, 5), OUTPUTS)
     other["padding"] = 7
-    assert checks._different(one, other) == 0
+    assert len(checks._different(one, other)) == 0
     other["hold"][3, 1] = 1
-    assert checks._different(one, other) == 1
+    assert checks._different(one, other).tolist() == [3]
 
 
 @pytest.mark.usefixtures("here")
@@ -164,6 +175,14 @@ def test_a_controller_that_fails_is_an_error_with_the_cycle(examine, fault, mess
     assert message in by_id["same-after-reset"].reason
     assert "(cycle " in by_id["same-after-reset"].reason
     assert by_id["keeps-brake"].status == "pass"
+
+
+def test_a_controller_that_cannot_do_without_a_speed_is_an_error(examine):
+    """Where all sensors report a fault at once, as with a common supply."""
+    needs = "        max(each for each, valid in zip(inputs.wheel_speed, inputs.speed_valid) if valid)\n"
+    by_id = {each.id: each for each in examine(STEP, f"{STEP}{needs}").findings}
+    assert "step failed: ValueError: max() " in by_id["legal-commands"].reason
+    assert by_id["lost-sensor"].status == "pass"
 
 
 def test_a_controller_that_cannot_be_created_is_an_error(examine):

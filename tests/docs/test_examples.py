@@ -2,26 +2,33 @@
 
 import contextlib
 import io
+import json
 import os
 import re
 import runpy
 import shlex
 import subprocess
 from pathlib import Path
+from textwrap import dedent
 from unittest.mock import patch
 
 import pytest
 import yaml
+from jsonschema import Draft7Validator
 
 from studies.study import STUDIES
+from uictest.cli.commands.schema import SchemaKind, schema_text
 from uictest.cli.entry import execute
 from uictest.plans import library, scenario
-from uictest.plans.scenario import ScenarioErrors
-from uictest.plans.scenario.yaml import plain, read_file, validated
+from uictest.plans.scenario import Scenario, ScenarioErrors
+from uictest.plans.scenario.yaml import Document, parse, plain, read_file, validated
 from uictest.plans.series import ValidationFile, load_series
+from uictest.plans.series.model import SeriesFile
 from uictest.plans.sweeps import load_sweep
 from uictest.recorded.field_data import load_map
 from uictest.rig.bench.recipe import load_bench
+
+from .conftest import pages
 
 REPOSITORY = Path(__file__).parents[2]
 SLOW_STUDIES = ("compensation-domain", "field-against-rig")
@@ -105,6 +112,76 @@ def load_part(block, kind, folder):
     path.write_text(f"schema: uictest/scenario/1\nname: with-part\ninitial_speed: 80 km/h\n{key}\n", "utf-8")
     [case] = scenario.load([path])
     assert any(name.endswith(block.file_name) for name in case.inputs)
+
+
+def fragments(text):
+    """The indented blocks of a page that are keys of a scenario or of a series, in the smallest file."""
+    outside = re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
+    for found in re.finditer(r"^\n((?:    .*\n|\n(?=    ))+)", outside, re.MULTILINE):
+        try:
+            content = content_of(dedent(found[1]))
+        except ScenarioErrors:
+            continue  # a command, or Python
+        for kind, keys, head in FRAMES:
+            if isinstance(content, dict) and content.keys() <= keys:
+                yield kind, {"schema": f"uictest/{kind}/1", "name": "m", **head, **content}
+                break
+
+
+def keys_of(model):
+    return {field.alias or name for name, field in model.model_fields.items()}
+
+
+FRAMES = (
+    ("scenario", keys_of(Scenario), {"initial_speed": "120 km/h"}),
+    ("series", keys_of(SeriesFile), {}),
+)
+
+
+def content_of(text):
+    """What the program reads, as JSON has it: an editor that follows YAML 1.2 reads the same."""
+    return json.loads(json.dumps(plain(parse(Document("block.yaml", Path(), text)))))
+
+
+def is_valid(kind, content):
+    return Draft7Validator(json.loads(schema_text(SchemaKind(kind)))).is_valid(content)
+
+
+def loads_as(kind, content, folder):
+    """Whether the program accepts a file in a folder that lacks what it names."""
+    if "vary" in content:
+        content = merged(content, {"vary": {"matrix": {"rail.friction": [0.1, 0.2]}}})
+    ending, load = (".yaml", lambda path: scenario.load([path]))
+    if "vary" in content or kind == "series":
+        ending, load = (".sweep.yaml", load_sweep) if "vary" in content else (".series.yaml", load_series)
+    path = folder / f"file{ending}"
+    path.write_text(json.dumps(content), "utf-8")
+    try:
+        load(path)
+    except ScenarioErrors as errors:
+        return all("no such file" in each.message for each in errors.diagnostics)
+    return True
+
+
+def merged(one, other):
+    both = one.keys() & other.keys()
+    return {**one, **other, **{key: merged(one[key], other[key]) for key in both}}
+
+
+def test_schemas_and_the_program_agree_on_what_pages_show(page, tmp_path):
+    for block in examples(page):
+        if kind := kind_of(block.text):
+            # All others load: test_examples_load.
+            assert is_valid(kind, content_of(block.text)) is ("mistakes" not in block.file_name), block.line
+    for kind, content in fragments(page.read_text("utf-8")):
+        assert is_valid(kind, content), content
+        assert loads_as(kind, content, tmp_path), content
+
+
+def test_fragments_are_found():
+    found = [kind for each in pages() for kind, _ in fragments(each.read_text("utf-8"))]
+    assert found.count("scenario") >= 15
+    assert "series" in found
 
 
 def takes_long(block):

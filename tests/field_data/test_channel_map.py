@@ -76,7 +76,7 @@ def test_states_by_name(tmp_path):
         select_channels(contents, channel_map)["valve_command_1"].samples, [0, 2, 1, 1]
     )
     contents = _contents(t=([0, 1], "s"), v=([1.0] * 2, "m/s"), MV=(["fill", "auf"], ""))
-    with pytest.raises(MapError, match="'auf'; name them in `states`"):
+    with pytest.raises(MapError, match="'auf', which is no state: name it in `states`"):
         select_channels(contents, channel_map)
 
 

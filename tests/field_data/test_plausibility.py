@@ -84,26 +84,3 @@ def test_a_brake_command_after_the_record_is_refused(channels, prepared, by):
     choices = {"trigger_time": "1700000000 s"} if by == "user" else {}
     with pytest.raises(MapError, match=f"1.7e\\+09 s, stated by the {by}, is not in the record"):
         prepared(channels, facts, **choices)
-
-
-@pytest.mark.parametrize(
-    ("text", "remedy"),
-    [
-        ("1,000.5", r'thousands: ","'),
-        ("1.000.000", r'thousands: "\."'),
-        ("80,5", r'decimal: ","'),
-        ("31.05.2026 12:00", "2026-05-31T12:00:00.000"),
-        ("broken", "`states`"),
-    ],
-)
-def test_a_text_among_numbers_is_placed_and_answered(text, remedy):
-    samples = np.array(["10.0", text, "9.0"])
-    group = Group(
-        "",
-        {"time": SECONDS[:3], "speed": samples},
-        {"time": "s", "speed": "m/s"},
-        None,
-        {"speed": "line 3, column 2"},
-    )
-    with pytest.raises(MapError, match=f"{text}', the first in line 3, column 2; .*{remedy}"):
-        select_channels(Contents((group,)), load_map("uictest")[0])

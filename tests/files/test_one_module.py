@@ -22,7 +22,7 @@ READER = "a reading process writes into the temporary folder that its parent mad
 EXCEPTIONS = {
     "rig/external/worker.py": {"TemporaryDirectory": CHILD, "TemporaryFile": SHARED, "truncate": SHARED},
     "rig/external/child.py": {"fdopen": "a pipe"},
-    "rig/external/guard.py": {"rmtree": CHILD},
+    "core/guarded_process.py": {"rmtree": CHILD},
     "core/recording/formats/reader.py": {"write_text": READER, "write_bytes": READER},
     "core/recording/formats/streams.py": {"open": READER, "tofile": READER},
     "cli/start.py": {"open": "the null device in the place of a closed stream"},

@@ -1,13 +1,19 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from hypothesis import given, strategies as st
 
 from uictest.core.physics.polach import contact_stiffness, creep_force
+from uictest.core.recording import Recording
 from uictest.plans.scenario import load_part
 from uictest.recorded.field_data import stated_case
 from uictest.recorded.fitting import FitError, fit_stop
-from uictest.recorded.fitting.balances import wheelset_creep
-from uictest.recorded.fitting.samples import wheel_loads
+from uictest.recorded.fitting.balances import Balances, wheelset_creep, windows_of
+from uictest.recorded.fitting.least_squares import in_a_row
+from uictest.recorded.fitting.samples import samples_of, wheel_loads
 from uictest.recorded.fitting.stretches import stretch_names, stretch_of
+from uictest.rig import simulate
 
 CONSTANT = [(80.0, 0.05), (80.0, 0.07), (80.0, 0.09), (80.0, 0.10), (100.0, 0.06), (100.0, 0.08)]
 STEPS = [(80.0, 0.10, 0.06), (80.0, 0.06, 0.09), (100.0, 0.09, 0.06), (100.0, 0.06, 0.10)]
@@ -157,3 +163,77 @@ def test_stretches():
     )
     assert stretch_names([50.0, 120.0]) == ["up to 50 m", "from 50 m to 120 m", "from 120 m on"]
     assert stretch_names([]) == ["everywhere"]
+
+
+@pytest.mark.parametrize("delay", [-0.03, 0.02, 0.04])
+def test_wheel_speeds_that_are_recorded_late_do_not_change_the_friction(recorded_stop, delay):
+    case, stop = recorded_stop(80.0, "0.08", seed=5)
+    channels = dict(stop.recording.channels)
+    for n in (1, 2, 3, 4):
+        name = f"wheel_speed_{n}"
+        channels[name] = np.interp(channels["time"] - delay, channels["time"], channels[name])
+    late = replace(stop, recording=Recording(channels, stop.recording.units))
+    before, after = (fit_stop(each, case.scenario) for each in (stop, late))
+    assert after.delay.value - before.delay.value == pytest.approx(delay, abs=0.002)
+    assert after.friction[0].value == pytest.approx(0.08, rel=0.005)
+
+
+def test_recorded_wheel_loads_take_the_place_of_those_of_the_vehicle(recorded_stop):
+    """The same forces on half the weight are twice the friction."""
+    case, stop = recorded_stop(80.0, "0.08")
+    samples = samples_of(stop, case.scenario)
+    loads = {f"wheel_load_{n + 1}": np.full(len(stop.recording["time"]), 0.5) for n in range(4)}
+    for n in range(4):
+        loads[f"wheel_load_{n + 1}"] *= float(samples.load[n].mean())
+    units = {**stop.recording.units, **dict.fromkeys(loads, "N")}
+    light = replace(stop, recording=Recording({**stop.recording.channels, **loads}, units))
+    assert fit_stop(light, case.scenario).friction[0].value == pytest.approx(0.16, rel=0.03)
+
+
+def test_loads_of_the_vehicle_are_those_of_the_simulated_train():
+    case = stated_case("stop", 80.0 / 3.6, ["rail.condition=dry"])
+    recording = simulate(case, record_every=0.01).recording
+    steady = (recording["time"] > 5.0) & (recording["speed"] > 5.0)
+    deceleration = -np.gradient(recording["speed"], recording["time"])[steady].mean()
+    expected = wheel_loads(case.scenario.vehicle, np.array([deceleration]))[:, 0]
+    for n in range(4):
+        assert recording[f"wheel_load_{n + 1}"][steady].mean() == pytest.approx(expected[n], rel=0.002)
+
+
+def test_the_train_alone_says_nothing_where_a_wheelset_rolls(recorded_stop):
+    case, stop = recorded_stop(80.0, "0.07", without=("clamping_force",))
+    rolling = {"wheel_speed_4": np.array(stop.recording["speed"])}
+    recording = Recording({**stop.recording.channels, **rolling}, stop.recording.units)
+    [estimate] = fit_stop(replace(stop, recording=recording), case.scenario).friction
+    assert estimate.standing == "at least"
+
+
+@given(st.lists(st.floats(-1.0, 1.0), min_size=2, max_size=200))
+def test_the_variance_of_a_mean_is_that_of_all_rows(residuals):
+    """By the rows themselves, also those that reach beyond the ends."""
+    rest = np.array(residuals) - np.mean(residuals)
+    row, variance = in_a_row(np.array(residuals))
+    means = np.convolve(rest, np.full(row, 1.0 / row))
+    floor = np.sum(rest**2) / len(rest) / row**2
+    assert variance == pytest.approx(max(np.sum(means**2) / len(rest), floor), rel=1e-9, abs=1e-15)
+
+
+def test_noise_at_the_ends_of_windows_hardly_stays_in_a_mean():
+    ends = np.random.default_rng(1).normal(size=401)
+    noise = np.diff(ends)
+    row, variance = in_a_row(noise)
+    assert variance < 0.3 * np.var(noise) / row
+
+
+def test_the_noise_of_a_record_and_what_it_leaves_are_those_of_its_sensor(recorded_stop):
+    """At the friction of the rail nothing but the noise is left: conftest's 0.05 m/s on the train speed."""
+    shares = []
+    for seed in (1, 2, 3, 4):
+        case, stop = recorded_stop(100.0, "0.05", seed=seed, without=("clamping_force",))
+        samples = samples_of(stop, case.scenario)
+        assert samples.noise == pytest.approx(0.05 / 11**0.5, rel=0.1)
+        balances = Balances(samples, windows_of(samples), case.scenario)
+        _, of_train = balances.residuals(np.full_like(samples.slip, 0.05), None, 1.0)
+        row, variance = in_a_row(of_train)
+        shares.append(balances.noise_variance(row) / variance)
+    assert np.mean(shares) == pytest.approx(1.0, abs=0.3)

@@ -306,7 +306,7 @@ def test_what_its_user_should_know_is_noted(folder, compiler):
     [
         (OWN.replace("uictest_step(", "other("), "does not export uictest_step"),
         (OWN.replace('\\"gain\\"', '\\"hold_1\\"'), "the parameter hold_1 has the name of a variable"),
-        (OWN.replace("[0, 2]", "[1, 2]"), "parameter gain: 0.1 is out of range"),
+        (OWN.replace("[0, 2]", "[1, 2]"), "the default of gain: 0.1 is out of range"),
         (OWN.replace("return malloc(1)", "abort()"), "crashed with SIGABRT"),
     ],
 )

@@ -19,6 +19,16 @@ def test_cases_not_met_come_first_then_narrow_margins_and_verdicts_that_flip():
     assert [result.id for result in worst_first(results)] == order
 
 
+def test_a_missed_requirement_is_worse_than_a_stop_that_is_no_test_at_all():
+    missed = make_verdict(status="fail", margin=-0.1, layer="requirement")
+    no_test = make_verdict(status="fail", margin=-90.0, layer="validity")
+    results = [
+        make_result(id="no-test", outcome="invalid", criteria=(no_test,)),
+        make_result(id="missed", outcome="fail", criteria=(missed,)),
+    ]
+    assert [result.id for result in worst_first(results)] == ["missed", "no-test"]
+
+
 def test_a_page_draws_from_every_scenario_in_turn():
     """A hundred narrow cases of one scenario leave room for the only one of another."""
     margins = [(make_verdict(margin=1.0 + n),) for n in range(100)]

@@ -1,12 +1,15 @@
 """Controllers from outside: what a scenario may write, and what the messages say about the rest."""
 
+import subprocess
+import sys
 from hashlib import sha256
 from pathlib import Path
 
 import pytest
 
-from uictest.plans.scenario import load, values_in
-from uictest.plans.scenario.program_files import stated_version
+from uictest.controllers import shown_version
+from uictest.plans.scenario import fmu_description, load, values_in
+from uictest.plans.scenario.program_files import version_in
 
 PROGRAM = b'__version__ = "1.2.0"\nclass Wsp: ...\n'
 
@@ -150,14 +153,14 @@ def test_a_version_that_a_scenario_states_goes_before_that_of_the_file(loaded, w
     ],
 )
 def test_the_version_of_a_python_file_is_a_text_in_it(text, version):
-    assert stated_version("python", text.encode()) == version
+    assert shown_version(version_in(text.encode())) == version
 
 
 @pytest.mark.parametrize(
     ("description", "version"),
     [
         ('<?xml version="1.0"?><fmiModelDescription version="1.4" fmiVersion="2.0"/>', "1.4"),
-        ('<fmiModelDescription version="1.4"><ModelVariables>' + " " * 10**6, "1.4"),
+        ('<fmiModelDescription version="1.4"><ModelVariables>' + " " * 10**6, ""),
         ('<fmiModelDescription fmiVersion="3.0"/>', ""),
         ("<fmiModelDescription", ""),
         ("nothing", ""),
@@ -167,8 +170,10 @@ def test_the_version_of_a_python_file_is_a_text_in_it(text, version):
         ),
     ],
 )
-def test_the_version_of_an_fmu_is_that_of_its_description(fmu, description, version):
-    assert stated_version("fmu", fmu(description)) == version
+def test_the_version_of_an_fmu_is_that_of_its_description(fmu, description, version, tmp_path):
+    path = tmp_path / "wsp.fmu"
+    path.write_bytes(fmu(description))
+    assert fmu_description.read_description(path).version == version
 
 
 def test_a_file_that_states_no_version_has_none(loaded, write, head, fmu):
@@ -218,3 +223,51 @@ def test_another_build_is_a_change_against_the_part_that_is_extended(write, head
     assert {each.key for each in part.changed} == {"controller.python", "controller.sha256"}
     changed = {each.key: each.library_value for each in part.changed}
     assert changed["controller.sha256"] == sha256(PROGRAM).hexdigest()
+
+
+HANGS = ["-n", "1", "-r", "1", "import time; time.sleep(3600)"]
+CRASHES = ["-n", "1", "-r", "1", "import os; os.abort()"]
+
+
+@pytest.mark.parametrize("arguments", [HANGS, CRASHES], ids=["hangs", "crashes"])
+def test_a_description_whose_reader_does_not_end_well_states_nothing(
+    loaded, write, head, fmu, monkeypatch, arguments
+):
+    """It costs some time, never the program: who loads the FMU says why."""
+    start = fmu_description.reading_process
+    monkeypatch.setattr(
+        fmu_description,
+        "reading_process",
+        lambda _, __, folder: start("timeit", arguments, folder),
+    )
+    monkeypatch.setattr(fmu_description, "_SECONDS", 0.5 if arguments is HANGS else 60.0)
+    write("wsp.fmu", fmu('<fmiModelDescription version="1.4"/>'))
+    (case,) = loaded(f"{head}controller: {{fmu: wsp.fmu, parameters: {{gain: 1}}}}\n")
+    assert case.scenario.controller.version is None
+    assert case.scenario.controller.parameters == {"gain": 1}
+
+
+def test_an_fmu_is_described_by_another_process(write, head, fmu, tmp_path):
+    """No parser of XML is even imported in the one that checks."""
+    variable = '<ScalarVariable name="gain" causality="parameter"><Real start="1"/></ScalarVariable>'
+    variables = f"<ModelVariables>{variable}</ModelVariables>"
+    write("wsp.fmu", fmu(f"<fmiModelDescription version='1.4'>{variables}</fmiModelDescription>"))
+    write("stop.yaml", f"{head}controller: {{fmu: wsp.fmu, parameters: {{gain: 2}}}}\n")
+    program = (
+        "import sys; from pathlib import Path; from uictest.plans.scenario import load\n"
+        "[case] = load([Path('stop.yaml')]); controller = case.scenario.controller\n"
+        "print(controller.version, controller.declared_parameters, 'xml.etree.ElementTree' in sys.modules)"
+    )
+    told = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert told.stdout == "1.4 {} False\n"
+
+
+def test_a_description_that_swells_when_it_is_read_costs_a_bounded_time(loaded, write, head, fmu):
+    """Each entity holds ten of the one before: ten thousand million in the last one."""
+    entities = "".join(f'<!ENTITY e{n + 1} "{f"&e{n};" * 10}">' for n in range(9))
+    swelling = f'<!DOCTYPE d [<!ENTITY e0 "ten chars.">{entities}]><fmiModelDescription version="&e9;"/>'
+    write("wsp.fmu", fmu(swelling))
+    (case,) = loaded(f"{head}controller: {{fmu: wsp.fmu, parameters: {{gain: 1}}}}\n")
+    assert case.scenario.controller.version is None

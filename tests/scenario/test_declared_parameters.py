@@ -160,6 +160,10 @@ def test_what_is_known_only_in_a_run_is_left_to_it(loaded, head):
         ('{"kp": {"default": 1, "unit": "s", "range": [2, 0]}}', "PARAMETERS.kp.range", "its smallest"),
         ('{"kp": {"default": 3, "unit": "s", "range": [0, 2]}}', "PARAMETERS.kp.default", "out of range"),
         ('{"kp": {"default": gain(), "unit": "s"}}', "PARAMETERS", "'gain()' is no literal"),
+        ('{"kp": {"default": 1e999, "unit": "s"}}', "PARAMETERS.kp.default", "JSON has no number inf"),
+        ('{"kp": {"default": %s1, "unit": "s"}}' % ("1 + " * 900), "PARAMETERS", "is no literal"),
+        ('{"kp": {"default": %s1, "unit": "s"}}' % ("-" * 900), "PARAMETERS", "is no literal"),
+        ('{"kp": {"default": a%s, "unit": "s"}}' % (".a" * 900), "PARAMETERS", "is no literal"),
         ('{"kp": 1.0}', "PARAMETERS.kp", "expected a mapping"),
         ("[1]", "PARAMETERS", "expected a mapping"),
         ("{1: 2}", "PARAMETERS", "are texts"),
@@ -202,6 +206,12 @@ def test_of_a_large_file_only_the_declarations_are_parsed(write, head, refused, 
     assert (error.file, error.line, error.column) == ("wsp.py", 100_001, 33)
     assert "'gain()' is no literal" in error.message
     assert max(parsed) < 100
+
+
+def test_bounds_of_an_fmu_that_are_no_numbers_bound_nothing(loaded, write, head, fmu):
+    write("two.fmu", fmu(FMI2.replace('min="0" max="1"', 'min="NaN" max="1"')))
+    (case,) = loaded(f"{head}controller: {{fmu: two.fmu, parameters: {{upper_slide: 0.5}}}}\n")
+    assert case.scenario.controller.parameters == {"upper_slide": 0.5}
 
 
 def test_an_fmu_that_cannot_be_read_is_left_to_whoever_loads_it(loaded, write, head, fmu):

@@ -7,8 +7,10 @@ import pytest
 import yaml
 from jsonschema import Draft7Validator
 
-from uictest.plans.scenario import json_schema
+from uictest.plans.scenario import ScenarioErrors, json_schema
 from uictest.plans.scenario.model import Scenario
+from uictest.plans.scenario.train import TrainCar
+from uictest.plans.scenario.yaml import Document, parse, plain
 
 ROOT = Path(__file__).parents[2]
 SHIPPED = [
@@ -130,3 +132,78 @@ def test_what_the_loader_refuses_is_mostly_invalid(wrong, validator):
 def test_an_initial_speed_may_come_from_the_parent_only(validator):
     assert validator.is_valid({"schema": "uictest/scenario/1", "name": "a", "extends": "b.yaml"})
     assert not validator.is_valid({"schema": "uictest/scenario/1", "name": "a"})
+
+
+OTHERS = (None, [], {}, "", "x", 5, 0.5, True, {"bogus": 1})
+"""Values of every type, which stand in the place of any."""
+BY_HAND = {
+    "train: [{}]": True,
+    "train: [{count: 2}, {vehicle: null}]": True,
+    "train: null": True,
+    "vary: null": True,
+    "train: []": False,
+    **{f"train: [{{{key}: null}}]": False for key in TrainCar.model_fields if key != "vehicle"},
+    "extends: null": False,
+    'rail: {friction: "0.1"}': True,
+    "rail: {friction: 0.1 1}": False,
+    "rail: {friction: {value: 0.1, range: [0.05, 0.2]}}": True,
+    "rail: {friction: {value: {value: 0.1, source: scenario}, source: scenario}}": False,
+    "rail: {friction: {value: 0.1, range: [{value: 0.05, source: scenario}, 0.2]}}": False,
+    "rail: {friction: {value: 0.1, source: scenario, prior: uniform}}": False,
+    "controller: {connect: 'tcp://rig:1', free_parameters: true}": True,
+    "controller: {connect: 'tcp://rig:1', free_parameters: yes}": False,
+    "controller: {connect: 'tcp://rig:1', free_parameters: 1}": False,
+}
+
+
+def places_in(content, above=()):
+    """The key of every value, those in lists and in `matrix`, which a schema knows nothing of, left out."""
+    for key, value in content.items():
+        if not above and key in ("matrix", "zip", "include", "exclude", "schema"):
+            continue
+        yield (*above, key)
+        if isinstance(value, dict):
+            yield from places_in(value, (*above, key))
+
+
+def with_change(content, place, change):
+    """A copy in which the mapping that holds a place is changed."""
+    first, *rest = place
+    if rest:
+        return {**content, first: with_change(content[first], rest, change)}
+    return change(dict(content), first)
+
+
+def variants_of(content):
+    """The file without any of its keys, and with any other value there."""
+    for place in places_in(content):
+        yield with_change(content, place, lambda inner, key: {k: v for k, v in inner.items() if k != key})
+        for other in OTHERS:
+            yield with_change(content, place, lambda inner, key, other=other: {**inner, key: other})
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_what_the_program_accepts_is_valid(path, validator, loaded):
+    """The other way round a schema can say little: a parent may give what a file leaves out."""
+    content = {**as_json(path), "name": "changed"}
+    content.pop("matrix", None)  # its values would replace those that are changed
+    accepted = 0
+    for variant in variants_of(content):
+        if accepts(loaded, json.dumps(variant)):
+            accepted += 1
+            assert [error.message for error in validator.iter_errors(variant)] == [], variant
+    assert accepted
+
+
+def accepts(loaded, text):
+    try:
+        return bool(loaded(text))
+    except ScenarioErrors:
+        return False
+
+
+@pytest.mark.parametrize(("text", "valid"), BY_HAND.items())
+def test_the_program_and_the_schema_agree(text, valid, validator, loaded, head):
+    assert accepts(loaded, f"{head}{text}\n") is valid
+    content = json.loads(json.dumps(plain(parse(Document("x", Path(), f"{head}{text}\n")))))
+    assert validator.is_valid(content) is valid

@@ -446,3 +446,8 @@ def test_a_hint_shows_a_whole_example_or_none(refused):
         assert [each.hint for each in refused(f"{HEAD}matrix: {{{axis}}}\n")] == [hint]
     (error,) = refused(f"{HEAD}seed: {list(range(40))}\n")
     assert error.hint == "several values go under matrix"
+
+
+def test_a_whole_number_of_too_many_digits_is_not_told_to_lose_quotes(refused, head):
+    (error,) = refused(f"{head}seed: {'9' * 40}\n")
+    assert (error.key, error.hint) == ("seed", "")

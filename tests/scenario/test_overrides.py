@@ -113,6 +113,17 @@ def test_an_unknown_key_is_told_as_an_error_of_the_option(argument, key, hint, r
     assert hint in diagnostic.hint
 
 
+@pytest.mark.parametrize("names", [21, 100, 490])
+def test_a_key_has_as_many_names_as_a_file_has_levels(names, refused, loaded, head):
+    key = ".".join(["controller.parameters", *"a" * (names - 2)])
+    controller = "controller: {connect: 'tcp://rig:5025', free_parameters: true}\n"
+    (diagnostic,) = refused(head + controller, f"{key}=1")
+    assert f"a key of {names} names; at most 20 are accepted" in diagnostic.message
+    (diagnostic,) = refused(f"{head}{controller}matrix: {{{key}: [1, 2]}}\n")
+    assert f"a key of {names} names" in diagnostic.message
+    assert loaded(head + controller, f"{key[:41]}=1")
+
+
 @given(st.text(max_size=30))
 def test_any_option_is_read_or_refused(argument):
     try:

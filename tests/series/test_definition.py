@@ -1,15 +1,23 @@
 """What a series file may say, and what is refused."""
 
+import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from hypothesis import given, strategies as st
 
-from uictest.plans import series
+from uictest.plans import scenario, series
 from uictest.plans.scenario import LONGEST, ScenarioErrors
+from uictest.plans.scenario.yaml import Entry, Scalar, whole_file
+from uictest.plans.series import loading, stops
+from uictest.plans.series.model import PlannedStop
 
 PAIR = "dry: dry.yaml\nwet: wet.yaml\n"
 
-SHIPPED = sorted((Path(__file__).parents[2] / "scenarios").glob("*.series.yaml"))
+SCENARIOS = Path(__file__).parents[2] / "scenarios"
+DRY = SCENARIOS / "dry-120.yaml"
+SHIPPED = sorted(SCENARIOS.glob("*.series.yaml"))
 
 
 def ids(planned):
@@ -245,6 +253,51 @@ def test_a_stop_that_is_run_twice_is_refused(load, write, wet):
     write("again.yaml", Path("wet.yaml").read_text("utf-8").replace("name: wet", "name: again"))
     with pytest.raises(ScenarioErrors, match="again with seed"):
         load(f"dry: dry.yaml\nwet: {wet}\n")
+
+
+@given(st.lists(st.tuples(st.integers(0, 12), st.integers(1, 4), st.booleans()), min_size=1, max_size=8))
+def test_a_stop_is_refused_where_it_meets_an_earlier_one_in_a_seed_under_the_same_conditions(listed):
+    (case,) = scenario.load([DRY])
+    entry = Entry(whole_file(DRY), Scalar(None, "", whole_file(DRY)))
+    read = []
+    for number, (seed, repeat, slower) in enumerate(listed):
+        brake = case.scenario.brake.model_copy(update={"position": "G" if slower else "R"})
+        own = case.scenario.model_copy(update={"seed": seed, "repeat": repeat, "brake": brake})
+        changed = replace(case, id=f"s{number}", scenario=own)
+        read.append((PlannedStop("dry", changed), entry))
+    seeds = [set(range(seed, seed + repeat)) for seed, repeat, _ in listed]
+    assert [each.message.split("'")[1] for each in stops._drawn_twice(read)] == [
+        f"s{number}"
+        for number, (_, _, slower) in enumerate(listed)
+        if any(seeds[number] & seeds[k] and listed[k][2] is slower for k in range(number))
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "overrides", "counted"),
+    [
+        (
+            "wet: {scenario: wet.yaml, set: {seed: %s, brake.command: %s}}\n",
+            (),
+            "119601 stops (1 series of 119601)",
+        ),
+        (
+            "wet: {scenario: wet.yaml, set: {seed: %s}}\nmatrix: {brake.command: %s}\n",
+            (),
+            "119899 stops (299 series of 401)",
+        ),
+        (
+            "wet: {scenario: wet.yaml, set: {seed: %s, brake.command: %s}}\n",
+            ("rail.gradient=range(0 permille,3 permille,1 permille)",),
+            "478404 stops (4 series of 119601)",
+        ),
+    ],
+)
+def test_stops_are_counted_before_any_is_read(load, monkeypatch, text, overrides, counted):
+    commands = [f"{command / 10} %" for command in range(500, 799)]
+    monkeypatch.setattr(loading, "read_stops", None)
+    with pytest.raises(ScenarioErrors, match=re.escape(counted)):
+        load("dry: dry.yaml\n" + text % (list(range(400)), commands), *overrides)
 
 
 def test_the_reference_is_a_stop_on_dry_rail(load):

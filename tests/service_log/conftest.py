@@ -6,10 +6,13 @@ import pytest
 
 from uictest.core.recording.formats import isolation, streams
 
-APART = isolation.read_apart
+from ..conftest import READ_APART, read_here
 
 
 def _read_here(name, path, request, seconds=0.0):
+    if "dialect" in request:
+        yield from read_here(name, path, request, seconds)
+        return
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         pieces = list(streams.PIECES[name](path, **request))
@@ -24,4 +27,4 @@ def _pieces_here(monkeypatch):
 @pytest.fixture
 def apart(monkeypatch, _pieces_here):
     """Have a process of its own read MDF and TDMS, as users do."""
-    monkeypatch.setattr(isolation, "read_apart", APART)
+    monkeypatch.setattr(isolation, "read_apart", READ_APART)

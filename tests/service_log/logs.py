@@ -53,12 +53,12 @@ def write_log(stops, path, begin=0.0):
     blocks = [_block(stop, noise) for stop in stops]
     columns = {name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]}
     columns = {"time": begin + STEP * np.arange(len(columns["speed"])), **columns}
-    fields = [pa.field(name, pa.float64(), metadata={"unit": _unit(name)}) for name in columns]
+    fields = [pa.field(name, pa.float64(), metadata={"unit": unit_of(name)}) for name in columns]
     parquet.write_table(pa.table(list(columns.values()), schema=pa.schema(fields)), path)
     return path
 
 
-def _unit(name):
+def unit_of(name):
     return UNITS.get(name) or {**OF_WHEELSETS, "wheel_speed": "m/s"}[name.rpartition("_")[0]]
 
 

@@ -12,7 +12,7 @@ from tests.service_log.test_odd_logs import KINDS, PLACES, found
 from uictest.cli.entry import execute
 from uictest.core.recording.formats import UnreadableError, streams
 from uictest.recorded import service_log
-from uictest.recorded.field_data import UnusableError, stop_in
+from uictest.recorded.field_data import MapError, UnusableError, stop_in
 from uictest.recorded.service_log import find_stops, write_stops
 
 BEGIN = 1.75e9
@@ -91,7 +91,7 @@ def test_dates_that_cannot_be_read_are_told(tmp_path, suffix):
     names = ["time", *(f"{name} [{UNITS.get(name, 'm/s')}]" for name in columns if name != "time")]
     time = pa.array([f"2026-05-31 11:58:{k // 10 % 60:02d}.{k % 10}{suffix}" for k in range(600)])
     pa.csv.write_csv(pa.table([time, *list(columns.values())[1:]], names=names), tmp_path / "log.csv")
-    with pytest.raises(UnreadableError, match=r"time: '2026-05-31 11:58:00\.0.*write dates as"):
+    with pytest.raises(MapError, match=r"time: 'time': '2026-05-31 11:58:00\.0.*csv: \{dates: "):
         find_stops([tmp_path / "log.csv"], MAP)
 
 

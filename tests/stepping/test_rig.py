@@ -151,6 +151,7 @@ def test_calls_out_of_order_are_refused(write_scenario):
         ({"hold": [0, 0, 2, 0]}, r"hold\[2\] is 2, expected 0 or 1"),
         ({"hold": 1}, "hold is 1, expected 4 values"),
         ({"vent": [0, 0, 0, 1]}, r"vent\[3\] is 1 and hold\[3\] is 0, which is forbidden"),
+        ({"reference_speed": -math.inf}, "reference_speed is -inf, expected a number or NaN"),
         ({"diagnosis": 2**32}, "diagnosis is 4294967296, expected a whole number of 32 bits"),
     ],
 )

@@ -106,10 +106,13 @@ def override_texts(assignments: Assignments | None, repeat: int | None = None) -
 
     Raises:
         TypeError: a value is of another type.
-        ValueError: a number is not finite, or `repeat` is out of its range.
+        ValueError: a number is not finite, a value nested too deeply, or `repeat` is out of its range.
 
     """
-    texts = [f"{key}={_axis(key, value)}" for key, value in (assignments or {}).items()]
+    try:
+        texts = [f"{key}={_axis(key, value)}" for key, value in (assignments or {}).items()]
+    except RecursionError:
+        raise ValueError("set: a value is nested too deeply") from None
     if repeat is None:
         return texts
     if not isinstance(repeat, Integral) or isinstance(repeat, bool) or not 1 <= repeat <= 1000:

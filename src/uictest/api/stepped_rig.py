@@ -10,7 +10,7 @@ from operator import index
 from pathlib import Path
 from typing import Any, Final, Generic, TypeVar
 
-from uictest.controllers import CONTRACTS, NO_REDUCTION, ControllerError, Outputs, write_outputs
+from uictest.controllers import CONTRACTS, NO_REDUCTION, NO_REFERENCE, ControllerError, Outputs, write_outputs
 from uictest.core.recording import Recording
 from uictest.judging import evaluation
 from uictest.plans import library, scenario
@@ -185,6 +185,8 @@ def reject_failure(exchange: Any) -> None:
         if failure == NO_REDUCTION:
             found = exchange["dynamic_reduction"][place]
             raise ValueError(f"dynamic_reduction[{place}] is {found}, expected 0 to 1")
+        if failure == NO_REFERENCE:
+            raise ValueError(f"reference_speed is {exchange['reference_speed']}, expected a number or NaN")
         raise ValueError(
             f"vent[{place}] is 1 and hold[{place}] is 0, which is forbidden: both are 1 in order to vent"
         )

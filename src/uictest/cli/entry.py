@@ -16,6 +16,8 @@ from typer.core import TyperGroup
 from uictest import __version__, runs
 from uictest.cli.options import TRUSTED_FOLDERS, option
 from uictest.cli.output import ExitCode, data, lost_data, message, use_safe_encoding
+from uictest.cli.unfinished import Ending, UnfinishedJUnit
+from uictest.core import files
 from uictest.plans import scenario
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -39,7 +41,7 @@ def first_sentence(text: str) -> str:
 
 _EPILOG = (
     "Exit codes: 0 every case met its expectation, 1 at least one did not, 2 interrupted, "
-    "3 simulation or internal error, 4 usage or invalid file, 5 nothing selected."
+    "3 simulation, write or internal error, 4 usage or invalid file, 5 nothing selected."
 )
 _SECTIONS: Final = {
     "Run and judge": ("run", "sweep", "check", "list", "compare"),
@@ -145,57 +147,59 @@ _WRITTEN_OTHERWISE: Final = {
 }
 """Option that some commands do not have -> these commands, and what to write there."""
 _OF_PATHS: Final = frozenset(
-    {
-        *(errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.EEXIST, errno.ENAMETOOLONG, errno.ELOOP),
-        *(errno.EACCES, errno.EPERM, errno.EROFS),
-    }
+    {errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG, errno.ELOOP, errno.EACCES, errno.EPERM}
 )
-"""Errors that say that a path cannot be used, and not that the machine fails."""
-_DEFAULT_OUTPUT: Final = "reports"
-"""Where a command writes if it is not told."""
+"""Errors that say that a path cannot be read, and not that the machine fails."""
 
 
 def execute(arguments: Sequence[str]) -> ExitCode:
     """Run one command line, and return its exit code. Raises nothing."""
     use_safe_encoding()
-    code = _outcome(tuple(arguments))
+    junit = UnfinishedJUnit(arguments)
+    ending = _ending(tuple(arguments))
+    junit.write(ending)
     reason = lost_data()
     if reason:
         message(f"uictest: {reason}; data are lost")
-    return ExitCode.ERROR if reason and code is not ExitCode.INTERRUPTED else code
+    return ExitCode.ERROR if reason and ending.code is not ExitCode.INTERRUPTED else ending.code
 
 
-def _outcome(arguments: tuple[str, ...]) -> ExitCode:
+def _ending(arguments: tuple[str, ...]) -> Ending:
+    """Run one command line, and say why an exception ended it."""
     try:
-        return _call(arguments)
+        return Ending(_call(arguments))
     except typer.TyperException as error:
         option = getattr(error, "option_name", "")
         message(f"uictest: {error.format_message()}\n{_advice(arguments, option)}")
-        return ExitCode.USAGE
+        return Ending(ExitCode.USAGE, [error.format_message()], option)
     except scenario.ScenarioErrors as error:
         for trace in error.traces:
             message(trace)
         message(str(error))
-        return ExitCode.ERROR if error.traces else ExitCode.USAGE
+        return Ending(ExitCode.ERROR if error.traces else ExitCode.USAGE, error.diagnostics)
     except runs.InvalidInputError as error:
-        for text in error.messages:
-            message(f"uictest: {text}{_options(error.arguments)}")
-        return ExitCode.USAGE
+        texts = [f"{text}{_options(error.arguments)}" for text in error.messages]
+        message("\n".join(f"uictest: {text}" for text in texts))
+        return Ending(ExitCode.USAGE, texts)
+    except files.WriteError as error:
+        message(f"uictest: {error}")
+        return Ending(ExitCode.ERROR, [str(error)], error.filename)
     except KeyboardInterrupt:
         message("uictest: interrupted")
-        return ExitCode.INTERRUPTED
+        return Ending(ExitCode.INTERRUPTED)
     except SystemExit:
         # Outside its standalone mode typer exits only if the reader of `--help` has gone.
-        return ExitCode.MET
+        return Ending(ExitCode.MET)
     except Exception as error:
         reason = _reason(error) if isinstance(error, OSError) else ""
         if _is_of_argument(error, arguments):
             message(f"uictest: {reason or error}")
-            return ExitCode.USAGE
+            return Ending(ExitCode.USAGE, [reason or str(error)])
         if not reason:
             message(traceback.format_exc().rstrip())
-        message(f"uictest: {reason or f'internal error: {type(error).__name__}: {error}'}")
-        return ExitCode.ERROR
+            reason = f"internal error: {type(error).__name__}: {error}"
+        message(f"uictest: {reason}")
+        return Ending(ExitCode.ERROR, [reason])
 
 
 def _advice(arguments: Sequence[str], option: str) -> str:
@@ -220,12 +224,9 @@ def _is_of_argument(error: Exception, arguments: Sequence[str]) -> bool:
     if not isinstance(error, OSError) or error.errno not in _OF_PATHS or not error.filename:
         return False
     place = Path(os.path.abspath(os.fsdecode(error.filename)))  # noqa: PTH100 - links stay
-    for named in (Path(os.path.abspath(text)) for text in (*texts, _DEFAULT_OUTPUT) if "\0" not in text):  # noqa: PTH100
-        if named.is_relative_to(place) or place.parent == named.parent:
-            return True
-        if error.errno != errno.ENOENT and place.is_relative_to(named):
-            return True
-    return False
+    named = (Path(os.path.abspath(text)) for text in texts if "\0" not in text)  # noqa: PTH100
+    inside = error.errno != errno.ENOENT
+    return any(each.is_relative_to(place) or (inside and place.is_relative_to(each)) for each in named)
 
 
 def _options(arguments: Sequence[str]) -> str:

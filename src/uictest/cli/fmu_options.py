@@ -10,6 +10,7 @@ import typer
 
 from uictest import runs
 from uictest.api import fmu
+from uictest.core import files
 
 
 class Fmi(StrEnum):
@@ -30,11 +31,10 @@ Force = Annotated[bool, typer.Option("--force", help="Overwrite an existing file
 
 
 def reject_target(output: Path, *, force: bool) -> None:
-    """Raise InvalidInputError where the FMU cannot be written."""
+    """Raise InvalidInputError where the name is none of an FMU or is taken, WriteError for no place."""
     if output.suffix != ".fmu":
         raise runs.InvalidInputError(f"{output}: the name of an FMU ends with .fmu")
-    if not output.parent.is_dir():
-        raise runs.InvalidInputError(f"{output}: there is no folder {output.parent}")
+    files.require_place(output)
     if output.exists() and not force:
         raise runs.InvalidInputError(f"already there: {output}; --force replaces it")
 

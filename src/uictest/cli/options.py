@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -13,6 +14,7 @@ import typer
 
 from uictest import report, runs
 from uictest.analysis import comparison
+from uictest.core import files
 from uictest.plans import scenario
 
 
@@ -196,7 +198,8 @@ MaxFail = Annotated[
     option("--maxfail N", "Stop after N cases that are not as expected.", min=1),
 ]
 DryRun = Annotated[bool, option("--dry-run", "List the selected cases without running them.")]
-JUnitFile = Annotated[Path | None, option("--junitxml FILE", "Also write the JUnit XML to FILE.")]
+JUNIT: Final = "--junitxml"
+JUnitFile = Annotated[Path | None, option(f"{JUNIT} FILE", "Also write the JUnit XML to FILE.")]
 Jobs = Annotated[int, option("-n --jobs N|auto", "Number of threads.", parser=_jobs)]
 RunFormat = Annotated[
     Format,
@@ -247,19 +250,27 @@ def rejected(option: str, kind: type[ValueError] = ValueError) -> Iterator[None]
 
 
 def junit_file(path: Path | None, output: Path) -> Path | None:
-    """Return the file of `--junitxml`. Raises typer.BadParameter where it cannot be written.
+    """Return the file of `--junitxml`. Raises files.WriteError where it cannot be written.
 
     A folder in or above `output` may be missing: the command makes it.
     """
-    if path is None:
-        return None
-    folder, own = path.absolute().parent, output.absolute()
-    expected = own.is_relative_to(folder) or folder.is_relative_to(own)
-    if path.is_dir():
-        raise typer.BadParameter(f"{path} is a folder", param_hint="--junitxml")
-    if not folder.is_dir() and not (expected and not folder.exists()):
-        raise typer.BadParameter(f"{path}: there is no folder {path.parent}", param_hint="--junitxml")
+    if path is not None:
+        folder, own = path.absolute().parent, output.absolute()
+        expected = own.is_relative_to(folder) or folder.is_relative_to(own)
+        if not expected or folder.exists():
+            files.require_place(path)
+        if not is_replaceable(path):
+            text = f"{path} holds no XML: name another file, or remove it"
+            raise typer.BadParameter(text, param_hint=JUNIT)
     return path
+
+
+def is_replaceable(path: Path) -> bool:
+    """Return whether a report may take the place of a file: it is missing, empty, or XML. Raises OSError."""
+    if not path.is_file():
+        return True
+    with path.open("rb") as file:
+        return file.read(4).removeprefix(codecs.BOM_UTF8)[:1] in (b"", b"<")
 
 
 def report_formats(text: str, option: str, accepted: Sequence[str]) -> list[str]:

@@ -6,6 +6,7 @@ Installed packages register controllers as entry points of the group ``uictest.c
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -74,12 +75,14 @@ def _problems_of_value(name: str, declared: Declaration, value: Any) -> Iterator
         written = value if isinstance(value, str) else json.dumps(value)
         hint = f"write a bare number{unit and ' in'}{unit}" if expected == "a number" else ""
         yield Problem(name, f"expected {expected}, found {_kind(value)} ({written})", hint)
-    elif declared.range is not None:
-        low, high = declared.range
-        for each in value if isinstance(value, list | tuple) else (value,):
+        return
+    for each in value if isinstance(value, list | tuple) else (value,):
+        if isinstance(each, float) and not math.isfinite(each):
+            yield Problem(name, f"{each} is no finite number", "accepted: finite numbers")
+        elif declared.range is not None:
+            low, high = declared.range
             if _kind(each) != "a number" or not low <= each <= high:
-                limits = f"{low:g} to {high:g}{unit}"
-                yield Problem(name, f"{each} is out of range", f"accepted: {limits}")
+                yield Problem(name, f"{each} is out of range", f"accepted: {low:g} to {high:g}{unit}")
 
 
 def _kind(value: Any) -> str:

@@ -180,6 +180,7 @@ NO_MAGNET_STATE: Final = 3
 WROTE_BEYOND: Final = 4
 NO_REDUCTION: Final = 5
 NO_REQUEST: Final = 6
+NO_REFERENCE: Final = 7
 
 _OWN: Final = [(name, "i8") for name in ("guard", "calling", "failure", "failed_wheelset", "cycles")]
 EXCHANGE: Final = np.dtype([*INPUTS.descr, *OUTPUTS.descr, *_OWN])

@@ -4,6 +4,7 @@ One row of the table below describes one unit. Inside the package every quantity
 kind, which :attr:`Kind.canonical` names.
 """
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
@@ -90,6 +91,7 @@ _KINDS = (
         _unit("km/h", Fraction(5, 18), "kmh kph kmph km/hr", recorded_as=("kph", "kmh")),
         _unit("m/s", 1, "mps", recorded_as=("mps",)),
         _unit("mph", "0.44704", recorded_only=True),
+        _unit("knots", Fraction(1852, 3600), recorded_as=("kn", "knot", "kt"), recorded_only=True),
     ),
     _kind(
         "length",
@@ -107,6 +109,8 @@ _KINDS = (
         _unit("min", 60, "minute minutes mins"),
         _unit("us", "1e-6", recorded_only=True),
         _unit("ns", "1e-9", recorded_only=True),
+        _unit("h", 3600, recorded_only=True),
+        _unit("d", 86_400, recorded_only=True),
     ),
     _kind("mass", "kg", _unit("kg", 1, "kgs kilogram kilograms"), _unit("t", 1000, "ton tons tonne tonnes")),
     _kind("inertia", "kg m2", _unit("kg m2", 1)),
@@ -118,6 +122,8 @@ _KINDS = (
         _unit("Pa", 1),
         _unit("MPa", 1_000_000),
         _unit("mbar", 100, recorded_only=True),
+        _unit("hPa", 100, recorded_only=True),
+        _unit("psi", "6894.757", recorded_only=True),
     ),
     _kind(
         "force",
@@ -217,6 +223,15 @@ KILONEWTON: Final = SIZES["kN"]
 KILONEWTON_PER_BAR: Final = SIZES["kN/bar"]
 PERCENT: Final = SIZES["%"]
 
+ROTATIONAL_SPEEDS: Final = MappingProxyType(
+    {
+        **dict.fromkeys(("rpm", "1/min", "U/min", "r/min", "min-1"), 2.0 * math.pi / 60.0),
+        **dict.fromkeys(("1/s", "r/s", "rev/s"), 2.0 * math.pi),
+        "rad/s": 1.0,
+    }
+)
+"""What recordings may write for a rotational speed -> its size in rad/s."""
+
 _KINDS_IN_RECORDINGS: Final = frozenset(
     {"time", "length", "speed", "pressure", "force", "torque", "share", "temperature", "line density"}
 )
@@ -277,6 +292,11 @@ def recorded_unit_size(unit: str, si: str) -> float | None:
     return matches.pop() if len(matches) == 1 else None
 
 
+def is_recorded_unit(text: str) -> bool:
+    """Return whether a text is a unit, of whatever kind, as people write it."""
+    return text in ROTATIONAL_SPEEDS or any(_alike(symbol, text) for symbol in _EVERY_SPELLING)
+
+
 def _alike(symbol: str, written: str) -> bool:
     # milli and mega differ by their case alone.
     same_prefix = (symbol[:1] == "M") == (written[:1] == "M")
@@ -285,3 +305,11 @@ def _alike(symbol: str, written: str) -> bool:
 
 def _plain(symbol: str) -> str:
     return symbol.replace(" ", "").replace("·", "").casefold()
+
+
+_EVERY_SPELLING: Final = tuple(
+    spelling
+    for kind in _KINDS
+    for unit in kind.all_units
+    for spelling in (unit.symbol, *unit.misspellings, *unit.recorded_as)
+)

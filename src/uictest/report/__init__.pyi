@@ -91,6 +91,7 @@ from .run_folder import (
     run_name as run_name,
     subjects_form as subjects_form,
     with_recorded_traces as with_recorded_traces,
+    write_controller_log as write_controller_log,
     write_recording as write_recording,
     write_reports as write_reports,
 )
@@ -193,7 +194,6 @@ from .traces.quantities import (
 from .traces.trace import (
     Curve as Curve,
     PlotTrace as PlotTrace,
-    interval_of as interval_of,
     thinned as thinned,
     trace_of as trace_of,
     trace_of_stop as trace_of_stop,

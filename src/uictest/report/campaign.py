@@ -71,8 +71,9 @@ class CampaignTable:
         return Data(keys, [dict(zip(keys, row, strict=True)) for row in self.rows])
 
     def document(self) -> Table:
-        """Return the table for people."""
-        columns = [_column(each, place) for place, each in enumerate(self.columns)]
+        """Return the table for people, without columns that no row has."""
+        filled = [k for k in range(len(self.columns)) if any(row[k] is not None for row in self.rows)]
+        columns = [_column(self.columns[k], k) for k in filled or range(len(self.columns))]
         more = f"more rows are in `{file_name(self)}.csv`."
         return Table(columns, self.rows, self.title, self.basis, more, most=_MOST)
 

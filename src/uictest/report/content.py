@@ -55,13 +55,14 @@ def from_scenarios_in_turn(results: Iterable[evaluation.CaseResult]) -> list[eva
 
 
 def worst_first(results: Iterable[evaluation.CaseResult]) -> list[evaluation.CaseResult]:
-    """Return the results with those not as expected first, then those with the narrowest margins."""
+    """Return the results: not as expected, of these a requirement missed, first; then by narrowest margin."""
     return sorted(results, key=_rank)
 
 
-def _rank(result: evaluation.CaseResult) -> tuple[bool, bool, float]:
+def _rank(result: evaluation.CaseResult) -> tuple[bool, bool, bool, float]:
     margin, _ = evaluation.narrowest_margin(result)
-    return result.met, result.outcome == "pass", 1.0 if margin is None else margin
+    missed = result.requirement_status == "missed"
+    return result.met, not missed, result.outcome == "pass", 1.0 if margin is None else margin
 
 
 @dataclass(frozen=True, slots=True)

@@ -196,6 +196,17 @@ def write_recording(folder: Path, case_id: str, samples: recording.Recording) ->
     return path
 
 
+def write_controller_log(folder: Path, case_id: str, text: str) -> str:
+    """Write what the controller of a case printed, named by its id, below the run folder; return its name.
+
+    Raises OSError.
+    """
+    require_names([case_id])
+    name = f"logs/{case_id}.log"
+    files.write(folder, name, text.encode())
+    return name
+
+
 def read_run(folder: Path) -> RunContent:
     """Return what a run folder holds, nothing to draw.
 

@@ -50,6 +50,7 @@ class SimulatedStop:
         noise_key: of the sensors' noise, see :mod:`uictest.rig.single_stop`, as eight hexadecimal digits.
         coupler_ahead: largest forces in the coupler to the car ahead, None where there is none.
         coupler_behind: largest forces in the coupler to the car behind, None where there is none.
+        controller_output: what a controller from outside printed, where that is kept.
     """
 
     measures: Any
@@ -62,6 +63,7 @@ class SimulatedStop:
     noise_key: str = ""
     coupler_ahead: CouplerPeaks | None = None
     coupler_behind: CouplerPeaks | None = None
+    controller_output: str = ""
 
 
 def compile_for(cases: Iterable[Case]) -> None:
@@ -223,6 +225,7 @@ def _stop_of_car(
         finished.contract if from_outside else 0,
         finished.response_times,
         case_sha256="" if config is None else config.case_sha256,
+        controller_output=finished.controller_output,
     )
 
 

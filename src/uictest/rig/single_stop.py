@@ -91,7 +91,7 @@ class FinishedStop:
     """What a stop leaves: its measures, the final state and, if requested, the trace.
 
     Of a controller from outside also the version that it names, how it answered if cycles were paced by the
-    clock, and the version of the contract.
+    clock, the version of the contract, and what it printed, where that is kept.
     """
 
     measures: Any
@@ -102,6 +102,7 @@ class FinishedStop:
     controller_version: str = ""
     response_times: ResponseTimes | None = None
     contract: int = 1
+    controller_output: str = ""
 
 
 def run_to_end(run_stop: RunStop, inputs: StopInputs, steps_per_sample: int = 0) -> FinishedStop:

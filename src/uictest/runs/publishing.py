@@ -44,8 +44,11 @@ def publish_batch(batch: Batch, output: Path, formats: Sequence[str], observer: 
     """
     # The folder comes first: if it cannot be written, nothing should be simulated.
     with _folder(output, batch.manifest) as folder:
+        recorded = batch.settings.recording._replace(
+            keep_output=partial(report.write_controller_log, folder.path)
+        )
         run = run_batch(
-            batch,
+            batch._replace(settings=replace(batch.settings, recording=recorded)),
             observer,
             name=folder.name,
             draws_stops=report.draws_stops(formats),

@@ -65,14 +65,15 @@ def run_sweep(request: SweepRequest, observer: Observer) -> FinishedSweep | None
 
 def _locked(folder: Path, *, shared: bool) -> files.FolderLock:
     """Return the lock on the folder of a sweep; shards of the sweep share it."""
+    files.make_folder(folder)
     if folder.is_symlink():
         raise InvalidInputError(
             f"{folder} is a link, and a sweep writes through none: name another output folder",
             arguments=("output",),
         )
     try:
-        files.make_folder(folder)
-        return files.FolderLock(folder.parent, folder.name, shared=shared)
+        with files.writing(folder):
+            return files.FolderLock(folder.parent, folder.name, shared=shared)
     except files.FolderInUseError as error:
         raise InvalidInputError(
             f"{folder} is in use by {error}: wait until it ends, or name another output folder",
@@ -92,7 +93,8 @@ def summarized_chunks(request: SweepRequest, store: ChunkStore, observer: Observ
             summary.add_up_to,
             partial(report.load_sweep_formats, request.reports),
         )
-        files.begin_list(store.folder)
+        with files.writing(store.folder):
+            files.begin_list(store.folder)
         return summary.result()
 
 

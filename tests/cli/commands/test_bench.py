@@ -67,7 +67,6 @@ def test_a_recorded_pressure_is_demanded(call, workplace, suffix):
         (("stepwise", "--trace", "x.csv"), "name one recipe"),
         (("--trace", "x.csv"), "x.csv"),
         (("stepwise", "-o", "x.txt"), ".parquet"),
-        (("stepwise", "-o", "nowhere/x.csv"), "no folder"),
         (("stepwise", "--set", "rig.caliper.preload=1"), "has no unit"),
     ],
 )

@@ -59,7 +59,7 @@ def test_exit_codes_are_those_of_run_and_junit_has_the_failure(call):
 def test_a_page_draws_what_was_answered_where_a_check_is_missed(call):
     assert call("controller", "check", program(), "--html", "check.html").code == 1
     page = Path("check.html").read_text("utf-8")
-    assert "11 checks: " in page
+    assert "12 checks: " in page
     assert "fail vents-sliding: from the beginning of the slide" in page
     for n in (1, 2, 3, 4):
         assert f"<h3>wheelset {n} slides</h3>" in page

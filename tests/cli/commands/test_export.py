@@ -1,8 +1,9 @@
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from uictest.core.recording import parquet_bytes
+from uictest.core.recording import Recording, parquet_bytes
 from uictest.core.recording.formats import Dialect
 from uictest.core.recording.formats.reader import read_here
 
@@ -60,6 +61,17 @@ def test_what_cannot_be_exported_exits_4_and_leaves_nothing(call, recording, arg
     before = sorted(Path().rglob("*"))
     call("export", *arguments, code=4, says=said)
     assert sorted(Path().rglob("*")) == before
+
+
+@pytest.mark.parametrize("suffix", ["csv", "mf4"])
+def test_an_export_is_compared_with_its_recording_in_either_order(call, workplace, suffix):
+    time = 0.07 + np.arange(500) / 300.0  # without an end in decimals
+    channels = {"time": time, "valve_command_1": np.repeat([0.0, 2.0, 1.0, 0.0, 2.0], 100)}
+    stop = Recording(channels, {"time": "s", "valve_command_1": "1"})
+    Path("stop.parquet").write_bytes(parquet_bytes(stop))
+    call("export", "stop.parquet", "-o", f"stop.{suffix}", code=0)
+    call("compare", "stop.parquet", f"stop.{suffix}", code=0)
+    call("compare", f"stop.{suffix}", "stop.parquet", code=0)
 
 
 @pytest.mark.parametrize("arguments", [[], ["--to", "mdf"]])

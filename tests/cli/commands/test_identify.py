@@ -152,7 +152,6 @@ def test_channels_may_have_other_names_and_come_from_csv(call, record, workplace
         (("hysteresis", "record.parquet", "--wsp", "3"), "--wsp"),
         (("hysteresis", "record.parquet", "--base", "seven-inch"), "six-inch"),
         (("cylinder", "record.parquet", "--input", "valve_command_1"), "unit '1'"),
-        (("hysteresis", "record.parquet", "-o", "nowhere/x.yaml"), "no folder"),
         (("hysteresis", "record.parquet", "-o", "record.parquet", "--name", "x"), "the recording itself"),
         (("cylinder", "record.parquet", "-o", "x.yaml", "--name", "Our caliper"), "--name"),
         (

@@ -140,12 +140,10 @@ def test_github_annotates_what_is_not_met_and_quiet_shows_nothing_else(call, sce
     assert answer.err == ""
 
 
-@pytest.mark.parametrize(
-    ("file", "said"), [("no/junit.xml", "no/junit.xml: there is no folder no"), (".", ". is a folder")]
-)
-def test_junit_with_no_place_is_refused_before_the_first_case(call, scenario, made_up, file, said):
+@pytest.mark.parametrize("file", ["no/junit.xml", "."])
+def test_junit_with_no_place_is_refused_before_the_first_case(call, scenario, made_up, file):
     scenario()
-    call("run", "--junitxml", file, code=4, says=f"--junitxml: {said}")
+    call("run", "--junitxml", file, code=3, says=f"cannot write {file}: ")
     assert not made_up
 
 

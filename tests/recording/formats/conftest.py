@@ -6,13 +6,13 @@ import pytest
 from uictest.core.recording import Recording
 from uictest.core.recording.formats import FORMATS, isolation, writer_of
 
-from ...conftest import READ_IN_PROCESS
+from ...conftest import READ_APART
 
 
 @pytest.fixture(autouse=True)
 def _isolated(monkeypatch):
     """Here a process of its own is the point."""
-    monkeypatch.setattr(isolation, "_read_in_process", READ_IN_PROCESS)
+    monkeypatch.setattr(isolation, "read_apart", READ_APART)
 
 
 @pytest.fixture

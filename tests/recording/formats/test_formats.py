@@ -19,7 +19,7 @@ from uictest.core.recording.formats.file_formats import (
     check_size,
     required_module,
 )
-from uictest.core.recording.formats.layout import name_and_unit
+from uictest.core.recording.formats.layout import names_and_units_of
 from uictest.core.recording.formats.reader import read_here
 
 EXTRAS = {"mdf": "asammdf", "tdms": "nptdms"}
@@ -134,7 +134,6 @@ def test_mat_5_opens_in_its_own_library(written, recording):
 
 def test_mat_7_3(tmp_path):
     h5py = pytest.importorskip("h5py")
-    pytest.importorskip("pymatreader")
     path = tmp_path / "record.mat"
     with h5py.File(path, "w", userblock_size=512) as file:
         for name in ("t", "v"):
@@ -195,7 +194,7 @@ def test_units_and_numbers_of_names_make_no_other_dialect(tmp_path):
     ],
 )
 def test_units_in_names(text, expected):
-    assert name_and_unit(text) == expected
+    assert names_and_units_of([text]) == [expected]
 
 
 def test_sizes_are_bounded():

@@ -6,28 +6,30 @@ import resource
 import signal
 import subprocess
 import sys
+from functools import partial
+from pathlib import Path
 
 import pytest
 
+from uictest.core import guarded_process
+from uictest.core.guarded_process import GuardedProcess
 from uictest.core.recording.formats import (
     ReadingInterruptedError,
     UnreadableError,
     isolation,
     read_contents,
-    reader,
 )
+
+from ...conftest import read_here
+from ...processes import children_of, has_ended, waited_for
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="limits and signals are POSIX")
 
 
 def reading_under(monkeypatch, before):
     """Call a function in the process that reads before it becomes the reader."""
-    run = subprocess.run
-
-    def prepared(command, **options):
-        return run(command, preexec_fn=before, **options)
-
-    monkeypatch.setattr(isolation.subprocess, "run", prepared)
+    process = partial(GuardedProcess, preexec_fn=before)
+    monkeypatch.setattr(guarded_process, "GuardedProcess", process)
 
 
 def files_up_to(size):
@@ -41,11 +43,11 @@ def files_up_to(size):
 def reading_here_up_to(size):
     """Read in this process, under the limit of one whose start takes longer than all it reads."""
 
-    def read(name, path, dialect, folder, seconds):
+    def read(*request):
         soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
         try:
-            return reader.read_into(folder, name, path, dialect)
+            yield from read_here(*request)
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
@@ -60,7 +62,7 @@ def test_a_full_temporary_folder_is_named(written, tmp_path, monkeypatch, name, 
     if name == "mdf":
         reading_under(monkeypatch, files_up_to(size))
     else:
-        monkeypatch.setattr(isolation, "_read_in_process", reading_here_up_to(size))
+        monkeypatch.setattr(isolation, "read_apart", reading_here_up_to(size))
     with pytest.raises(ReadingInterruptedError) as caught:
         read_contents(path)
     assert caught.value.filename == str(tmp_path)
@@ -71,16 +73,15 @@ def test_a_full_temporary_folder_is_named(written, tmp_path, monkeypatch, name, 
 
 def test_a_reader_writes_nothing_but_what_it_read(written, monkeypatch):
     """Half a compiled module, as a full disk leaves it, would make every sound file seem damaged."""
-    commands = []
-    run = subprocess.run
+    begun = []
 
-    def recorded(command, **options):
-        commands.append(command)
-        return run(command, **options)
+    def recorded(*arguments, **options):
+        begun.append(GuardedProcess(*arguments, **options))
+        return begun[-1]
 
-    monkeypatch.setattr(isolation.subprocess, "run", recorded)
+    monkeypatch.setattr(guarded_process, "GuardedProcess", recorded)
     read_contents(written("mdf"))
-    (command,) = commands
+    (command,) = (each.args for each in begun)
     flags = command[: command.index("-m")]
     shown = subprocess.run(
         [*flags, "-c", "import sys; print(sys.dont_write_bytecode)"],
@@ -119,3 +120,35 @@ def test_a_reader_that_crashes_does(written, monkeypatch):
     reading_under(monkeypatch, crash)
     with pytest.raises(UnreadableError, match="damaged"):
         read_contents(path)
+
+
+HANGING = """\
+from pathlib import Path
+from uictest.core.recording.formats import isolation
+start, hanging = isolation.reading_process, ["-n", "1", "-r", "1", "import time; time.sleep(3600)"]
+isolation.reading_process = lambda _, __, folder: start("timeit", hanging, folder)
+{read}
+"""
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="processes are those of Linux")
+@pytest.mark.parametrize(
+    "read",
+    ["isolation.read_contents(Path('good.csv'))", "list(isolation.read_apart('csv', Path('good.csv'), {}))"],
+)
+def test_a_reader_and_its_folder_are_gone_with_a_program_that_is_killed(tmp_path, read):
+    """The reader hangs: nothing of its own would end it."""
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    (tmp_path / "good.csv").write_text("time,speed\n0,1\n", "utf-8")
+    environment = {**os.environ, "TMPDIR": str(temporary)}
+    command = [sys.executable, "-c", HANGING.format(read=read)]
+    program = subprocess.Popen(command, cwd=tmp_path, env=environment)
+    reader_process = waited_for(lambda: next(iter(children_of(program.pid)), 0))
+    guard = waited_for(lambda: next(iter(children_of(reader_process)), 0))
+    assert list(temporary.iterdir())
+    program.kill()
+    program.wait()
+    for process in (reader_process, guard):
+        assert waited_for(partial(has_ended, process))
+    assert waited_for(lambda: not list(temporary.iterdir()))

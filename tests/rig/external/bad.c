@@ -1,6 +1,10 @@
 /* A controller that never brakes less, but for the fault that its parameters name. */
 #include "uictest_controller.h"
 
+#include <fenv.h>
+#include <locale.h>
+#include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -15,6 +19,30 @@ typedef struct {
 } Controller;
 
 static const char *no_reason = "told to";
+
+/* Change the state of the process in the call that the fault names, as "rounding:step". */
+static void leave(const char *fault, const char *call)
+{
+    const char *named = strchr(fault, ':');
+    if (named == NULL || strcmp(named + 1, call) != 0)
+        return;
+    if (strncmp(fault, "rounding", 8) == 0)
+        fesetround(FE_UPWARD);
+#ifdef __x86_64__
+    if (strncmp(fault, "subnormal", 9) == 0)
+        __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | 0x8040);
+#endif
+    if (strncmp(fault, "locale", 6) == 0)
+        setlocale(LC_ALL, "C");
+    if (strncmp(fault, "folder", 6) == 0 && chdir("/") != 0)
+        abort();
+    if (strncmp(fault, "signal", 6) == 0)
+        signal(SIGTERM, SIG_IGN);
+}
+
+#ifdef ON_LOAD
+__attribute__((constructor)) static void loaded(void) { leave(ON_LOAD ":load", "load"); }
+#endif
 
 #ifndef ABI
 #define ABI UICTEST_ABI_VERSION
@@ -45,10 +73,15 @@ void *uictest_create(const uictest_config *config)
     controller->at = at ? atol(at + 6) : 0;
     if (strcmp(controller->fault, "create") == 0)
         return NULL;
+    leave(controller->fault, "create");
     return controller;
 }
 
-int32_t uictest_reset(void *handle) { return strcmp(((Controller *)handle)->fault, "reset") == 0 ? 7 : 0; }
+int32_t uictest_reset(void *handle)
+{
+    leave(((Controller *)handle)->fault, "reset");
+    return strcmp(((Controller *)handle)->fault, "reset") == 0 ? 7 : 0;
+}
 
 int32_t uictest_step(void *handle, const uictest_inputs *inputs, uictest_outputs *outputs)
 {
@@ -58,6 +91,11 @@ int32_t uictest_step(void *handle, const uictest_inputs *inputs, uictest_outputs
         memset((char *)inputs - 40, 1, 8);
     if (inputs->cycle != controller->at)
         return 0;
+    leave(controller->fault, "step");
+    if (strncmp(controller->fault, "print", 5) == 0)
+        printf("from C\nand more");
+    if (strcmp(controller->fault, "print-crash") == 0)
+        *(volatile int *)0 = 1;
     if (strcmp(controller->fault, "crash") == 0)
         *(volatile int *)0 = 1;
     if (strcmp(controller->fault, "hang") == 0)
@@ -90,6 +128,7 @@ void uictest_destroy(void *handle)
 {
     if (strcmp(((Controller *)handle)->fault, "destroy") == 0)
         abort();
+    leave(((Controller *)handle)->fault, "destroy");
 #ifndef SHARED
     free(handle);
 #endif

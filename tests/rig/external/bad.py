@@ -1,23 +1,47 @@
 """A controller that never brakes less, but for the fault that its parameters name."""
 
 import ctypes
+import locale
 import math
 import os
+import platform
 import signal
 import subprocess
 import sys
+import threading
 import time
 from contextlib import suppress
 from pathlib import Path
+
+import numpy as np
 
 from uictest.controllers import Outputs
 
 __version__ = "1.2"
 
 
+def leave(fault, call):
+    """Change the state of the process in the call that the fault names, as in bad.c."""
+    what, _, named = fault.partition(":")
+    if named == call:
+        LEAVES[what]()
+
+
+LEAVES = {
+    "rounding": lambda: ctypes.CDLL(None).fesetround(UPWARD),
+    "locale": lambda: locale.setlocale(locale.LC_ALL, "C"),
+    "folder": lambda: os.chdir("/"),
+    "signal": lambda: signal.signal(signal.SIGTERM, lambda number, frame: None),
+    "alarm": lambda: signal.setitimer(signal.ITIMER_REAL, 3600.0),
+    "numpy": lambda: np.seterr(all="raise"),
+}
+UPWARD = 0x400000 if platform.machine() == "aarch64" else 0x800
+
+
 class Bad:
     def __init__(self, config):
         self.fault = config.parameters["fault"]
+        leave(self.fault, "create")
         self.at = config.parameters["at"]
         if self.fault == "create":
             raise ValueError("told to")
@@ -25,14 +49,15 @@ class Bad:
             raise SystemExit(0)
 
     def __del__(self):
+        leave(self.fault, "destroy")
         if self.fault == "immortal":
             time.sleep(3600.0)
         if self.fault == "hang-later":
             # The main thread then waits for the next stop.
-            signal.signal(signal.SIGALRM, lambda number, frame: hang_and_tell())
-            signal.setitimer(signal.ITIMER_REAL, 0.1)
+            threading.Timer(0.1, hang_and_tell).start()
 
     def reset(self):
+        leave(self.fault, "reset")
         if self.fault == "reset":
             raise ValueError("told to")
         if self.fault == "leave-reset":
@@ -40,6 +65,8 @@ class Bad:
 
     def step(self, inputs):
         filling = [0, 0, 0, 0]
+        if inputs.cycle == self.at:
+            leave(self.fault, "step")
         return (
             FAULTS[self.fault]()
             if inputs.cycle == self.at and self.fault in FAULTS
@@ -54,7 +81,7 @@ def spin():
 
 def hang_and_tell():
     Path("hangs.txt").touch()
-    time.sleep(3600.0)
+    ctypes.PyDLL(None).sleep(3600)  # no other thread can run beside
 
 
 def hold_the_interpreter():
@@ -99,7 +126,54 @@ def forge(head):
     return Outputs([0, 0, 0, 0], [0, 0, 0, 0])
 
 
+def say(text):
+    sys.stdout.write(text)
+    sys.stderr.write(text + "\n")
+    return Outputs([0, 0, 0, 0], [0, 0, 0, 0])
+
+
+def say_and_crash():
+    say("last words")
+    ctypes.string_at(0)
+
+
+def close_streams():
+    os.close(1)
+    os.close(2)
+    time.sleep(0.3)
+    return Outputs([0, 0, 0, 0], [0, 0, 0, 0])
+
+
+def close_files():
+    os.closerange(3, 1024)
+    return Outputs([0, 0, 0, 0], [0, 0, 0, 0])
+
+
+def flood():
+    for _ in range(64):
+        os.write(2, b"x" * 65535 + b"\n")
+    return Outputs([0, 0, 0, 0], [0, 0, 0, 0])
+
+
+def fail_on_the_way():
+    """Raise at the entry of the next step, before any line of it, as the handler of a signal may."""
+
+    def trace(frame, event, argument):
+        if frame.f_code.co_name == "_step":
+            raise RuntimeError("told to, early")
+
+    sys.settrace(trace)
+    return Outputs([0, 0, 0, 0], [0, 0, 0, 0])
+
+
 FAULTS = {
+    "way": fail_on_the_way,
+    "infinite": lambda: Outputs([0, 0, 0, 0], [0, 0, 0, 0], reference_speed=-math.inf),
+    "say": lambda: say("from Python "),
+    "say-crash": say_and_crash,
+    "flood": flood,
+    "files": close_files,
+    "close": close_streams,
     "scribble": scribble,
     "forge-object": lambda: forge(b"{}"),
     "forge-list": lambda: forge(b"[]"),

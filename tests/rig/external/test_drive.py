@@ -22,6 +22,7 @@ class Instance:
         self.closed = 0
 
     contract = 1
+    failed = False
 
     def reset(self):
         """Nothing to reset."""
@@ -60,6 +61,20 @@ class Writing(CallbackInstance):
 
     def answer(self, inputs, outputs):
         ctypes.memset(outputs + self.place, 1, 1)
+
+
+class Interrupted(Writing):
+    """Something is raised on the way to its step, as by the handler of a signal."""
+
+    def _step(self, handle, inputs, outputs):
+        raise RuntimeError("told to")
+
+
+def test_an_exception_that_leaves_a_callback_fails_the_step_also_in_the_last_cycle():
+    """The system is answered anything: most often 0, that all went well."""
+    cycles = np.zeros(1, INPUTS)
+    with pytest.raises(ControllerError, match=r"^step failed: RuntimeError: told to \(test_drive.py, line "):
+        drives.drive(Interrupted(1, 0), cycles, 0.01, empty_exchange())
 
 
 PLACES = {name: OUTPUTS.fields[name][1] for name in OUTPUTS.names}

@@ -15,6 +15,7 @@ from uictest.plans.scenario.yaml.quantities import (
     DecimalQuantity,
     Quantity,
     QuantityError,
+    count_by_step,
     evenly_spaced,
     parse_decimal_quantity,
     parse_quantity,
@@ -214,6 +215,15 @@ def test_a_step_reaches_the_last_number_where_it_lands_on_it():
         "0.3",
     ]
     assert [str(n) for n in spaced_by_step(Decimal(3), Decimal(0), Decimal(-2))] == ["3", "1"]
+
+
+@given(st.integers(-50, 50), st.integers(-50, 50), st.integers(-7, 7))
+def test_steps_are_counted_without_being_made(first, last, step):
+    reached = range(first, last + (1 if step > 0 else -1), step) if step else ()
+    count = count_by_step(Decimal(first), Decimal(last), Decimal(step))
+    assert count == len(reached)
+    if count:
+        assert len(spaced_by_step(Decimal(first), Decimal(last), Decimal(step))) == count
 
 
 @given(st.integers(-1000, 1000), st.integers(-1000, 1000), st.integers(2, 50))

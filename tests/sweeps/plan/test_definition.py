@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uictest.plans.scenario import ScenarioErrors
-from uictest.plans.sweeps import load_sweep
+from uictest.plans.sweeps import group_reader, load_sweep
 from uictest.plans.sweeps.base_case import BaseCase
 
 from ..conftest import MATRIX
@@ -103,6 +103,67 @@ def test_errors_say_where_and_what_is_accepted(load, text, expected):
         load(text)
     assert expected in str(caught.value)
     assert str(caught.value).startswith("study.sweep.yaml:")
+
+
+SIX_COLUMNS = (
+    "{rail.friction: {uniform: [0.1, 0.2]}, rail.gradient: {uniform: [0 permille, 1 permille]},"
+    " brake.command: {uniform: [50 %, 100 %]}, initial_speed: {uniform: [50 km/h, 60 km/h]}}"
+)
+"""Parameters of which Saltelli's scheme makes six cases a point."""
+MANY = "first: 0.05, last: 0.2, count: 1000000"
+
+
+@pytest.mark.parametrize(
+    ("text", "overrides", "expected"),
+    [
+        (
+            (
+                f"ranges: {{rail.friction: {{{MANY}}}, rail.gradient: {{first: 0 permille, last: 5 permille,"
+                " count: 1000000}}\n"
+            ),
+            (),
+            "vary: 1000000000000 cases (1000000 of rail.friction x 1000000 of rail.gradient)",
+        ),
+        (
+            "ranges: {rail.friction: {first: 0.1, last: 0.2, step: 1e-10}}\n",
+            (),
+            "vary.ranges.rail.friction.step: 1000000001 values; at most 16777216",
+        ),
+        (
+            f"ranges: {{rail.friction: {{{MANY}}}}}\n",
+            ("seed=range(1,101,1)", "brake.command=50 %,100 %"),
+            "vary: 202000000 cases (101 of seed x 2 of brake.command x 1000000 of rail.friction)",
+        ),
+        (
+            SAMPLE.replace("size: 4", "size: 16777216") + "matrix: {seed: [0, 1, 2, 3, 4, 5]}\n",
+            (),
+            "vary: 100663296 cases (6 of seed x 16777216 of sample)",
+        ),
+        (
+            f"sample: {{method: saltelli, size: 16777216, parameters: {SIX_COLUMNS}}}\n",
+            (),
+            "vary: 100663296 cases (100663296 of sample)",
+        ),
+        (
+            f"ranges: {{rail.friction: {{{MANY}}}}}\nzip: {{seed: {list(range(101))}}}\n",
+            (),
+            "vary: 101000000 cases (1000000 of rail.friction x 101 of seed)",
+        ),
+    ],
+)
+def test_cases_are_counted_before_any_of_them_is_made(load, monkeypatch, text, overrides, expected):
+    monkeypatch.setattr(group_reader, "range_node", None)
+    with pytest.raises(ScenarioErrors) as caught:
+        load(text, *overrides)
+    (error,) = caught.value.diagnostics
+    assert f"{error.key}: {error.message}".startswith(expected)
+    assert "are accepted" in error.message
+    assert error.hint
+
+
+def test_as_many_cases_as_are_accepted_are_planned(load):
+    sample = SAMPLE.replace("size: 4", "size: 16777216")
+    assert load(sample + "matrix: {seed: [0, 1, 2, 3, 4]}\n").size == 5 * 16777216
 
 
 @pytest.mark.parametrize(

@@ -26,11 +26,6 @@ class Sampled(NamedTuple):
     at: Samples
     values: Samples
 
-    @property
-    def step(self) -> float:
-        """The mean step of the abscissa; 0 for a single sample."""
-        return float(self.at[-1] - self.at[0]) / (len(self.at) - 1) if len(self.at) > 1 else 0.0
-
 
 @dataclass(frozen=True, slots=True)
 class CommonSamples:
@@ -47,21 +42,14 @@ class CommonSamples:
 
 
 def common_samples(first: Sampled, second: Sampled, *, holds: bool = False) -> CommonSamples:
-    """Return two series at the places of the one that is sampled more coarsely, as far as both reach.
+    """Return two series at their :func:`recording.common_instants`, the same in either order.
 
-    The other is read off straight lines between its samples: read at the places of the finer one, the coarser
-    would miss what it did not sample. `holds`: a sample stands until the next one, as that of a valve does.
+    Between samples they are straight lines. `holds`: a sample stands until the next one, as that of a valve
+    does.
     """
-    start, end = max(first.at[0], second.at[0]), min(first.at[-1], second.at[-1])
-    places = coarser(first, second).at
-    at = places[(places >= start) & (places <= end)]
-    return CommonSamples(at, *(_read(side, at, holds=holds) for side in (first, second)))
-
-
-def coarser(first: Sampled, second: Sampled) -> Sampled:
-    """Return the series with the larger mean step; the first where both have the same."""
-    # Equal rates differ in their last digits.
-    return second if second.step > first.step * (1.0 + 1e-9) else first
+    at = recording.common_instants(first.at, second.at)
+    read = (recording.at_instants(*side, at, holds=holds) for side in (first, second))
+    return CommonSamples(at, *read)
 
 
 def over_time(record: recording.Recording, channel: str) -> Sampled:
@@ -94,12 +82,6 @@ _FEWEST = 2
 """Samples that a line takes."""
 _ROLL_BACK = 1.0
 """m: a train that has stopped swings back by millimetres; what falls by more is no distance run. Chosen."""
-
-
-def _read(side: Sampled, at: Samples, *, holds: bool) -> Samples:
-    if holds:
-        return side.values[np.searchsorted(side.at, at, side="right") - 1]
-    return np.interp(at, side.at, side.values)
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,11 +132,11 @@ def channel_difference(
     return ChannelDifference(channel, first.units[channel], both, worst_instant(both), mean, allowed)
 
 
-def allowed_of(channel: str, first: recording.Recording, tolerances: Tolerances) -> float:
-    """Return how far a channel may lie from its samples in the first recording, in their unit."""
-    samples = np.asarray(first[channel], dtype=np.float64)
-    known = samples[np.isfinite(samples)]
-    return tolerances.of(channel).allowed(float(np.ptp(known)) if len(known) else 0.0)
+def allowed_of(channel: str, records: Iterable[recording.Recording], tolerances: Tolerances) -> float:
+    """Return how far a channel of two recordings may lie apart, in its unit: by the larger of its ranges."""
+    samples = (np.asarray(record[channel], dtype=np.float64) for record in records)
+    known = (each[np.isfinite(each)] for each in samples)
+    return tolerances.of(channel).allowed(max(float(np.ptp(each)) if len(each) else 0.0 for each in known))
 
 
 def worst_instant(both: CommonSamples) -> WorstInstant | None:
@@ -182,7 +164,8 @@ def in_shown_units(record: recording.Recording) -> recording.Recording:
 
 
 def _in_unit(samples: recording.Samples, unit: str) -> recording.Samples:
-    return samples - CELSIUS_ZERO if unit == "degC" else samples / SIZES[unit]
+    exact = np.asarray(samples, dtype=np.float64)  # of short samples, a quotient is short, too
+    return exact - CELSIUS_ZERO if unit == "degC" else exact / SIZES[unit]
 
 
 def common_channels(first: Mapping[str, str], second: Mapping[str, str]) -> list[str]:

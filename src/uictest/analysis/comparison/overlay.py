@@ -24,7 +24,7 @@ from uictest.analysis.comparison.common_samples import (
     worst_instant,
 )
 from uictest.core import recording
-from uictest.report import Curve, PlotTrace, interval_of, number, thinned
+from uictest.report import Curve, PlotTrace, number, thinned
 
 Line = Literal["first", "second", "difference"]
 
@@ -103,7 +103,8 @@ def _curves(channel: str, sides: tuple[Sampled, Sampled], both: CommonSamples) -
 
 def _side(side: Sampled, places: Samples) -> Curve:
     """Return a side through its extremes, and through its samples at the points of the difference."""
-    rows = np.union1d(_points(side.values), np.flatnonzero(np.isin(side.at, places)))
+    shared, on_sample = recording.rows_at(side.at, places)
+    rows = np.union1d(_points(side.values), shared[on_sample])
     return Curve(side.at[rows], side.values[rows])
 
 
@@ -124,9 +125,6 @@ DRAWN = 12
 
 FIRST_DRAWN = ("speed", *(f"slide_{n}" for n in (1, 2, 3, 4)), "tank_pressure_1", "clamping_force_1")
 """The most informative channels of a stop: they come first where none are chosen."""
-
-_SAME = 1e-9
-"""Of a time or an interval: what differs by less is rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,7 +172,7 @@ def overlay_of(
     return Overlay(
         title,
         differences,
-        (interval_of(first[recording.TIME]), interval_of(second[recording.TIME])),
+        (recording.mean_interval(first[recording.TIME]), recording.mean_interval(second[recording.TIME])),
         _trace(first, second, differences),
         over_common_distance(first, second, channels),
         [name for name in common if name not in channels],
@@ -187,31 +185,33 @@ def overlay_of(
 def sampling_remarks(first: recording.Recording, second: recording.Recording) -> Iterator[str]:
     """Yield how samples at different instants were compared, and which time was not; A is the first side."""
     times = first[recording.TIME], second[recording.TIME]
-    start, end = max(time[0] for time in times), min(time[-1] for time in times)
-    if start > end:
+    instants, coarser = recording.common_instants(*times), recording.coarser(*times)
+    if not len(instants):
         yield "A and B share no time: nothing of their channels is compared"
         return
-    steps = [interval_of(time) for time in times]
-    if abs(steps[0] - steps[1]) > _SAME * max(steps):
-        sides = ("A", "B") if steps[0] > steps[1] else ("B", "A")
-        every = [f"{1e3 * step:.4g} ms" for step in sorted(steps, reverse=True)]
+    if coarser is not None:
+        sides = ("A", "B") if coarser is times[0] else ("B", "A")
+        every = [f"{1e3 * step:.4g} ms" for step in sorted(map(recording.mean_interval, times), reverse=True)]
         yield (
             f"compared at the instants of {sides[0]}, every {every[0]}; {sides[1]} has a sample every"
             f" {every[1]} and is read off straight lines between its samples"
         )
-    for side, time in zip("AB", times, strict=True):
-        if start - time[0] > _SAME * max(1.0, abs(start)):
-            yield f"{side} begins {number(float(start - time[0]))} s earlier: not compared"
-        if time[-1] - end > _SAME * max(1.0, abs(end)):
-            later = number(float(time[-1] - end))
-            yield f"{side} goes on for {later} s, from {number(float(end))} s: not compared"
+    elif len(instants) > np.count_nonzero(recording.covers(times[1], times[0])):
+        yield "compared at the instants of both; each is read off straight lines between its samples"
+    for side, time, other in zip("AB", times, times[::-1], strict=True):
+        (begin, end), (begins, ends) = time[[0, -1]], recording.covers(other, time[[0, -1]])
+        if begin < other[0] and not begins:
+            yield f"{side} begins {number(float(other[0] - begin))} s earlier: not compared"
+        if end > other[-1] and not ends:
+            later = number(float(end - other[-1]))
+            yield f"{side} goes on for {later} s, from {number(float(other[-1]))} s: not compared"
 
 
 def _trace(
     first: recording.Recording, second: recording.Recording, differences: Sequence[ChannelDifference]
 ) -> PlotTrace:
     times = first[recording.TIME], second[recording.TIME]
-    intervals = {interval_of(time) for time in times}
+    intervals = {recording.mean_interval(time) for time in times}
     start, end = (float(pick(time[place] for time in times)) for pick, place in ((min, 0), (max, -1)))
     # Times of another interval than the other side's would be rounded to it.
     interval = intervals.pop() if len(intervals) == 1 else 0.0

@@ -37,7 +37,8 @@ def compare_recordings(
     """Compare two recordings in the units of the page.
 
     Samples are compared over the time that both cover, at the instants of the recording that is sampled more
-    coarsely; the other one is read off straight lines between its samples, and states at their last sample.
+    coarsely, of both where neither is; a recording without a sample there is read off straight lines between
+    its samples, and states at their last sample. Which recording is the first decides nothing.
 
     Args:
         first, second: the recordings.
@@ -51,7 +52,7 @@ def compare_recordings(
     """
     first, second = in_shown_units(first), in_shown_units(second)
     common = {
-        name: channel_difference(name, first, second, allowed_of(name, first, tolerances))
+        name: channel_difference(name, first, second, allowed_of(name, (first, second), tolerances))
         for name in common_channels(first.units, second.units)
     }
     quantities = [_durations(first, second, tolerances), *_channels(first, second, common)]
@@ -87,7 +88,7 @@ def _channels(
 def _channel(channel: ChannelDifference) -> Difference | None:
     """Return how a channel differs; None where all common samples are the same."""
     both = channel.samples
-    lacking = np.isnan(both.first) != np.isnan(both.second)
+    lacking = np.isfinite(both.first) != np.isfinite(both.second)
     if lacking.any() or not len(both.at):
         return _incomparable(channel, np.flatnonzero(lacking))
     worst = channel.worst
@@ -169,7 +170,7 @@ def _common(pair: Pair) -> list[str]:
 def _overlay(case_id: str, pair: Pair, chosen: Sequence[str] | None, tolerances: Tolerances) -> Overlay:
     common = _common(pair)
     names = default_channels(FIRST_DRAWN, common) if chosen is None else chosen
-    allowed = {name: allowed_of(name, pair[0], tolerances) for name in common if tolerances.names(name)}
+    allowed = {name: allowed_of(name, pair, tolerances) for name in common if tolerances.names(name)}
     return overlay_of(
         case_id,
         *pair,

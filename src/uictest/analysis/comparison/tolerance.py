@@ -17,7 +17,7 @@ _WRITTEN = re.compile(r"(?:(?P<name>[^=]+)=)?(?P<number>[\d.]+(?:[eE][+-]?\d+)?)
 class Tolerance(NamedTuple):
     """An allowance: the larger of `absolute` (in the unit of what is compared) and `relative` times a range.
 
-    The range is that of a channel in the first recording; for a single number its larger magnitude.
+    The range is the larger one that a channel has in two recordings; for single numbers the larger magnitude.
     """
 
     absolute: float

@@ -1,1 +1,1 @@
-from .together import StopsTogether as StopsTogether, stops_table as stops_table
+from .together import StopsTogether as StopsTogether

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Final, Literal, NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Literal, NamedTuple
 
 from uictest import report
+from uictest.analysis.logged_stops.stop_groups import LoggedStop
 from uictest.plans.scenario import Scenario
 from uictest.recorded import fitting
 from uictest.recorded.field_data import RecordedStop
-
-_LEAVES: Final = 0.04
-"""Share of a friction that one coefficient leaves at most (residual of the balances); chosen: on simulated
-rails it leaves 1 to 2 %, on those that sliding cleans 5 to 12 %."""
 
 
 class StopFriction(NamedTuple):
@@ -40,43 +37,31 @@ def friction_of(stop: RecordedStop, judged_under: Scenario) -> StopFriction:
     except fitting.FitError as error:
         return StopFriction("not seen", remark=str(error))
     (estimate,) = fit.friction
-    if estimate.standing == "found" and (left := fit.residual / estimate.value) > _LEAVES:
-        remark = (
-            f"one coefficient leaves {100.0 * left:.1f} % of it: sliding cleans the rail, it varies, or the"
-            " record is noisy"
-        )
-        return StopFriction("not one", remark=remark)
-    remark = "" if estimate.standing == "found" else "no wheelset slid long enough"
+    if estimate.standing == "found" and not fit.describes_rail:
+        return StopFriction("not one", remark=fit.remark)
+    remark = fit.remark if estimate.standing == "found" else "no wheelset slid long enough"
     standing = "not seen" if estimate.standing == "not reached" else estimate.standing
     return StopFriction(standing, estimate.value, estimate.half_width, remark)
 
 
-class StopOnRail(NamedTuple):
-    """A stop by name, its speed at the brake command, km/h, its place on the line, m, and its friction."""
-
-    stop: str
-    speed: float
-    place: float
-    friction: StopFriction
-
-
-def friction_table(stops: Sequence[StopOnRail]) -> report.CampaignTable:
-    """Return the friction stop by stop, with places where any is known."""
-    on_line = any(math.isfinite(each.place) for each in stops)
+def friction_table(
+    stops: Sequence[LoggedStop], frictions: Mapping[str, StopFriction]
+) -> report.CampaignTable:
+    """Return the friction stop by stop, with places where they are known."""
     columns = (
         report.CampaignColumn(report.STOPS, "stop"),
         report.CampaignColumn("speed_kmh", "from, km/h", 1),
-        *((report.CampaignColumn("place_m", "at, m", 0),) if on_line else ()),
+        report.CampaignColumn("place_m", "at, m", 0),
         report.CampaignColumn("standing", "friction"),
         report.CampaignColumn("friction", "coefficient", 4),
         report.CampaignColumn("half_width", "+-", 4),
         report.CampaignColumn("remark", "remark", wraps=True),
     )
-    rows = ((name, speed, *((place,) if on_line else ()), *own) for name, speed, place, own in stops)
+    rows = ((stop.result.id, stop.speed, stop.place, *frictions[stop.result.id]) for stop in stops)
     return report.CampaignTable(
         "friction",
         "Friction of the rail, stop by stop",
-        "As `uictest fit` finds it, one coefficient for the whole stop; 95 % confidence for the noise alone."
+        f"As `uictest fit` finds it, one coefficient for the whole stop; {fitting.COVERED}."
         " Not one: no single coefficient describes the stop.",
         "detail",
         columns,

@@ -36,12 +36,14 @@ class LoggedStop:
         speed: at the brake command, km/h.
         dry: whether it is judged as one on a dry rail.
         case: that it was judged as.
+        place: recorded distance at the brake command, m.
     """
 
     result: CaseResult
     speed: float
     dry: bool
     case: Case
+    place: float = math.nan
 
     @property
     def nominal(self) -> float | None:
@@ -68,12 +70,8 @@ class LoggedStop:
     @property
     def distance(self) -> float:
         """The braking distance from the nominal speed at the same mean deceleration, m; NaN without one."""
-        measures = self.result.measures or {}
-        return (
-            self.to_nominal * float(measures.get("braking_distance_m", math.nan))
-            if self.grouped
-            else math.nan
-        )
+        distance = float((self.result.measures or {}).get("braking_distance_m", math.nan))
+        return self.to_nominal * distance if self.grouped else math.nan
 
 
 def dry_groups(stops: Sequence[LoggedStop]) -> dict[float, list[LoggedStop]]:

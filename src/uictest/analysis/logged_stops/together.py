@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Final
 
 from uictest import report
-from uictest.analysis.logged_stops.friction import StopOnRail, friction_of, friction_table
+from uictest.analysis.logged_stops.friction import StopFriction, friction_of, friction_table
 from uictest.analysis.logged_stops.stop_groups import (
     LoggedStop,
     dry_groups,
@@ -17,9 +16,10 @@ from uictest.analysis.logged_stops.stop_groups import (
     references,
 )
 from uictest.analysis.logged_stops.wet_stops import series_table, wet_series, wet_table
-from uictest.core.document import Cell, Data
+from uictest.analysis.logged_stops.worst_stops import event_row, ranked_rows, worst_table
+from uictest.core.document import Data
 from uictest.core.units import KILOMETRE_PER_HOUR
-from uictest.judging.evaluation import CaseResult, narrowest_margin
+from uictest.judging.evaluation import CaseResult
 from uictest.judging.series import SeriesResult
 from uictest.plans.scenario import Case
 from uictest.recorded import field_data, service_log
@@ -32,23 +32,29 @@ class StopsTogether:
     """What the stops of a log show together.
 
     Args:
-        passed_over: how many applications of the brake are no stops.
+        events: where the stops lie in the log, by name.
+        passed_over: applications of the brake that are no stops.
         vehicle_known: whether the conditions state vehicle and brake: without, nothing is said of the rail.
     """
 
-    def __init__(self, passed_over: int, *, vehicle_known: bool) -> None:
-        self._passed_over, self._vehicle_known = passed_over, vehicle_known
+    def __init__(
+        self,
+        events: Mapping[str, service_log.LoggedEvent],
+        passed_over: Sequence[service_log.LoggedEvent],
+        *,
+        vehicle_known: bool,
+    ) -> None:
+        self._events, self._passed_over, self._vehicle_known = events, passed_over, vehicle_known
         self._stops: list[LoggedStop] = []
-        self._on_rail: list[StopOnRail] = []
+        self._frictions: dict[str, StopFriction] = {}
 
     def add(self, case: Case, stop: field_data.RecordedStop, result: CaseResult) -> None:
         """Observe one judged stop."""
         speed = float(stop.recording["speed"][0]) / KILOMETRE_PER_HOUR
         dry = case.scenario.rail.condition.name == DRY
-        self._stops.append(LoggedStop(result, speed, dry, case))
+        self._stops.append(LoggedStop(result, speed, dry, case, stop.place))
         if self._vehicle_known:
-            friction = friction_of(stop, case.scenario)
-            self._on_rail.append(StopOnRail(case.id, speed, stop.place, friction))
+            self._frictions[result.id] = friction_of(stop, case.scenario)
 
     def campaign(self, results: Sequence[CaseResult]) -> report.Campaign:
         """Return what the stops observed show together; `results` are those of all."""
@@ -58,18 +64,25 @@ class StopsTogether:
         return report.Campaign(
             (*self._record_sentences(), *self._group_sentences(series), self._rail_sentence()),
             (
+                worst_table(ranked_rows(results, self._stops, self._events)),
                 dry_table(self._stops),
-                *((friction_table(self._on_rail),) if self._on_rail else ()),
+                *((friction_table(self._stops, self._frictions),) if self._frictions else ()),
                 *((series_table(series),) if series else ()),
                 wet_table(self._stops, series),
             ),
         )
 
+    def stops_table(self, results: Sequence[CaseResult]) -> Data:
+        """Return the stops with their places in the log, the worst first, then what was passed over."""
+        ranked = ranked_rows(results, self._stops, self._events)
+        stops = [{"stop": row.pop(report.STOPS), **row} for row in ranked]
+        return Data.of([*stops, *map(event_row, self._passed_over)])
+
     @property
     def without_stop(self) -> str:
         """Why there is nothing to show, where no stop was found."""
         if self._passed_over:
-            applied = report.counted(self._passed_over, "application")
+            applied = report.counted(len(self._passed_over), "application")
             return f"no stop found: {applied} of the brake passed over, each with its reason"
         return "no stop found: by the channels of the map, the brake is never applied"
 
@@ -110,7 +123,7 @@ class StopsTogether:
     def _rail_sentence(self) -> str:
         if not self._vehicle_known:
             return "the rail is not examined: state vehicle and brake with --scenario"
-        frictions = [each.friction for each in self._on_rail]
+        frictions = self._frictions.values()
         found = [each.value for each in frictions if each.standing == "found"]
         seen = f"friction found in {len(found)} of {report.counted(len(frictions), 'stop')}"
         if several := sum(each.standing == "not one" for each in frictions):
@@ -118,38 +131,3 @@ class StopsTogether:
         if found:
             return f"{seen}: {min(found):.3f} to {max(found):.3f}"
         return f"{seen}: {'; '.join(dict.fromkeys(each.remark for each in frictions))}"
-
-
-def stops_table(
-    stops: Mapping[str, service_log.LoggedEvent],
-    passed_over: Sequence[service_log.LoggedEvent],
-    ranked: Sequence[CaseResult],
-    places: Mapping[str, float],
-) -> Data:
-    """Return where in a log its stops lie, the worst first, and then every other application of the brake.
-
-    `stops` are by name, `ranked` their results; `places` are recorded distances at the brake command, m.
-    """
-    rows: list[dict[str, Cell]] = []
-    for result in ranked:
-        margin, criterion = narrowest_margin(result)
-        percent = None if margin is None else round(100.0 * margin, 1)
-        verdict = {"stop": result.id, "outcome": result.outcome, "narrowest_margin_percent": percent}
-        rows.append({**verdict, "criterion": criterion, **_row(stops[result.id], places[result.id])})
-    columns = "stop", "outcome", "narrowest_margin_percent", "criterion"
-    rows += [dict.fromkeys(columns) | _row(event) for event in passed_over]
-    return Data.of(rows)
-
-
-def _row(event: service_log.LoggedEvent, place: float = math.nan) -> dict[str, Cell]:
-    return {
-        "file": str(event.file),
-        "sample": event.row + 1,
-        "time_s": event.time,
-        "distance_m": round(event.distance, 1),
-        "place_m": round(place, 1),
-        "speed_kmh": round(event.speed / KILOMETRE_PER_HOUR, 2),
-        "end_speed_kmh": round(event.end_speed / KILOMETRE_PER_HOUR, 2),
-        "reason": event.reason,
-        "remarks": "; ".join(event.remarks),
-    }

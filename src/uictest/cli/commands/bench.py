@@ -11,7 +11,7 @@ from uictest import runs
 from uictest.cli.options import argument, option, trusted_folders
 from uictest.cli.output import ExitCode, data, message
 from uictest.cli.progress import compilation_shown
-from uictest.core import recording
+from uictest.core import files, recording
 from uictest.core.recording import formats
 from uictest.plans import scenario
 from uictest.plans.scenario import yaml
@@ -104,8 +104,7 @@ def _writer(target: Path) -> Callable[[recording.Recording, Path], object]:
     """Return the function that writes a recording to a file of this name. Raises InvalidInputError."""
     if target.suffix.lower() not in _FORMATS:
         raise runs.InvalidInputError(f"{target}: write a .parquet or a .csv file")
-    if not target.parent.is_dir():
-        raise runs.InvalidInputError(f"{target}: there is no folder {target.parent}")
+    files.require_place(target)
     return formats.writer_of(_FORMATS[target.suffix.lower()])
 
 

@@ -64,6 +64,8 @@ def check(
     inputs. Exit code 1: it misses a check; 3: it crashed, hung or raised.
     """
     file = options.junit_file(junit, Path())
+    if page is not None:
+        files.require_place(page)
     subject = _subject(reference, class_name, settings or (), time_limit, trusted or ())
     examined = conformance.examined(subject)
     if page is not None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -14,11 +16,19 @@ from uictest.cli.earlier_runs import keep_newest, named_paths
 from uictest.cli.options import option
 from uictest.cli.output import ExitCode, data, message, of_run
 from uictest.core import recording
+from uictest.core.files import write_to
 from uictest.core.recording import formats
 from uictest.recorded import field_data
 from uictest.running import campaign
 
 Listing = Annotated[bool, option("--list", "List the channels of the files and the channel map that fits.")]
+NewMap = Annotated[
+    Path | None,
+    option(
+        "--write-map MAP",
+        "Write a channel map for FILE to the new file MAP: what is certain, what is guessed.",
+    ),
+]
 ScenarioFile = Annotated[
     Path | None,
     option("--scenario FILE", "Scenario with the test conditions and the criteria."),
@@ -30,6 +40,7 @@ def evaluate(
     files: recordings.Files,
     map_name: recordings.MapName = "uictest",
     listing: Listing = False,
+    new_map: NewMap = None,
     scenario: ScenarioFile = None,
     expression: options.Expression = None,
     overrides: options.Overrides = None,
@@ -53,10 +64,12 @@ def evaluate(
     named = named_paths(*files, scenario, junit)
     junit = options.junit_file(junit, output)
     if any(map(runs.is_series, files)):
-        runs.require_nothing_stated((listing, scenario, expression, trigger), "--set")
+        runs.require_nothing_stated((listing, new_map, scenario, expression, trigger), "--set")
         stops = runs.stops_of_series(files, overrides, trusted)
     else:
         mapped, inputs = recordings.channel_map(map_name, trusted, trigger)
+        if new_map is not None:
+            return _write_map(files, mapped, new_map)
         if listing:
             return _list(files, mapped)
         case_of = _case_of_stop(scenario, expression, overrides or (), trusted)
@@ -103,21 +116,27 @@ def _write_preparation(files: Sequence[runs.RecordedFile]) -> None:
 
 
 def _list(files: Sequence[Path], mapped: field_data.ChannelMap) -> ExitCode:
-    read = runs.each_file(files, lambda path: formats.read_contents(path, mapped.dialect))
-    for path, contents in zip(files, read, strict=True):
+    for path, contents in zip(files, _contents(files, mapped), strict=True):
         data(report.printable(str(path)))
         for row in field_data.channel_rows(contents):
             data("  " + "\t".join(report.printable(cell) for cell in row))
         for key, text in contents.metadata.items():
             data(f"  # {report.printable(key)}: {report.printable(text)}")
-        for line in _proposal(contents, mapped.dialect):
+        for line in _proposal(contents):
             data(line)
     return ExitCode.MET
 
 
-def _proposal(contents: recording.Contents, dialect: formats.Dialect) -> Iterator[str]:
+def _contents(files: Sequence[Path], mapped: field_data.ChannelMap) -> list[recording.Contents]:
+    """Return the contents of files whose dialect is found out where that of the map does not read them."""
+    dialect = replace(mapped.dialect, by_itself=True)
+    return runs.each_file(files, lambda path: formats.read_contents(path, dialect))
+
+
+def _proposal(contents: recording.Contents) -> Iterator[str]:
     """Yield the preset that fits, or a proposed map if none fits or it fits only in part."""
-    preset = field_data.fitting_preset(contents) if dialect == formats.Dialect() else None
+    usual = contents.dialect in (None, formats.Dialect())
+    preset = field_data.fitting_preset(contents) if usual else None
     partly = field_data.lacks_speeds(contents)
     for remark in field_data.remarks(contents):
         yield f"# {report.printable(remark)}"
@@ -126,5 +145,23 @@ def _proposal(contents: recording.Contents, dialect: formats.Dialect) -> Iterato
     yield (
         f"the preset {preset} fits (--map {preset})"
         if preset and not partly
-        else field_data.proposed_map(contents, dialect)
+        else field_data.proposed_map(contents)
     )
+
+
+def _write_map(files: Sequence[Path], mapped: field_data.ChannelMap, new_map: Path) -> ExitCode:
+    """Write a complete map of a file. Raises InvalidInputError where `new_map` exists or is none of YAML."""
+    if len(files) > 1:
+        raise runs.InvalidInputError("--write-map: name one FILE, which the map is for")
+    if new_map.suffix not in (".yaml", ".yml"):
+        raise runs.InvalidInputError(f"--write-map {new_map}: a channel map is a .yaml file")
+    if os.path.lexists(new_map):
+        raise runs.InvalidInputError(f"--write-map {new_map}: exists; name a new file")
+    [contents] = _contents(files, mapped)
+    text = field_data.proposed_map(contents, new_map.stem)
+    remarks = "".join(f"# {report.printable(remark)}\n" for remark in field_data.remarks(contents))
+    heading = f"# Channel map for {report.printable(files[0].name)}: check what is marked as guessed."
+    write_to(new_map, f"{heading}\n{text}\n{remarks}".encode())
+    guesses = sum("# guessed" in line for line in text.splitlines())
+    data(f"{report.printable(str(new_map))}: {guesses} guessed, see the file; judge with --map")
+    return ExitCode.MET

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -13,8 +14,7 @@ from uictest import __version__, runs
 from uictest.cli.options import option
 from uictest.cli.output import ExitCode, data
 from uictest.cli.recordings import Files
-from uictest.core import recording
-from uictest.core.files import make_folder
+from uictest.core import files as file_system, recording
 from uictest.core.recording import formats as file_formats
 
 _BY_SUFFIX: Final = {each.suffix.removeprefix("."): name for name, each in file_formats.FORMATS.items()}
@@ -41,11 +41,10 @@ def export(
     targets = _targets(files, formats or [], output)
     _reject_overwriting(list(targets.values()), force=force)
     recordings = dict(zip(files, runs.each_file(files, _recording), strict=True))
-    for folder in {target.parent for target in targets.values()}:
-        make_folder(folder)
     for (path, name), target in targets.items():
-        write = partial(file_formats.writer_of(name), recordings[path], target)
-        runs.each_file([path], lambda _, write=write: write())  # type: ignore[misc]
+        encode = partial(file_formats.encoded, recordings[path], name)
+        [content] = runs.each_file([path], lambda _, encode=encode: encode())  # type: ignore[misc]
+        file_system.write_all({target: content})
         data(str(target))
     return ExitCode.MET
 
@@ -53,7 +52,7 @@ def export(
 def _targets(files: Sequence[Path], formats: Sequence[str], output: Path) -> dict[tuple[Path, str], Path]:
     """Return the file for each recording and format. Raises typer.BadParameter where none is named."""
     names, of_suffix = _formats(formats), _BY_SUFFIX.get(output.suffix.lower().removeprefix("."))
-    if of_suffix is not None and not output.is_dir() and names in ([], [of_suffix]):
+    if of_suffix is not None and not os.path.isdir(output) and names in ([], [of_suffix]):  # noqa: PTH112 - no error
         if len(files) > 1:
             reason = f"{output} is one file for {len(files)} recordings; name a folder, and formats with --to"
             raise typer.BadParameter(reason, param_hint="-o")
@@ -84,7 +83,7 @@ def _reject_overwriting(targets: Sequence[Path], *, force: bool) -> None:
     twice = sorted({str(target) for target in targets if targets.count(target) > 1})
     if twice:
         raise runs.InvalidInputError(f"several recordings would be written to {', '.join(twice)}")
-    there = [str(target) for target in targets if target.exists()]
+    there = [str(target) for target in targets if os.path.lexists(target)]
     if there and not force:
         raise runs.InvalidInputError(f"already there: {', '.join(there)}; --force replaces them")
 

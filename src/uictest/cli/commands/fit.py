@@ -24,7 +24,6 @@ from uictest.recorded import field_data, fitting
 
 _RECORD_EVERY = 0.01
 """s"""
-_CONFIDENCE = "the confidence covers the noise, not the calibration of sensors, masses or brake"
 
 RecordedStopFile = Annotated[Path, argument("FILE", "Recording of the stop.", show_default=False)]
 ScenarioFile = Annotated[
@@ -107,7 +106,8 @@ def _places(texts: Sequence[str]) -> list[float]:
 
 
 def _lines(fit: fitting.Fit) -> list[str]:
-    return [*map(str, fit.estimates), f"residual {fit.residual:.4f} of the wheel load; {_CONFIDENCE}"]
+    left = f"residual {fit.residual:.4f} of the wheel load; {fitting.COVERED}"
+    return [*map(str, fit.estimates), left, *filter(None, [fit.remark])]
 
 
 def _publish(fitted: _FittedStop, arguments: Sequence[str], output: Path) -> Path:

@@ -279,8 +279,7 @@ def _date() -> str:
 
 def _write(output: Path, record: Path, text: str) -> None:
     """Write a compensation file. Raises InvalidInputError for numbers that no compensation can have."""
-    if not output.parent.is_dir():
-        raise runs.InvalidInputError(f"{output}: there is no folder {output.parent}")
+    files.require_place(output)
     if output.exists() and output.samefile(record):
         raise runs.InvalidInputError(f"--output {output} is the recording itself: name another file")
     try:

@@ -109,13 +109,11 @@ def _write_controller(folder: Path, language: templates.Language, *build: str) -
 def _write_new(texts: Mapping[Path, str], schemas: Mapping[Path, str] | None = None) -> None:
     """Write files that do not exist yet, and schemas, which are replaced.
 
-    Raises InvalidInputError, and writes nothing, where one of the files exists.
+    Raises InvalidInputError where one of the files exists, WriteError; then none is written.
     """
     existing = [path for path in texts if os.path.lexists(path)]
     if existing:
         raise runs.InvalidInputError(f"already there: {', '.join(map(str, existing))}")
     written = {**texts, **(schemas or {})}
-    for path, text in written.items():
-        files.make_folder(path.parent)
-        files.write_to(path, text)
+    files.write_all(written)
     message(f"uictest: wrote {', '.join(map(str, written))}")

@@ -125,8 +125,8 @@ def _difference(
 
 
 def _channels(name: str, trusted: Sequence[Path] = ()) -> list[tuple[str, ...]]:
-    channels = field_data.load_map(name, trusted)[0].channels
-    return [(channel, ", ".join(source.source), source.unit) for channel, source in channels.items()]
+    channels = field_data.load_map(name, trusted)[0].channels.items()
+    return [(channel, ", ".join(source.source), source.unit) for channel, source in channels if source]
 
 
 def _part(folder: str, name: str, trusted: Sequence[Path] = ()) -> yaml.Part:

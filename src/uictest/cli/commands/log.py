@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -91,15 +91,14 @@ def log(
         )
     request = campaign.RecordingRequest("all")
     passed_over = [_sentence(event) for event in found.passed_over]
-    together = logged_stops.StopsTogether(len(passed_over), vehicle_known=known)
+    together = logged_stops.StopsTogether(named, found.passed_over, vehicle_known=known)
     batch = runs.recorded_batch(stops, context.obj, request, strict=strict, observe=together.add)
     batch = batch._replace(passed_over=passed_over, together=together.campaign)
     display = run_display.chosen_display(shown, quiet=quiet, verbose=verbose)
     published = run_display.publish_and_show(batch, output, ("html",), junit, display)
     if published is None:
         return ExitCode.INTERRUPTED
-    places = {file.name: math.nan if file.stop is None else file.stop.place for file in stops.files}
-    table = logged_stops.stops_table(named, found.passed_over, published.content.ranked, places)
+    table = together.stops_table(published.content.results)
     file_system.write(published.place, "stops.csv", report.csv_text(*table))
     if not named:
         message(f"uictest: {together.without_stop}")
@@ -173,7 +172,8 @@ def _stops(
     place: Path,
 ) -> tuple[service_log.Log, dict[Path, str]]:
     """Find and write the stops. Raises InvalidInputError where a file cannot be read."""
-    if inside := next((path for path in paths if path.resolve().is_relative_to(place.resolve())), None):
+    real = os.path.realpath(place)
+    if inside := next((path for path in paths if path.resolve().is_relative_to(real)), None):
         raise runs.InvalidInputError(
             f"{inside}: lies in {place}, which the stops replace: name another folder with --recordings"
         )
@@ -184,6 +184,8 @@ def _stops(
         raise runs.InvalidInputError(str(error)) from error
     except (file_system.ForeignFileError, file_system.FolderInUseError) as error:
         raise runs.InvalidInputError(_not_replaced(place, error)) from error
+    except (file_system.WriteError, formats.ReadingInterruptedError):
+        raise  # no errors of the recordings
     except OSError as error:
         raise runs.InvalidInputError(f"{error.filename}: {error.strerror or error}") from error
 
@@ -202,7 +204,7 @@ def _canonical(mapped: field_data.ChannelMap) -> field_data.ChannelMap:
     """
     names = ("time", *field_data.CHANNEL_UNITS)
     channels = {name: field_data.ChannelSource(source=(name,)) for name in names}
-    return mapped.model_copy(update={"channels": channels}).triggered_by("auto")
+    return mapped.model_copy(update={"channels": channels, "time": None}).triggered_by("auto")
 
 
 def _write_events(found: service_log.Log) -> None:
@@ -220,4 +222,5 @@ def _sentence(event: service_log.LoggedEvent) -> str:
 
 
 def _place(event: service_log.LoggedEvent) -> str:
-    return f"{event.file} at {event.time:.12g} s (sample {event.row + 1}, {event.distance:.0f} m)"
+    time = service_log.clock_text(event.time)
+    return f"{event.file} at {time} (sample {event.row + 1}, {event.distance:.0f} m)"

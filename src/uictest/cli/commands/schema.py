@@ -68,11 +68,9 @@ def schema(kind: Kind = None, everything: Folder = None) -> ExitCode:
 
 
 def _write_all(folder: Path) -> list[Path]:
-    """Write the schema of every kind, and return the paths. Raises OSError, InvalidInputError."""
+    """Write the schema of every kind, and return the paths. Raises WriteError, InvalidInputError."""
     texts = schemas_below(folder, *SchemaKind)
-    files.make_folder(folder)
-    for path, text in texts.items():
-        files.write_to(path, text)
+    files.write_all(texts)
     return list(texts)
 
 

@@ -1,12 +1,12 @@
 """Controllers in C: a shared library with the functions of ``uictest_controller.h``."""
 
 import ctypes
-import hashlib
+import platform
 from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
-from uictest.controllers.adapters.errors import ControllerError
+from uictest.controllers.adapters.errors import ControllerError, unchanged_content
 from uictest.controllers.adapters.instance import ControllerInstance, checked_contract, reject_undeclared
 from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import WHEELSETS, Config
@@ -96,14 +96,18 @@ def _loaded(location: str, sha256: str) -> Any:
     path = Path(location)
     if _LOADED.get(location, sha256) != sha256:  # the system's loader would return the one that it has
         raise ControllerError(f"{path.name} was built anew: this process has loaded it before; start another")
-    _require_unchanged(path, sha256)
+    content = unchanged_content(path, sha256)
     try:
         library: Any = ctypes.CDLL(location)
     except OSError as error:
         reason = str(error).replace(location, path.name)  # without the folders of this machine
+        if content.startswith(b"MZ"):
+            reason = (
+                f"it is built for Windows, expected a library for {platform.system()} {platform.machine()}"
+            )
         raise ControllerError(f"{path.name} cannot be loaded: {reason}") from error
     _LOADED[location] = sha256
-    _require_unchanged(path, sha256)  # nothing else was loaded meanwhile
+    unchanged_content(path, sha256)  # nothing else was loaded meanwhile
     missing = [f"uictest_{name}" for name in _FUNCTIONS if not hasattr(library, f"uictest_{name}")]
     if missing:
         raise ControllerError(f"{path.name} does not export {', '.join(missing)}")
@@ -113,11 +117,6 @@ def _loaded(location: str, sha256: str) -> Any:
     # Asked once: what it is given, and what is recorded, is of the version that was checked.
     library.contract = checked_contract(library.uictest_abi_version(), f"{path.name} has ABI version")
     return library
-
-
-def _require_unchanged(path: Path, sha256: str) -> None:
-    if hashlib.sha256(path.read_bytes()).hexdigest() != sha256:
-        raise ControllerError(f"{path.name} has changed since the scenario was read")
 
 
 def _stated_text(library: Any, name: str) -> str | None:

@@ -3,6 +3,7 @@
 import ctypes
 import json
 import math
+import sys
 import traceback
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -57,6 +58,7 @@ class ControllerInstance(ABC):
         declares: the JSON in which it declares its parameters, empty if it does not.
         contract: version of the contract that it keeps.
         runs_beside_others: whether its step is machine code, and others of its kind may be open meanwhile.
+        failed: whether its step has failed though it may not have said so.
         step_address: address of a function like `uictest_step`.
         handle: first argument of that function.
     """
@@ -65,6 +67,7 @@ class ControllerInstance(ABC):
     declares: str = ""
     contract: int = 1
     runs_beside_others: bool = False
+    failed: bool = False
     step_address: int
     handle: int = 0
 
@@ -92,6 +95,9 @@ class CallbackInstance(ControllerInstance):
         self._callback = STEP(self._step)
         self.step_address = ctypes.cast(self._callback, ctypes.c_void_p).value or 0
         self._error = ""
+        if sys.unraisablehook is not _note_lost:
+            _other_hook[:] = [sys.unraisablehook]
+            sys.unraisablehook = _note_lost
 
     def last_error(self) -> str:
         """Return what the last step raised."""
@@ -102,13 +108,29 @@ class CallbackInstance(ControllerInstance):
         """Decide on the coming cycle: read the inputs at one address, write the outputs to the other."""
 
     def _step(self, handle: int | None, inputs: int, outputs: int) -> int:
-        # An exception must not leave a callback: ctypes would print it and answer 0.
+        # An exception must not leave a callback: ctypes would tell the hook below and answer anything.
         try:
-            self.answer(inputs, outputs)
+            if not self.failed:
+                self.answer(inputs, outputs)
         except BaseException as error:
-            self._error = f"{reason_of(error)}{_place_of(error)}"
-            return 1
-        return 0
+            self.note(error)
+        return int(self.failed)
+
+    def note(self, error: BaseException) -> None:
+        """Keep why a step failed; no later one succeeds."""
+        self.failed, self._error = True, f"{reason_of(error)}{_place_of(error)}"
+
+
+_other_hook: Final = [sys.unraisablehook]
+
+
+def _note_lost(lost: Any) -> None:
+    """Let a controller fail whose callback was left by an exception: a signal may come at its entry."""
+    controller = getattr(lost.object, "__self__", None)
+    if isinstance(controller, CallbackInstance):
+        controller.note(lost.exc_value)
+    else:
+        _other_hook[0](lost)
 
 
 class CalledInstance(CallbackInstance):
@@ -283,9 +305,15 @@ def stated_declarations(text: str) -> dict[str, StatedDeclaration]:
     """Return the declarations in the JSON of a program. Raises ControllerError where they are none."""
     try:
         stated = {str(name): StatedDeclaration(**each) for name, each in json.loads(text).items()}
-        for low, high in (each.range for each in stated.values() if each.range is not None):
-            float(low), float(high)  # raise what is no number
+        for name, each in stated.items():
+            low, high = map(float, each.range or (0.0, 0.0))
+            if not low <= high:
+                raise ValueError(f"the range of {name} is {low:g} to {high:g}")
+            defaults = {} if each.default is None else {name: each.default}
+            for problem in parameter_problems({name: each}, defaults):
+                raise ValueError(f"the default of {name}: {problem}")
         return stated
-    except (ValueError, TypeError, AttributeError) as error:
+    except (ValueError, TypeError, AttributeError, RecursionError) as error:
         form = '{"NAME": {"default": 1.0, "unit": "s", "range": [0, 2]}}'
-        raise ControllerError(f"its parameters are not of the form {form}: {error}") from None
+        reason = "nested too deeply" if isinstance(error, RecursionError) else error
+        raise ControllerError(f"its parameters are not of the form {form}: {reason}") from None

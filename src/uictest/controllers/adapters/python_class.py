@@ -1,6 +1,5 @@
 """Controllers written in Python: a class in a file."""
 
-import hashlib
 import importlib.util
 import sys
 from collections.abc import Iterator
@@ -10,7 +9,7 @@ from threading import Lock
 from types import ModuleType
 from typing import Any, Final
 
-from uictest.controllers.adapters.errors import ControllerError
+from uictest.controllers.adapters.errors import ControllerError, unchanged_content
 from uictest.controllers.adapters.instance import CalledInstance, checked_contract, reason_of
 from uictest.controllers.declared import ControllerProgram
 from uictest.controllers.interface import Config, Inputs, Outputs
@@ -104,9 +103,7 @@ def object_of(kind: type, config: Config, version: str) -> PythonInstance:
 def _loaded(location: str, sha256: str) -> ModuleType:
     """Return the module of a file; its own folder is searched for what it imports."""
     path = Path(location)
-    content = path.read_bytes()
-    if hashlib.sha256(content).hexdigest() != sha256:
-        raise ControllerError(f"{path.name} has changed since the scenario was read")
+    content = unchanged_content(path, sha256)
     # dataclasses look a class's module up by its name; a file called json.py takes no other's place.
     name = location if path.stem in sys.modules else path.stem
     spec = importlib.util.spec_from_file_location(name, path)

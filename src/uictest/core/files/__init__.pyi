@@ -10,6 +10,7 @@ from .run_folder import (
     replaced_folder as replaced_folder,
 )
 from .writing import (
+    WriteError as WriteError,
     append as append,
     make_folder as make_folder,
     new_file as new_file,
@@ -17,7 +18,10 @@ from .writing import (
     remove as remove,
     remove_partial_files as remove_partial_files,
     remove_temporary_folder as remove_temporary_folder,
+    require_place as require_place,
     temporary_folder as temporary_folder,
     write as write,
+    write_all as write_all,
     write_to as write_to,
+    writing as writing,
 )

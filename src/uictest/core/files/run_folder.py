@@ -29,7 +29,7 @@ from uictest.core.files.listing import (
     remove_contents,
 )
 from uictest.core.files.lock import LOCK, FolderInUseError, FolderLock
-from uictest.core.files.writing import make_folder
+from uictest.core.files.writing import WriteError, make_folder, remove_empty, writing
 
 LATEST: Final = "latest"
 _LONGEST_NAME: Final = 255
@@ -49,7 +49,7 @@ class RunFolder:
         name: the name of the run.
 
     Raises:
-        OSError: the folder cannot be made.
+        WriteError: the folder cannot be made.
     """
 
     def __init__(self, parent: Path, name: str) -> None:
@@ -57,7 +57,7 @@ class RunFolder:
         self._wanted = name
         self._published = False
         self._made_parents = make_folder(parent)
-        with ExitStack() as held:
+        with writing(parent), ExitStack() as held:
             held.callback(self._remove_made_parents)
             self._place = held.enter_context(opened(parent))
             _remove_abandoned(parent, self._place)
@@ -76,6 +76,9 @@ class RunFolder:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        if isinstance(error, WriteError) and Path(error.filename).is_relative_to(self.path):
+            inside = Path(error.filename).relative_to(self.path)
+            error.filename = str(self._parent / self._wanted / inside)  # nobody knows the hidden name
         self._held.close()
 
     @property
@@ -84,11 +87,12 @@ class RunFolder:
         return self._name
 
     def publish(self, name: str = "") -> Path:
-        """Give the folder its name, or another one, and return where it stands now. Raises OSError."""
+        """Give the folder its name, or another one, and return where it stands now. Raises WriteError."""
         names = itertools.chain(
             [name or self._name], _names(self._wanted)
         )  # somebody may have taken it meanwhile
-        self._name = next(name for name in names if _renamed(self._place, self._hidden, name))
+        with writing(self._parent / self._name):
+            self._name = next(name for name in names if _renamed(self._place, self._hidden, name))
         self._published = True
         self.path = self._parent / self._name
         return self.path
@@ -103,11 +107,8 @@ class RunFolder:
                 os.rmdir(self._hidden, dir_fd=self._place)
 
     def _remove_made_parents(self) -> None:
-        # Innermost first. A folder that contains other files by now is kept, and so are its parents.
         if not self._published:
-            with suppress(OSError):
-                for folder in reversed(self._made_parents):
-                    folder.rmdir()
+            remove_empty(self._made_parents)
 
 
 class ForeignFileError(Exception):
@@ -148,11 +149,11 @@ def replaced_folder(folder: Path) -> Iterator[Path]:
     Raises:
         ForeignFileError: `folder` holds something else than listed files as they were written; it stays.
         FolderInUseError: another process works in it.
-        OSError: it cannot be written or removed.
+        WriteError: it cannot be written or replaced.
 
     """
-    folder = folder.resolve()
-    with suppress(FileNotFoundError, NotADirectoryError), opened(folder) as place:
+    named, folder = folder, Path(os.path.realpath(folder))
+    with writing(named), suppress(FileNotFoundError), opened(folder) as place:
         foreign = [*foreign_paths(place, LOCK)] if names_in(place) else []
         if foreign:  # what lies there says more than a missing list
             raise ForeignFileError(next((each for each in foreign if each != LIST), LIST))
@@ -161,7 +162,8 @@ def replaced_folder(folder: Path) -> Iterator[Path]:
         with suppress(OSError):  # it is missing, or holds something
             folder.rmdir()
         if os.path.lexists(folder):
-            remove_run(folder.parent, folder.name, lambda: new.publish(folder.name))
+            with writing(named):
+                remove_run(folder.parent, folder.name, lambda: new.publish(folder.name))
         else:
             new.publish(folder.name)
 
@@ -232,9 +234,9 @@ def _renamed(place: int, old: str, new: str) -> bool:
 def point_latest(run: Path) -> str:
     """Let `latest`, next to the run folder, name it; it is replaced atomically.
 
-    Returns why it was left as it is, where somebody else's file has this name; else nothing. Raises OSError.
+    Returns why it was left as it is: somebody else's file has this name; else nothing. Raises WriteError.
     """
-    with opened(run.parent) as place:
+    with writing(run.parent / LATEST), opened(run.parent) as place:
         if exists(place, LATEST) and not is_link(place, LATEST) and not _named_in_text(place):
             return f"{run.parent / LATEST} was not written by uictest: it is left as it is"
         temporary = partial_name()

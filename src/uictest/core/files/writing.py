@@ -2,21 +2,45 @@
 
 from __future__ import annotations
 
-import contextlib
 import errno
 import os
 import shutil
 import stat
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path, PurePath
 from typing import BinaryIO
 
 from uictest.core.files.listing import add_to_list, is_partial, names_in, opened, partial_name
 
 
-@contextlib.contextmanager
+class WriteError(OSError):
+    """A file or folder that cannot be written: `filename`. Its text says so, with the reason."""
+
+    def __str__(self) -> str:
+        return f"cannot write {self.filename}: {self.strerror}"
+
+
+@contextmanager
+def writing(target: Path, *, only_about: Collection[object] = ()) -> Iterator[None]:
+    """Let an error of the system be a WriteError of what the user named, or of a file in it.
+
+    With `only_about`, names of files or None, an error about anything else is left as it is.
+    """
+    try:
+        yield
+    except WriteError:
+        raise
+    except OSError as error:
+        if only_about and (error.errno is None or error.filename not in only_about):
+            raise
+        inside = error.filename and Path(error.filename).is_relative_to(target)
+        place = error.filename if inside else target
+        raise WriteError(error.errno, error.strerror or str(error), str(place)) from error
+
+
+@contextmanager
 def new_file(folder: Path, name: str, *, private: bool = False, listed: bool = True) -> Iterator[BinaryIO]:
     """Lend a file to write, which appears as `folder/name` if the block succeeds.
 
@@ -30,12 +54,13 @@ def new_file(folder: Path, name: str, *, private: bool = False, listed: bool = T
         listed: whether it is added to the list of the folder, where there is one.
 
     Raises:
-        OSError: the folder is missing, full or not writable; it names `folder/name`.
+        WriteError: the folder is missing, full or not writable.
 
     """
     below, last, temporary = str(PurePath(name).parent), PurePath(name).name, partial_name()
+    about = (None, temporary, folder, str(folder), *PurePath(name).parts, name)
     with (
-        _errors_about(folder, name, temporary),
+        writing(folder / name, only_about=about),
         _made_folders(folder, below),
         opened(folder, below, make=True) as place,
     ):
@@ -54,14 +79,14 @@ def new_file(folder: Path, name: str, *, private: bool = False, listed: bool = T
                 add_to_list(folder, name, descriptor)
             os.replace(temporary, last, src_dir_fd=place, dst_dir_fd=place)
         except BaseException:
-            with contextlib.suppress(OSError):
+            with suppress(OSError):
                 os.unlink(temporary, dir_fd=place)
             raise
         finally:
             os.close(descriptor)
 
 
-@contextlib.contextmanager
+@contextmanager
 def _made_folders(folder: Path, below: str) -> Iterator[None]:
     """Remove the folders down to `below` that the block has made, should it raise."""
     names = [str(each) for each in (PurePath(below), *PurePath(below).parents) if str(each) != "."]
@@ -69,7 +94,7 @@ def _made_folders(folder: Path, below: str) -> Iterator[None]:
     try:
         yield
     except BaseException:
-        with contextlib.suppress(OSError), opened(folder) as place:
+        with suppress(OSError), opened(folder) as place:
             for name in missing:
                 os.rmdir(name, dir_fd=place)
         raise
@@ -77,7 +102,7 @@ def _made_folders(folder: Path, below: str) -> Iterator[None]:
 
 def _require_replaceable(place: int, name: str) -> None:
     """Raise FileExistsError for a device or a pipe: a rename would put a file in the place of `/dev/null`."""
-    with contextlib.suppress(FileNotFoundError):
+    with suppress(FileNotFoundError):
         mode = os.lstat(name, dir_fd=place).st_mode
         if not (stat.S_ISREG(mode) or stat.S_ISLNK(mode) or stat.S_ISDIR(mode)):
             raise FileExistsError(errno.EEXIST, "no file, and not replaced by one", name)
@@ -86,7 +111,7 @@ def _require_replaceable(place: int, name: str) -> None:
 def write(
     folder: Path, name: str, content: bytes | str, *, private: bool = False, listed: bool = True
 ) -> None:
-    """Write a file as `new_file` does: bytes, or a text as UTF-8 with its line ends. Raises OSError."""
+    """Write a file as `new_file` does: bytes, or a text as UTF-8 with its line ends. Raises WriteError."""
     with new_file(folder, name, private=private, listed=listed) as file:
         file.write(content if isinstance(content, bytes) else content.encode("utf-8"))
 
@@ -94,11 +119,34 @@ def write(
 def write_to(path: Path, content: bytes | str) -> None:
     """Write a file that the user named; no list of its folder gets it.
 
-    Raises OSError, also for a link: `/dev/stdout` is one, and a rename would put a file in its place.
+    Raises WriteError, also for a link: `/dev/stdout` is one, and a rename would put a file in its place.
     """
-    if path.is_symlink():
-        raise FileExistsError(errno.EEXIST, "is a link, and not replaced by a file", str(path))
+    with writing(path):
+        if path.is_symlink():
+            raise FileExistsError(errno.EEXIST, "is a link, and not replaced by a file")
     write(path.parent, path.name, content, listed=False)
+
+
+def write_all(contents: Mapping[Path, bytes | str]) -> None:
+    """Write files that the user named, and make their folders.
+
+    Raises WriteError where one cannot be written; what was new of those before it is removed.
+    """
+    with ExitStack() as undo:
+        for path, content in contents.items():
+            undo.callback(remove_empty, make_folder(path.parent, target=path))
+            is_new = not os.path.lexists(path)
+            write_to(path, content)
+            if is_new:
+                undo.callback(path.unlink, missing_ok=True)
+        undo.pop_all()
+
+
+def require_place(path: Path) -> None:
+    """Raise WriteError where a file that the user named cannot be: beside a folder, or in place of one."""
+    with writing(path), opened(path.parent):
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
 
 
 def append(path: Path, text: str) -> None:
@@ -107,22 +155,30 @@ def append(path: Path, text: str) -> None:
         file.write(text)
 
 
-def make_folder(folder: Path, mode: int = 0o777) -> list[Path]:
+def make_folder(folder: Path, mode: int = 0o777, *, target: Path | None = None) -> list[Path]:
     """Make a folder that the user named, and return those that were missing, outermost first.
 
-    Raises OSError.
+    Raises WriteError of it, or of the `target` that it is made for.
     """
-    missing = [place for place in (folder, *folder.parents) if not place.exists()][::-1]
-    for place in missing:
-        place.mkdir(mode, exist_ok=True)
-    if not missing and not folder.is_dir():
-        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(folder))
+    with writing(target or folder):
+        missing = [place for place in (folder, *folder.parents) if not place.exists()][::-1]
+        for place in missing:
+            place.mkdir(mode, exist_ok=True)
+        if not folder.is_dir():
+            raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
     return missing
+
+
+def remove_empty(folders: Sequence[Path]) -> None:
+    """Remove folders that were made, outermost first, down to one that contains other files by now."""
+    with suppress(OSError):
+        for folder in reversed(folders):
+            folder.rmdir()
 
 
 def remove(folder: Path, name: str) -> None:
     """Remove a file of uictest, which its name tells, below a folder that the user named. Raises OSError."""
-    with opened(folder, str(PurePath(name).parent)) as place, contextlib.suppress(FileNotFoundError):
+    with opened(folder, str(PurePath(name).parent)) as place, suppress(FileNotFoundError):
         os.unlink(PurePath(name).name, dir_fd=place)
 
 
@@ -132,18 +188,6 @@ def remove_partial_files(folder: Path, below: str = "") -> None:
         for name in names_in(place):
             if is_partial(place, name):
                 os.unlink(name, dir_fd=place)
-
-
-@contextlib.contextmanager
-def _errors_about(folder: Path, name: str, temporary: str) -> Iterator[None]:
-    """Name the file that was to be written in errors about it or its folder, and in those that name none."""
-    try:
-        yield
-    except OSError as error:
-        about = (None, temporary, str(folder), *PurePath(name).parts, name)
-        if error.errno is None or (error.filename not in about and error.filename != folder):
-            raise
-        raise OSError(error.errno, error.strerror, str(folder / name)) from error
 
 
 @contextmanager

@@ -1,5 +1,7 @@
 """Functions of compiled code: of vectors, where each lane gets what scalar code computes; by addresses."""
 
+import platform
+from collections.abc import Callable
 from typing import Any
 
 from llvmlite import ir
@@ -124,17 +126,40 @@ def record_at(layout: Any) -> Any:
 
 @in_compiled_code
 def call(typing: Any, function: Any, first: Any, second: Any, third: Any) -> Any:
-    """Call a C function of three pointers by its address; it returns a whole number of 32 bits."""
+    """Call a C function of three pointers by its address; it returns a whole number of 32 bits.
+
+    The modes of floating point, such as the rounding mode, are afterwards as they were before.
+    """
     if not all(isinstance(kind, types.Integer) for kind in (function, first, second, third)):
         return None
 
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         kind = ir.FunctionType(ir.IntType(32), [_POINTER] * 3)
         pointers = [builder.inttoptr(each, _POINTER) for each in args[1:]]
+        put_back = _keep_modes(builder)
         status = builder.call(builder.inttoptr(args[0], kind.as_pointer()), pointers)
+        put_back()
         return builder.sext(status, ir.IntType(64))
 
     return types.int64(types.int64, types.int64, types.int64, types.int64), lower
+
+
+def _keep_modes(builder: Any) -> Callable[[], object]:
+    """Emit what reads the control register of floating point; return what emits its restoration."""
+
+    def call_llvm_of(name: str, result: Any, *values: Any) -> Any:
+        kind = ir.FunctionType(result, [each.type for each in values])
+        return builder.call(builder.module.declare_intrinsic(name, (), kind), values)
+
+    machine = platform.machine().lower()
+    if machine in ("aarch64", "arm64"):
+        modes = call_llvm_of("llvm.aarch64.get.fpcr", ir.IntType(64))
+        return lambda: call_llvm_of("llvm.aarch64.set.fpcr", ir.VoidType(), modes)
+    if machine in ("x86_64", "amd64"):
+        modes = builder.bitcast(local_variable(builder, ir.IntType(32)), _POINTER)
+        call_llvm_of("llvm.x86.sse.stmxcsr", ir.VoidType(), modes)
+        return lambda: call_llvm_of("llvm.x86.sse.ldmxcsr", ir.VoidType(), modes)
+    return lambda: None  # who calls it puts them back after the stop
 
 
 @in_compiled_code

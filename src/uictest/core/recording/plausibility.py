@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.core.recording.instants import usual_interval
 from uictest.core.units import BAR, KILOMETRE_PER_HOUR
 
 Array = NDArray[np.float64]
@@ -47,6 +49,8 @@ LARGEST: Final = MappingProxyType(
 SHORTEST_INTERVAL: Final = Limit(1e-5, "0.01 ms")
 LONGEST_INTERVAL: Final = Limit(5.0, "5 s")
 """Between two samples; chosen. A raster coarser than a second shows no slide."""
+_USUAL_INTERVAL: Final = 0.01
+"""s: of several units that are plausible, the one whose interval comes closest is the likeliest; chosen."""
 LONGEST_RECORD: Final = Limit(86_400.0, "one day")
 FEW: Final = 0.1
 """Share of samples beyond the largest that may be faults; more say that the unit is wrong; chosen."""
@@ -69,7 +73,7 @@ def implausible_unit(
         samples: as SI, converted from `unit`.
         si: the SI unit.
         unit: the stated unit of the samples; a key of `sizes`.
-        sizes: unit -> its size in SI.
+        sizes: unit -> its size in SI, the likelier first.
         faulty: share of samples that may be beyond the largest for other reasons.
 
     """
@@ -77,8 +81,7 @@ def implausible_unit(
     if limit is None or not len(numbers) or np.mean(numbers > limit.value) <= faulty:
         return None
     largest = float(numbers.max())
-    fitting = [each for each, size in sizes.items() if largest / sizes[unit] * size <= limit.value]
-    likely = max(fitting, key=lambda each: sizes[each], default="")
+    likely = next((each for each, size in sizes.items() if largest / sizes[unit] * size <= limit.value), "")
     return Implausible(
         f"reaches {largest / sizes[unit]:.4g} {unit}; at most {limit.text} is plausible", likely
     )
@@ -94,8 +97,9 @@ def implausible_time(
     rising = len(time) > 1 and bool(np.isfinite(time).all()) and bool((time[1:] > time[:-1]).all())
     if not rising or _plausible(time, 1.0, longest):
         return None
-    likely = next((each for each, size in sizes.items() if _plausible(time, size / sizes[unit], longest)), "")
-    first, last, step = time[0] / sizes[unit], time[-1] / sizes[unit], _interval(time) / sizes[unit]
+    fitting = [each for each, size in sizes.items() if _plausible(time, size / sizes[unit], longest)]
+    first, last, step = time[0] / sizes[unit], time[-1] / sizes[unit], usual_interval(time) / sizes[unit]
+    likely = min(fitting, key=lambda each: abs(math.log(step * sizes[each] / _USUAL_INTERVAL)), default="")
     return Implausible(
         f"runs from {first:.6g} to {last:.6g} {unit} with a sample every {step:.4g} {unit};"
         f" {SHORTEST_INTERVAL.text} to {LONGEST_INTERVAL.text} between samples and at most"
@@ -105,12 +109,8 @@ def implausible_time(
 
 
 def _plausible(time: Array, factor: float, longest: float) -> bool:
-    interval, duration = _interval(time) * factor, float(time[-1] - time[0]) * factor
+    interval, duration = usual_interval(time) * factor, float(time[-1] - time[0]) * factor
     return SHORTEST_INTERVAL.value <= interval <= LONGEST_INTERVAL.value and duration <= longest
-
-
-def _interval(time: Array) -> float:
-    return float(np.median(np.diff(time)))
 
 
 STATES: Final = MappingProxyType(
@@ -133,3 +133,8 @@ def state_kind(channel: str) -> str | None:
     """Return the kind of state of a canonical channel; None for a signal."""
     kind = _WHEELSET_SUFFIX.sub("", channel)
     return kind if kind in STATES else None
+
+
+def states_of(channel: str) -> Mapping[str, int]:
+    """Return the names of the states of a canonical channel and their numbers; empty for bits and signals."""
+    return STATES.get(state_kind(channel) or "", {})

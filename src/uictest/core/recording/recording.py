@@ -12,11 +12,14 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.recording.formats import UnreadableError, required_module
+from uictest.core.recording.formats import Cells, UnreadableError, required_module, seconds_of
+from uictest.core.recording.plausibility import states_of
 
 if TYPE_CHECKING:
     import pandas as pd
     import plotly.graph_objects as go
+
+    from uictest.core.recording.formats import Dialect
 
 
 def frame_of(
@@ -205,6 +208,8 @@ def _check_units(channels: dict[str, NDArray[Any]], units: dict[str, str]) -> No
         raise ValueError(f'{TIME!r} must be in "s", found {units[TIME]!r}')
 
 
+_TRUTH: Final = {"True": 1, "TRUE": 1, "true": 1, "False": 0, "FALSE": 0, "false": 0}
+"""Names that programs give to two states."""
 Samples = NDArray[Any]
 """One-dimensional: 64-bit floats, or texts where a channel holds the names of states."""
 
@@ -218,7 +223,10 @@ class Group:
         channels: name in the file -> samples, all equally long, in any order and of any value.
         units: name -> unit as the file writes it; channels without a unit are missing.
         time: the time axis in seconds, if the format has its own; else it is one of the channels.
-        first_texts: name of a channel that holds texts among numbers -> place of the first text in the file.
+        numbers: name of a channel of texts -> its samples that are numbers, NaN elsewhere; its texts are
+            empty there.
+        first_texts: name of a channel that holds texts among numbers -> text -> its first place in the file.
+        first_row: of the samples of this piece, counted from zero in the file.
 
     """
 
@@ -226,7 +234,9 @@ class Group:
     channels: dict[str, Samples]
     units: dict[str, str] = field(default_factory=dict)
     time: NDArray[Any] | None = None
-    first_texts: dict[str, str] = field(default_factory=dict)
+    numbers: dict[str, NDArray[np.float64]] = field(default_factory=dict)
+    first_texts: dict[str, dict[str, str]] = field(default_factory=dict)
+    first_row: int = 0
 
     def __len__(self) -> int:
         """Return the number of samples."""
@@ -237,28 +247,27 @@ class Group:
 class Contents:
     """The groups of a file and its metadata, as text.
 
-    `skipped` maps items that are not channels (texts, images, structures) to the reason why they are skipped.
+    `skipped` maps items that are not channels (texts, images, structures) to the reason why they are skipped;
+    `dialect` is the one by which a text table was read, `guesses` says why a setting of it is a guess.
     """
 
     groups: tuple[Group, ...]
     metadata: dict[str, str] = field(default_factory=dict)
     skipped: dict[str, str] = field(default_factory=dict)
+    dialect: Dialect | None = None
+    guesses: dict[str, str] = field(default_factory=dict)
 
 
 def recording_of(contents: Contents, metadata: Mapping[str, str]) -> Recording:
     """Return the contents of a file of one group with a time axis in seconds as a recording.
 
-    `metadata` is added to that of the file. Raises UnreadableError for several rasters, no time, texts, or
-    channels without a unit.
+    `metadata` is added to that of the file, and names of states are their numbers. Raises UnreadableError for
+    several rasters, no time, other texts, or channels without a unit.
     """
     if len(contents.groups) != 1:
         raise UnreadableError(f"{len(contents.groups)} rasters; a recording has one")
     group = contents.groups[0]
-    channels = {name: np.asarray(samples) for name, samples in group.channels.items() if name != TIME}
-    for name, samples in channels.items():
-        if samples.dtype.kind == "U":
-            place = f", the first in {group.first_texts[name]}" if name in group.first_texts else ""
-            raise UnreadableError(f"channel {name!r} contains texts{place}; a recording contains numbers")
+    channels = {name: _numbers(group, name) for name in group.channels if name != TIME}
     try:
         return Recording(
             {TIME: _time(group), **channels},
@@ -269,9 +278,45 @@ def recording_of(contents: Contents, metadata: Mapping[str, str]) -> Recording:
         raise UnreadableError(f"not a recording: {error}") from error
 
 
+def numbers_of(
+    group: Group, name: str, states: Mapping[str, int], cells: Cells | None = None
+) -> tuple[NDArray[Any], list[str]]:
+    """Return the samples of a channel with texts as the numbers of `states`, and other texts, which are NaN.
+
+    `cells` reads numbers that are texts in formats other than text.
+    """
+    texts, numbers = np.asarray(group.channels[name]), group.numbers.get(name)
+    if texts.dtype.kind == "U" and numbers is None:
+        column = (cells or Cells()).column(texts)
+        texts, numbers = column.samples, column.numbers
+    if texts.dtype.kind != "U" or numbers is None:
+        return texts, []
+    states = {**_TRUTH, **states} if states else states
+    distinct, places = np.unique(texts, return_inverse=True)
+    of_states = np.array([states.get(text, np.nan) for text in distinct.tolist()], dtype=np.float64)
+    strange = {text for text in distinct.tolist() if text and text not in states}
+    in_order = [text for text in group.first_texts.get(name, {}) if text in strange]
+    return np.where(np.isnan(numbers), of_states[places], numbers), in_order or sorted(strange)
+
+
+def _numbers(group: Group, name: str) -> NDArray[Any]:
+    """Return the samples of a channel, states as their numbers. Raises UnreadableError for other texts."""
+    samples, strange = numbers_of(group, name, states_of(name))
+    if strange:
+        place = group.first_texts.get(name, {}).get(strange[0], "")
+        accepted = ", ".join(("numbers", *states_of(name)))
+        where = f", the first in {place}" if place else ""
+        raise UnreadableError(f"channel {name!r} contains texts{where}: {strange[0]!r}; accepted: {accepted}")
+    return samples
+
+
 def _time(group: Group) -> np.ndarray:
     if group.time is not None:
         return group.time
-    if TIME not in group.channels or group.units.get(TIME) != "s":
+    samples = group.channels.get(TIME, np.zeros(0))
+    if samples.dtype.kind == "U":
+        dates = seconds_of(samples, "")
+        return dates - dates[:1]
+    if group.units.get(TIME) != "s":
         raise UnreadableError(f"no channel {TIME!r} in seconds")
-    return group.channels[TIME]
+    return samples

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, Final
 
@@ -80,8 +80,9 @@ class CaseResult:
     was validated; None where nobody asked. `strict` says that the case is not met either where one of its
     verdicts is not settled. `firmness` says whether unmeasured numbers turn its verdicts, where that was
     asked. `train` says where a car ran in its train, `car` its mass and what follows, `rail` whether the rail
-    itself makes the stop a test, where the stop with the WSP active is none. The document has these, and
-    `repeats`, only where they hold something, never `duration`, seconds for progress and JUnit.
+    itself makes the stop a test, where the stop with the WSP active is none, `controller_log` the file below
+    the run with what the controller printed. The document has these, and `repeats`, only where they hold
+    something, never `duration`, seconds for progress and JUnit.
 
     A case that repeats its stop has its stops in `repeats`: `measures` and `wheelsets` are then medians over
     them, and `criteria` are verdicts over all of them. `case_sha256` is that of the first.
@@ -111,6 +112,7 @@ class CaseResult:
     train: CarInTrain | None = None
     rail: WrittenRailValidity | None = None
     car: WrittenCarFigures | None = None
+    controller_log: str = ""
     duration: Annotated[float, Field(exclude=True)] = field(default=0.0, compare=False)
 
     @property
@@ -197,7 +199,9 @@ class CaseResult:
         )
 
 
-def narrowest_margin(result: CaseResult) -> tuple[float | None, str]:
+def narrowest_margin(
+    result: CaseResult, layers: Collection[str] = ("validity", "requirement")
+) -> tuple[float | None, str]:
     """Return the smallest relative margin of a case and the id of its criterion; None and "" without any.
 
     Checks of the rig and of the record have no part in it.
@@ -205,7 +209,7 @@ def narrowest_margin(result: CaseResult) -> tuple[float | None, str]:
     margins = [
         (margin, verdict.id)
         for verdict in result.criteria
-        if not verdict.is_check and (margin := relative_margin(verdict)) is not None
+        if verdict.layer in layers and (margin := relative_margin(verdict)) is not None
     ]
     return min(margins, default=(None, ""))
 
@@ -213,7 +217,7 @@ def narrowest_margin(result: CaseResult) -> tuple[float | None, str]:
 _OF_SOME: Final = (
     *("response_times", "controller_version", "controller_contract", "case_sha256"),
     *("requirements", "test_case", "noise_key", "repeats", "domain_of_validity", "strict", "firmness"),
-    *("train", "car", "rail"),
+    *("train", "car", "rail", "controller_log"),
 )
 """Fields that the form of a result or a verdict has only where there is something in them."""
 

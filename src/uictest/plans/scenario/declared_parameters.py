@@ -5,12 +5,7 @@ description of an FMU. A library in C is asked once it runs.
 """
 
 import ast
-import io
-import lzma
-import zipfile
-import zlib
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import suppress
+from collections.abc import Iterator, Mapping
 from functools import partial
 from importlib.machinery import PathFinder
 from pathlib import Path
@@ -18,6 +13,7 @@ from typing import Any, Final
 
 from uictest.controllers import Problem, installed_module, nothing_declared, parameter_problems
 from uictest.plans.scenario.files import Files
+from uictest.plans.scenario.fmu_description import FmuDescription
 from uictest.plans.scenario.parts.external_controller import DeclaredParameter, ExternalController
 from uictest.plans.scenario.program_files import UNPARSABLE, assigned, read_program, texts_beginning_with
 from uictest.plans.scenario.yaml import (
@@ -47,8 +43,6 @@ from uictest.plans.scenario.yaml import (
 Declared = Mapping[str, DeclaredParameter]
 NAME: Final = "PARAMETERS"
 """What a Python file calls its declarations."""
-LARGEST_DESCRIPTION: Final = 64 * 1024 * 1024
-"""Bytes of the description of an FMU that are read; chosen: large models have some ten megabytes."""
 _HINT: Final = 'write {"NAME": {"default": 1.0, "unit": "s", "range": [0.0, 2.0]}}'
 _IN_PART: Final = "list them under `declared_parameters` of its part"
 
@@ -116,10 +110,10 @@ def _declared_by_program(controller: ExternalController, files: Files) -> Declar
 
 def _declared_in(path: Path, kind: str, files: Files) -> Declared | None:
     try:
-        content = read_program(files, kind, path).content
+        program = read_program(files, kind, path)
     except OSError:
         return None
-    read = partial(_of_python, path, content) if kind == "python" else partial(_of_fmu, content)
+    read = partial(_of_python, path, program.content) if kind == "python" else partial(_of_fmu, program.fmu)
     declared: Declared | None = files.once(f"parameters:{path}", read)
     return declared
 
@@ -174,34 +168,16 @@ def _tree(value: ast.expr, document: Document) -> Node:
         literal = ...
     if literal is None or isinstance(literal, str | int | float):
         return Scalar(literal, str(literal), place)
-    message = f"{quoted(ast.unparse(value))} is no literal: the file is read, not run"
+    written = ast.get_source_segment(document.text, value) or ""  # to unparse it may exceed the stack
+    message = f"{quoted(written)} is no literal: the file is read, not run"
     raise single_error(place, message, NAME, f"{_HINT}, or {_IN_PART}")
 
 
-_UNREADABLE: Final = (
-    *(OSError, RuntimeError, ValueError, LookupError, EOFError, SyntaxError),
-    *(zipfile.BadZipFile, zlib.error, lzma.LZMAError),
-)
-"""What a file raises that is no FMU; who loads it says so."""
-
-
-def _of_fmu(content: bytes) -> Declared | None:
+def _of_fmu(described: FmuDescription) -> Declared | None:
     """Return the parameters in the description of an FMU; None where it cannot be read."""
-    from xml.etree import ElementTree
-
-    try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            if archive.getinfo("modelDescription.xml").file_size > LARGEST_DESCRIPTION:
-                return None
-            root = ElementTree.fromstring(archive.read("modelDescription.xml"))
-    except _UNREADABLE:
+    if described.parameters is None:
         return None
-    types = {str(each.get("name")): each for each in root.iterfind("TypeDefinitions/*")}
-    return {
-        str(variable.get("name")): _of_variable(variable, types)
-        for variable in root.iterfind("ModelVariables/*")
-        if variable.get("causality") == "parameter"
-    }
+    return {name: _FmuParameter.model_construct(**each) for name, each in described.parameters.items()}
 
 
 class _FmuParameter(DeclaredParameter):
@@ -210,34 +186,3 @@ class _FmuParameter(DeclaredParameter):
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield nothing."""
         yield from ()
-
-
-def _of_variable(variable: Any, types: Mapping[str, Any]) -> DeclaredParameter:
-    """Return one parameter. FMI 2.0 has its type as an element inside, FMI 3.0 calls the element so."""
-    typed = next(iter(variable), variable) if variable.tag == "ScalarVariable" else variable
-    declared = types.get(typed.get("declaredType", ""))
-    attributes: dict[str, str] = {}
-    for element in (*([] if declared is None else (declared, *declared)), typed):
-        attributes.update(element.attrib)
-    default: Any = attributes.get("start")
-    limits = [attributes.get("min", "-inf"), attributes.get("max", "inf")]
-    if typed.tag == "Boolean":
-        default = None if default is None else default in ("true", "1")
-    elif typed.tag != "String":
-        default = next(_numbers([default]), None) if default else None
-    bounds = (
-        [*_numbers(limits)] if typed.tag not in ("Boolean", "String") and limits != ["-inf", "inf"] else []
-    )
-    return _FmuParameter.model_construct(
-        default=default,
-        unit=attributes.get("unit", ""),
-        range=(bounds[0], bounds[1]) if len(bounds) == len(limits) else None,
-        description=variable.get("description", ""),
-    )
-
-
-def _numbers(texts: Iterable[str]) -> Iterator[float]:
-    """Yield those texts that are one number; the start value of an array is several."""
-    for text in texts:
-        with suppress(ValueError):
-            yield float(text)

@@ -36,16 +36,14 @@ def json_schema() -> dict[str, Any]:
     vary = _schema_2020_of(Vary, "Vary")
     schema["definitions"] |= {**vary.pop("definitions"), "Vary": vary}
     described = schema["properties"]["vary"]["description"]
-    schema["properties"]["vary"] = {"$ref": f"{_DEFINITIONS}Vary", "description": described}
+    of_sweeps = [{"$ref": f"{_DEFINITIONS}Vary"}, {"type": "null"}]
+    schema["properties"]["vary"] = {"anyOf": of_sweeps, "description": described}
     cars = _schema_2020_of(tuple[TrainCar, ...], "train")
     schema["definitions"]["TrainCar"] = cars["definitions"]["TrainCar"]
     train = schema["properties"]["train"]
-    schema["properties"]["train"] = {
-        "type": "array",
-        "minItems": 1,
-        "items": {"$ref": f"{_DEFINITIONS}TrainCar"},
-        "description": train["description"],
-    }
+    listed = {"type": "array", "minItems": 1, "items": {"$ref": f"{_DEFINITIONS}TrainCar"}}
+    schema["properties"]["train"] = {**train, "anyOf": [listed, {"type": "null"}]}
+    schema["properties"]["extends"] |= {"anyOf": [{"type": "string"}]}  # to extend nothing is no value
     schema["required"] = ["schema", "name"]
     schema["anyOf"] = [{"required": ["extends"]}, {"required": ["initial_speed"]}]
     for section in ("Brake", "Rail", "Rig"):

@@ -8,6 +8,7 @@ from typing import Final, NamedTuple
 from uictest.plans.scenario.resolution import DOTTED_PART_KEYS
 from uictest.plans.scenario.yaml import (
     COMMAND_LINE,
+    DEEPEST,
     Diagnostic,
     Document,
     Entry,
@@ -18,6 +19,7 @@ from uictest.plans.scenario.yaml import (
     ScenarioErrors,
     Sequence as List,
     common_unit,
+    count_by_step,
     describe,
     parse,
     parse_decimal_quantity,
@@ -45,6 +47,8 @@ def with_value(tree: Map, key: str, value: Entry) -> Map:
         raise single_error(
             value.key, f"{quoted(key)} is not a key", hint="write names joined by dots: rail.friction"
         )
+    if len(elements) > DEEPEST:
+        raise single_error(value.key, f"a key of {len(elements)} names; at most {DEEPEST} are accepted")
     if elements[0] in FIXED:
         raise single_error(
             value.key, f"{quoted(elements[0])} belongs to the file and cannot vary from case to case", key
@@ -178,9 +182,9 @@ def _range(arguments: str, place: Place) -> list[str]:
         raise single_error(place, "not a range of numbers", hint=hint) from None
     if common_unit([first, last, step]) is None:
         raise single_error(place, "the three numbers of a range must have the same unit")
-    if step.number == 0 or (last.number - first.number) / step.number < 0:
+    count = count_by_step(first.number, last.number, step.number)
+    if count == 0:
         raise single_error(place, f"a step of {step} never leads from {first} to {last}")
-    count = int((last.number - first.number) / step.number) + 1
     if count > MOST_VALUES:
         raise single_error(place, f"a range of {count} values; at most {MOST_VALUES} are accepted")
     numbers = spaced_by_step(first.number, last.number, step.number)

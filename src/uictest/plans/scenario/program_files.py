@@ -2,18 +2,16 @@
 
 import ast
 import hashlib
-import io
 import re
-import zipfile
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from functools import partial
 from pathlib import Path, PurePosixPath
-from types import MappingProxyType
-from typing import Any, Final, NamedTuple, Self
+from typing import Final, NamedTuple, Self
 
 from uictest.controllers import installed_version, shown_version
 from uictest.plans.scenario.files import Files, nearest_file
+from uictest.plans.scenario.fmu_description import FmuDescription, read_description
 from uictest.plans.scenario.yaml import (
     Document,
     Map,
@@ -102,21 +100,8 @@ def assigned(name: str, statement: ast.stmt) -> ast.expr | None:
     return statement.value if named else None
 
 
-_FMU_DESCRIPTION: Final = "modelDescription.xml"
-_BEGINNING: Final = 65536
-"""Bytes of an FMU's description that are read: its first element states the version."""
-
-
-def stated_version(kind: str, content: bytes) -> str:
-    """Return the version that the file of a controller states, empty where it states none.
-
-    `kind` is the key that names the file: `__version__ = "..."` of a Python file is found in its text, that
-    of an FMU in its description. A library would have to be loaded.
-    """
-    return shown_version(_READERS[kind](content)) if kind in _READERS else ""
-
-
-def _of_python(content: bytes) -> str:
+def version_in(content: bytes) -> str:
+    """Return the version in the text of a Python file, empty where it states none."""
     for text in texts_beginning_with("__version__", content):
         with suppress(*UNPARSABLE):
             for statement in text.statements():
@@ -124,24 +109,6 @@ def _of_python(content: bytes) -> str:
                 if isinstance(value, ast.Constant) and isinstance(value.value, str):
                     return value.value
     return ""
-
-
-def _of_fmu(content: bytes) -> str:
-    from xml.etree.ElementTree import XMLPullParser
-
-    try:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive, archive.open(_FMU_DESCRIPTION) as file:
-            parser: Any = XMLPullParser(["start"])
-            parser.feed(file.read(_BEGINNING))
-            first = next(iter(parser.read_events()), None)
-            return "" if first is None else str(first[1].get("version", ""))
-    except Exception:  # a library that meets a damaged file may raise anything; who loads the FMU says so
-        return ""
-
-
-_READERS: Final[Mapping[str, Callable[[bytes], str]]] = MappingProxyType(
-    {"python": _of_python, "fmu": _of_fmu}
-)
 
 
 KIND_OF_ENDING: Final = {
@@ -177,7 +144,7 @@ def _program_file(node: Scalar, files: Files, key: str, kind: str) -> ProgramFil
         hint = nearest_file(path, "build it first, or mend the path: it starts at the folder of this file")
         raise single_error(node.place, f"no such file: {quoted(node.text)}", key, hint)
     try:
-        document, version, _ = read_program(files, kind, path)
+        document, version, *_ = read_program(files, kind, path)
     except OSError as error:
         raise unreadable_error(node.place, error) from None
     return ProgramFile(node.text, str(path.resolve()), document, version)
@@ -192,11 +159,15 @@ def version_stated_for(controller: Map, programs: Iterable[ProgramFile]) -> str:
 
 
 class ProgramText(NamedTuple):
-    """What the file of a program is, the version that it states, and its content where that is a text."""
+    """What the file of a program is, the version that it states, and its text or its description.
+
+    A library states nothing: it would have to be loaded.
+    """
 
     document: Document
     version: str
-    content: bytes
+    content: bytes = b""
+    fmu: FmuDescription = FmuDescription()
 
 
 def read_program(files: Files, kind: str, path: Path) -> ProgramText:
@@ -208,7 +179,10 @@ def read_program(files: Files, kind: str, path: Path) -> ProgramText:
 def _read(path: Path, kind: str) -> ProgramText:
     content = path.read_bytes()
     document = Document(display_name(path), path.parent, "", hashlib.sha256(content).hexdigest())
-    return ProgramText(document, stated_version(kind, content), b"" if kind == "library" else content)
+    if kind == "python":
+        return ProgramText(document, shown_version(version_in(content)), content)
+    described = read_description(path) if kind == "fmu" else FmuDescription()
+    return ProgramText(document, shown_version(described.version), fmu=described)
 
 
 def mapping_for(text: str) -> str:

@@ -46,26 +46,24 @@ _WRITE: Final = "write `train: [{vehicle: intercity-180, count: 4}]`"
 class TrainCar(Model):
     """Equal cars in a row; what is left out is that of the scenario."""
 
-    vehicle: Annotated[Vehicle, PartReference(Vehicle, PART_KEYS["vehicle",].default)] = field(
+    vehicle: Annotated[Vehicle, PartReference(Vehicle, PART_KEYS["vehicle",].default)] | None = optional(
         "The vehicle: a library name, a relative path or an inline mapping."
     )
     count: int = field("How many there are in a row.", default=1, ge=1, le=MOST_CARS, strict=True)
-    brake: Brake | None = optional("What their brakes have of their own.")
-    rig: Rig | None = optional("What their rigs have of their own.")
-    controller: Annotated[Controller, PartReference(Controller, PART_KEYS["controller",].default)] | None = (
-        optional("Their WSP controller.")
+    brake: Brake = optional("What their brakes have of their own.")
+    rig: Rig = optional("What their rigs have of their own.")
+    controller: Annotated[Controller, PartReference(Controller, PART_KEYS["controller",].default)] = optional(
+        "Their WSP controller."
     )
-    sanders: tuple[Sander, ...] | None = optional("Their sanders.")
-    faults: tuple[Fault, ...] | None = optional("Faults of these cars.")
-    criteria: (
-        Annotated[tuple[Criteria, ...], PartReference(Criteria, PART_KEYS["criteria",].default, several=True)]
-        | None
-    ) = optional("What these cars are judged by.")
-    measures: (
-        Annotated[MeasureDefinitions, PartReference(MeasureDefinitions, PART_KEYS["measures",].default)]
-        | None
-    ) = optional("Definitions of the measures.")
-    expect: Expect | None = optional("The expected outcome of these cars.")
+    sanders: tuple[Sander, ...] = optional("Their sanders.")
+    faults: tuple[Fault, ...] = optional("Faults of these cars.")
+    criteria: Annotated[
+        tuple[Criteria, ...], PartReference(Criteria, PART_KEYS["criteria",].default, several=True)
+    ] = optional("What these cars are judged by.")
+    measures: Annotated[
+        MeasureDefinitions, PartReference(MeasureDefinitions, PART_KEYS["measures",].default)
+    ] = optional("Definitions of the measures.")
+    expect: Expect = optional("The expected outcome of these cars.")
 
 
 def is_train(tree: Map) -> bool:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from math import prod
 from pathlib import Path
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from uictest.plans.scenario import Case, Files, Override, is_path, load_file
 from uictest.plans.scenario.yaml import (
@@ -102,6 +103,20 @@ def recorded_twice(read: Iterable[tuple[Recorded | None, Node]]) -> Iterator[Dia
                 message = f"{quoted(file.name)} is named twice"
                 yield diagnose(node.place, message, "recordings", "each recording is one stop")
             seen.add(file.resolve())
+
+
+MOST_STOPS: Final = 100_000
+"""Stops that the values under `set` make of all series of a file, at most; chosen."""
+
+
+def require_few(tree: Map, series: int) -> None:
+    """Raise ScenarioErrors where so many series have too many stops, counted before any scenario is read."""
+    lists = (tree.entries[role].node for role in ("dry", "wet"))
+    entries = (each for node in lists for each in (node.items if isinstance(node, List) else (node,)))
+    stops = sum(prod(len(each.values) for each in values_set_by(entry)) for entry in entries)
+    if (count := series * stops) > MOST_STOPS:
+        message = f"{count} stops ({series} series of {stops}); a file makes at most {MOST_STOPS}"
+        raise single_error(tree.entries["wet"].key, message, "wet", "list fewer values, or run several files")
 
 
 class ListedStops(NamedTuple):

@@ -59,14 +59,13 @@ from uictest.plans.series.listing import (
     read_entry,
     read_stops,
     recorded_twice,
+    require_few,
     values_set_by,
 )
 from uictest.plans.series.model import DEFAULT_CRITERIA, Recorded, Series, SeriesFile
 from uictest.plans.series.stops import StopReader
 
-_NOT_A_SERIES: Final = {
-    SCENARIO_SCHEMA: "give a scenario a file name that does not end in .series.yaml",
-}
+_NOT_A_SERIES: Final = {SCENARIO_SCHEMA: "give a scenario a file name that does not end in .series.yaml"}
 
 
 def load_series(
@@ -95,6 +94,7 @@ def load_series(
     common = [*values_set_by(tree, swept=False)]
     fixed = [each for each in of_command_line if len(each.values) == 1]
     variants = _variants(tree, of_command_line)
+    require_few(tree, len(variants))
     settings = [setting for variant in variants for setting in variant]
     labels = controller_labels(settings, Parts(files))
     short = short_keys(list(dict.fromkeys(setting.key for setting in settings)))
@@ -186,6 +186,7 @@ class RecordedStops(Model):
         "Whether numbers of the scenario were found with these recordings: they then show"
         " nothing, and are listed without being counted.",
         default=False,
+        strict=True,
     )
 
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from operator import attrgetter
 from typing import Final, NamedTuple
 
 from uictest.core.series_measures import Rail
 from uictest.plans import scenario as scenarios
-from uictest.plans.scenario import LONGEST, PASS, Case, Criteria, Expectation, Scenario
+from uictest.plans.scenario import LONGEST, PASS, Case, Criteria, Expectation
 from uictest.plans.scenario.yaml import (
     Diagnostic,
     Entry,
@@ -27,28 +28,16 @@ def _differences_of_trains(dry: Case, wet: Case) -> Iterator[str]:
     """Yield what must be the same in both stops, for every car of a train, and is not: keys, quoted."""
     for number, (one, other) in enumerate(zip(dry.cars, wet.cars, strict=True), start=1):
         of_car = "" if wet.train is None else f" of car {number}"
-        yield from (f"{quoted(key)}{of_car}" for key in _differences_of_cars(one.scenario, other.scenario))
+        for key in _OF_TRAIN:
+            if attrgetter(key)(one.scenario) != attrgetter(key)(other.scenario):
+                yield f"{quoted(key)}{of_car}"
 
 
-def _differences_of_cars(dry: Scenario, wet: Scenario) -> Iterator[str]:
-    dry_discs, wet_discs = dry.brake.initial_disc_temperature, wet.brake.initial_disc_temperature
-    for key, one, other in (
-        ("vehicle", dry.vehicle, wet.vehicle),
-        ("brake.command", dry.brake.command, wet.brake.command),
-        ("brake.position", dry.brake.position, wet.brake.position),
-        ("brake.transmission", dry.brake.transmission, wet.brake.transmission),
-        ("coupler", dry.coupler, wet.coupler),
-        ("brake.system", dry.brake.system, wet.brake.system),
-        ("brake.pad", dry.brake.pad, wet.brake.pad),
-        ("brake.disc_temperature", dry.brake.disc_temperature, wet.brake.disc_temperature),
-        ("brake.initial_disc_temperature", dry_discs, wet_discs),
-        ("faults", dry.faults, wet.faults),
-        ("rail.gradient", dry.rail.gradient, wet.rail.gradient),
-    ):
-        if one != other:
-            yield key
-
-
+_OF_TRAIN: Final = (
+    *("vehicle", "brake.command", "brake.position", "brake.transmission", "coupler", "brake.system"),
+    *("brake.pad", "brake.disc_temperature", "brake.initial_disc_temperature", "faults", "rail.gradient"),
+)
+"""Keys of a scenario at which a wet stop has what the dry one has."""
 _DECISIVE: Final = (
     *("vehicle", "coupler", "initial_speed", "brake", "rail", "rig", "controller", "sanders", "faults"),
     "simulation",
@@ -82,12 +71,9 @@ class StopReader(NamedTuple):
             except ScenarioErrors as errors:
                 diagnostics.extend(errors.diagnostics)
         if not diagnostics:
-            diagnostics.extend(_repeated(read))
-            diagnostics.extend(_not_to_standstill(read))
-            diagnostics.extend(_drawn_twice(read))
-            diagnostics.extend(recorded_twice((stop.recorded, entry.node) for stop, entry in read))
-            diagnostics.extend(_not_dry(read))
-            diagnostics.extend(_unmatched(read))
+            recordings = recorded_twice((stop.recorded, entry.node) for stop, entry in read)
+            diagnostics += [*_repeated(read), *_not_to_standstill(read), *_drawn_twice(read), *recordings]
+            diagnostics += [*_not_dry(read), *_unmatched(read)]
         if diagnostics:
             raise ScenarioErrors(in_reading_order(list(dict.fromkeys(diagnostics))))
         return (*(stop for stop, _ in read), *self._without_wsp([stop for stop, _ in read]))
@@ -173,14 +159,15 @@ def _not_to_standstill(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Di
 
 def _drawn_twice(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
     """Yield every stop that an earlier one runs as well: one draw would count as two."""
-    for number, (stop, entry) in enumerate(read):
-        for earlier, _ in read[:number]:
-            shared = sorted(_seeds(stop) & _seeds(earlier))
-            if shared and stop.role == earlier.role and _conditions(stop) == _conditions(earlier):
-                message = f"{quoted(stop.case.id)} is {quoted(earlier.case.id)} again with seed {shared[0]}"
-                advice = "take other seeds, or a larger `repeat` of one of them"
-                yield diagnose(entry.node.place, message, stop.role, advice)
-                break
+    drawn: dict[tuple[str, str], dict[int, PlannedStop]] = {}
+    for stop, entry in read:
+        earlier = drawn.setdefault((stop.role, repr(_conditions(stop))), {})
+        shared = next((seed for seed in _seeds(stop) if seed in earlier), None)
+        if shared is not None:
+            message = f"{quoted(stop.case.id)} is {quoted(earlier[shared].case.id)} again with seed {shared}"
+            advice = "take other seeds, or a larger `repeat` of one of them"
+            yield diagnose(entry.node.place, message, stop.role, advice)
+        earlier |= {seed: stop for seed in _seeds(stop) if seed not in earlier}
 
 
 def _not_dry(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
@@ -192,10 +179,10 @@ def _not_dry(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
             yield diagnose(entry.node.place, message, "dry", "the reference is a stop on dry rail")
 
 
-def _seeds(stop: PlannedStop) -> set[int]:
+def _seeds(stop: PlannedStop) -> range:
     """Return the seeds of a stop; none of a recorded one."""
     scenario = stop.case.scenario
-    return set() if stop.recorded else set(range(scenario.seed, scenario.seed + scenario.repeat))
+    return range(scenario.seed, scenario.seed + (0 if stop.recorded else scenario.repeat))
 
 
 def _conditions(stop: PlannedStop) -> list[object]:
@@ -205,15 +192,18 @@ def _conditions(stop: PlannedStop) -> list[object]:
 
 def _unmatched(read: Sequence[tuple[PlannedStop, Entry]]) -> Iterator[Diagnostic]:
     """Yield stops from a speed without its counterpart, and wet stops of another train than the dry ones."""
+    first: dict[str, dict[float, Case]] = {"dry": {}, "wet": {}}
+    for stop, _ in read:
+        first[stop.role].setdefault(stop.speed, stop.case)
     for stop, entry in read:
-        others = [each for each, _ in read if each.role != stop.role]
-        same_speed = [each for each in others if each.speed == stop.speed]
+        other = "wet" if stop.role == "dry" else "dry"
+        counterpart = first[other].get(stop.speed)
         shown = stop.case.scenario.initial_speed.text
-        if not same_speed:
-            message = f"no {'wet' if stop.role == 'dry' else 'dry'} stop from {shown}"
-            speeds = ", ".join(dict.fromkeys(each.case.scenario.initial_speed.text for each in others))
-            yield diagnose(entry.node.place, message, stop.role, f"there are such from {speeds}")
+        if counterpart is None:
+            speeds = ", ".join(each.scenario.initial_speed.text for each in first[other].values())
+            message, hint = f"no {other} stop from {shown}", f"there are such from {speeds}"
+            yield diagnose(entry.node.place, message, stop.role, hint)
         elif stop.role == "wet":
-            for key in _differences_of_trains(same_speed[0].case, stop.case):
+            for key in _differences_of_trains(counterpart, stop.case):
                 message = f"{quoted(stop.case.id)} and the dry stop from {shown} differ in {key}"
                 yield diagnose(entry.node.place, message, "wet", "the reference is of the same train")

@@ -50,11 +50,6 @@ def with_values(scenario: Scenario, settings: Mapping[str, Any]) -> Scenario:
     return changed
 
 
-def outermost_first(keys: Iterable[str]) -> list[str]:
-    """Return keys in an order in which a part comes before its parameters."""
-    return sorted(keys, key=lambda key: key.count("."))
-
-
 def value_at(scenario: Scenario, key: str) -> Any:
     """Return the value at a dotted key. Raises KeyError for an unknown key."""
     value: Any = scenario
@@ -210,7 +205,7 @@ class BaseCase(NamedTuple):
 
     def _tree_with(self, settings: Mapping[str, Entry]) -> Map:
         tree = self.tree
-        for key in outermost_first(settings):
+        for key in sorted(settings, key=lambda key: key.count(".")):  # a part before its parameters
             tree = with_value(tree, key, settings[key])
         return tree
 

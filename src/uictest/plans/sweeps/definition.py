@@ -37,6 +37,7 @@ from uictest.plans.scenario.yaml import (
     in_reading_order,
     quoted,
     single_error,
+    visible,
 )
 from uictest.plans.sweeps.base_case import (
     REPEAT_KEYS,
@@ -48,12 +49,8 @@ from uictest.plans.sweeps.base_case import (
     survey_on_command_line,
 )
 from uictest.plans.sweeps.column import ParameterValue
-from uictest.plans.sweeps.group_reader import GroupReader, range_node
-from uictest.plans.sweeps.plan import (
-    Group,
-    ListedGroup,
-    Plan,
-)
+from uictest.plans.sweeps.group_reader import GroupReader
+from uictest.plans.sweeps.plan import Group, ListedGroup, Plan
 from uictest.plans.sweeps.sweep_file import SweepFile, read_sweep_file
 
 MOST_CASES: Final = 100_000_000
@@ -92,7 +89,7 @@ def load_sweep(
         require_regular_step(file.base, survey)
         if file.base.case.train is not None:
             raise single_error(survey, "what the survey step does to trains is not known", TIME_STEP)
-    reader = GroupReader(file.base)
+    reader = GroupReader(file.base, file.vary.ranges or {})
     groups = _groups(file, sections, [each for each in parsed if len(each.values) > 1], reader)
     if survey is not None:
         reject_other_steps((key for group in groups for key in group.keys), survey)
@@ -120,7 +117,7 @@ def _expecting(compares_controllers: bool, scenario: Scenario) -> Scenario:
 
 
 _Axis = tuple[str, Mapping[str, Entry]]
-"""A section, and the lists in it that change together."""
+"""A section, and the lists in it that change together, or the range of one key, as written."""
 
 
 def _groups(
@@ -130,19 +127,24 @@ def _groups(
 
     `sections` are what the command line leaves of the file. Raises ScenarioErrors.
     """
-    axes = [*_axes(file, sections, swept)]
+    axes = [*_axes(sections, swept)]
     sample, requested = sections.get("sample"), file.vary.sample
     drawn = dict(_entries(sample, "parameters")) if isinstance(sample, Map) else {}
     diagnostics = [*_bad_keys(file, sections, [*axes, ("vary.sample", drawn)])]
     if diagnostics:
         raise ScenarioErrors(in_reading_order(diagnostics))
-    groups: list[Group | None] = [reader.listed(entries, section) for section, entries in axes]
-    if drawn and isinstance(sample, Map) and requested is not None:
+    if requested is not None:
         parameters = {key: each for key, each in requested.parameters.items() if key in drawn}
-        groups.append(reader.sampled(requested.model_copy(update={"parameters": parameters}), sample))
+        requested = requested.model_copy(update={"parameters": parameters}) if drawn else None
+    train = file.base.case.train
+    counts = {", ".join(entries): reader.count(entries, section) for section, entries in axes}
+    cars = 1 if train is None else len(train.scenarios)
+    _require_few(counts | {SAMPLE_NAME: requested.cases if requested else 1, "train": cars}, sections)
+    groups: list[Group | None] = [reader.listed(entries, section) for section, entries in axes]
+    if requested is not None and isinstance(sample, Map):
+        groups.append(reader.sampled(requested, sample))
     if reader.diagnostics:
         raise ScenarioErrors(in_reading_order(reader.diagnostics))
-    train = file.base.case.train
     if train is not None and requested is not None and requested.method == "saltelli":
         message = "sensitivities are of a car alone"
         raise single_error(sections.entries["sample"].key, message, "vary.sample", "take method: sobol")
@@ -150,10 +152,6 @@ def _groups(
         numbers = [str(number + 1) for number in range(len(train.scenarios))]
         groups.append(ListedGroup((CAR,), tuple((ParameterValue(*3 * (each,)),) for each in numbers)))
     complete = tuple(group for group in groups if group is not None)
-    size = prod(group.size for group in complete)
-    if size > MOST_CASES:
-        message = f"{size} cases; at most {MOST_CASES} are accepted"
-        raise single_error(sections.place, message, hint="draw a sample instead of every combination")
     longest_id = sum(map(_longest_label, complete)) + len(file.name) + 2
     if longest_id > LONGEST:
         message = f"case ids of up to {longest_id} characters; {LONGEST} are accepted"
@@ -161,16 +159,23 @@ def _groups(
     return complete
 
 
-def _axes(file: SweepFile, sections: Map, swept: Sequence[Override]) -> Iterator[_Axis]:
+def _axes(sections: Map, swept: Sequence[Override]) -> Iterator[_Axis]:
     for each in swept:
         yield "--set", {each.key: Entry(each.place, List(each.values, each.place))}
-    for key, entry in _entries(sections, "matrix"):
-        yield "vary.matrix", {key: entry}
-    for key, entry in _entries(sections, "ranges"):
-        values = (file.vary.ranges or {})[key]
-        yield "vary.ranges", {key: Entry(entry.key, range_node(values, entry.node))}
+    for section in ("matrix", "ranges"):
+        for key, entry in _entries(sections, section):
+            yield f"vary.{section}", {key: entry}
     if zipped := dict(_entries(sections, "zip")):
         yield "vary.zip", zipped
+
+
+def _require_few(counts: Mapping[str, int], sections: Map) -> None:
+    """Raise ScenarioErrors where combinations of so many values are too many cases."""
+    if (size := prod(counts.values())) > MOST_CASES:
+        factors = " x ".join(f"{count} of {visible(key)}" for key, count in counts.items() if count > 1)
+        message = f"{size} cases ({factors}); at most {MOST_CASES} are accepted"
+        hint = "list fewer values, or draw them all under `sample` in place of every combination"
+        raise single_error(sections.place, message, "vary", hint)
 
 
 def _bad_keys(file: SweepFile, sections: Map, axes: Sequence[_Axis]) -> Iterator[Diagnostic]:

@@ -6,14 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from operator import attrgetter
 from typing import Annotated, Any, Final, get_args
 
-from uictest.plans.scenario import (
-    Distribution,
-    Range,
-    Sample,
-    Setting,
-    controller_labels,
-    value_label,
-)
+from uictest.plans.scenario import Distribution, Range, Sample, Setting, controller_labels, value_label
 from uictest.plans.scenario.yaml import (
     Diagnostic,
     Document,
@@ -43,6 +36,8 @@ from uictest.plans.sweeps.base_case import BaseCase, inconsistencies, is_free, i
 from uictest.plans.sweeps.column import ParameterValue
 from uictest.plans.sweeps.plan import ListedGroup, ParameterDraw, SampledGroup
 
+OF_RANGES: Final = "vary.ranges"
+"""The section whose entries are ranges; those of all others are lists."""
 _OPTIONS: Final = ("--set", "--seed")
 """Names of documents that are options, where files have their paths."""
 _Column = tuple[str, Entry, Sequence[Node]]
@@ -55,15 +50,25 @@ _TEXT: Final[Callable[[ParameterValue], str]] = attrgetter("text")
 class GroupReader:
     """Reads groups of parameters for one base case, and collects errors instead of stopping at the first."""
 
-    def __init__(self, base: BaseCase) -> None:
+    def __init__(self, base: BaseCase, ranges: Mapping[str, Range]) -> None:
         self._base = base
+        self._ranges = ranges
         self.diagnostics: list[Diagnostic] = []
         self.documents: list[Document] = []
         self._labels: dict[int, str] = {}
 
+    def count(self, entries: Mapping[str, Entry], section: str) -> int:
+        """Return how many values each key of a section has, without making those of a range."""
+        key, entry = next(iter(entries.items()))
+        return self._ranges[key].size if section == OF_RANGES else len(items_of(entry.node))
+
     def listed(self, entries: Mapping[str, Entry], section: str) -> ListedGroup | None:
         """Return the group in which the given lists of a section change together; None if they cannot."""
-        columns = [(key, entry, items_of(entry.node)) for key, entry in entries.items()]
+        of_range = self._ranges if section == OF_RANGES else {}
+        columns = [
+            (key, entry, items_of(range_node(of_range[key], entry.node) if key in of_range else entry.node))
+            for key, entry in entries.items()
+        ]
         if not self._equally_long(columns, section):
             return None
         rows = self._rows(columns)
@@ -120,9 +125,7 @@ class GroupReader:
         self.diagnostics.extend(each._replace(message=each.message + others) for each in diagnostics[:1])
         self.diagnostics.extend(diagnostics[1:])
 
-    def _row(
-        self, row: Mapping[str, Entry], number: int, *, explained: bool = True
-    ) -> tuple[ParameterValue, ...]:
+    def _row(self, row: Mapping[str, Entry], number: int, *, explained: bool = True) -> _Row:
         """Return the values of a row. Raises ScenarioErrors, empty unless `explained`."""
         contents = self._plain_quantities(row, explained) or self._resolved(row)
         return tuple(

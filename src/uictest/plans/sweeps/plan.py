@@ -9,14 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from uictest.plans.scenario import (
-    CAR,
-    Case,
-    Distribution,
-    Method,
-    Scenario,
-    TrainPlace,
-)
+from uictest.plans.scenario import CAR, Case, Distribution, Method, Scenario, TrainPlace
 from uictest.plans.sweeps.base_case import SURVEY_STEP, TIME_STEP, with_values
 from uictest.plans.sweeps.column import Column, ParameterValue, drawn_column, listed_column
 

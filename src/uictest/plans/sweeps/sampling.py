@@ -126,19 +126,21 @@ def quantile(distribution: Distribution) -> Quantile:
     assert quantities is not None
     numbers = [float(quantity.number) for quantity in quantities]
     if distribution.log_uniform is not None:
-        return _log_uniform(*numbers)
-    return _triangular(*numbers) if distribution.triangular is not None else _uniform(*numbers)
+        return log_uniform(*numbers)
+    return _triangular(*numbers) if distribution.triangular is not None else uniform(*numbers)
 
 
 def _place(count: int) -> Quantile:
     return lambda probabilities: np.minimum(np.floor(probabilities * count), count - 1.0)
 
 
-def _uniform(low: float, high: float) -> Quantile:
+def uniform(low: float, high: float) -> Quantile:
+    """Return the quantile function of numbers that are equally likely."""
     return lambda probabilities: np.clip(low + probabilities * (high - low), low, high)
 
 
-def _log_uniform(low: float, high: float) -> Quantile:
+def log_uniform(low: float, high: float) -> Quantile:
+    """Return that of numbers whose logarithms are equally likely."""
     return lambda probabilities: np.clip(low * np.exp(probabilities * math.log(high / low)), low, high)
 
 

@@ -6,15 +6,9 @@ import hashlib
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
-from uictest.plans.scenario import (
-    LoadedCase,
-    Override,
-    Parts,
-    Vary,
-    load_with_trees,
-)
+from uictest.plans.scenario import LoadedCase, Override, Parts, Vary, load_with_trees
 from uictest.plans.scenario.yaml import (
     SCENARIO_SCHEMA,
     Map,
@@ -67,13 +61,15 @@ def read_sweep_file(path: Path, fixed: Sequence[Override], parts: Parts) -> Swee
     if (repeat := loaded.tree.entries.get("repeat")) is not None:
         _reject_repeats(loaded, repeat.node)
     _reject_ranges_in_lists(sections)
+    # In the order of the file: it is that of the cases.
+    content = json.dumps({**plain(tree), "vary": plain(sections)}, default=str)
     return SweepFile(
         name=scenario.name,
         title=scenario.title,
         base=BaseCase(loaded.case, loaded.tree, parts),
         vary=validated(Vary, plain(sections), sections, ("vary",)),
         tree=sections,
-        cases_sha256=_sha256({**plain(tree), "vary": plain(sections)}),
+        cases_sha256=hashlib.sha256(content.encode()).hexdigest(),
     )
 
 
@@ -98,8 +94,3 @@ def _reject_ranges_in_lists(sections: Map) -> None:
     ]
     if diagnostics:
         raise ScenarioErrors(diagnostics)
-
-
-def _sha256(content: dict[str, Any]) -> str:
-    # In the order of the file: it is that of the cases.
-    return hashlib.sha256(json.dumps(content, default=str).encode()).hexdigest()

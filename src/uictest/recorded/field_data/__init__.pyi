@@ -29,4 +29,5 @@ from .recorded_stop import (
     stop_in as stop_in,
 )
 from .support import REQUIRED_STATEMENTS as REQUIRED_STATEMENTS, stated_case as stated_case
-from .time_axis import Defect as Defect, resampled as resampled, usual_interval as usual_interval
+from .time_axis import Defect as Defect, at_own_rates as at_own_rates, resampled as resampled
+from .trigger import SHORTEST_APPLICATION as SHORTEST_APPLICATION

@@ -8,10 +8,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Annotated, Any, Final, Literal
 
-from pydantic import BeforeValidator, Field, ValidationError
+from pydantic import BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
+from uictest.core.recording import TIME
 from uictest.core.recording.formats import Dialect
-from uictest.core.units import recorded_spellings, recorded_unit_size
+from uictest.core.units import ROTATIONAL_SPEEDS, recorded_spellings, recorded_unit_size
 from uictest.plans import library
 from uictest.plans.scenario import Files, Roots, is_path, schema_of
 from uictest.plans.scenario.yaml import (
@@ -72,23 +73,66 @@ def _several(value: object) -> object:
 _NameOrNames = Annotated[str, Field(min_length=1)] | Annotated[tuple[str, ...], Field(min_length=1)]
 
 
+_SHORT_NAMES: Final = MappingProxyType({"header": "header_line", "units": "unit_line"})
+
+
+def _with_short_names(schema: dict[str, Any]) -> None:
+    properties = schema["properties"]
+    schema["properties"] = properties | {short: properties[name] for short, name in _SHORT_NAMES.items()}
+
+
 class ChannelSource(Model):
     """Where a channel comes from: value = sign (scale x sample + offset), in `unit`."""
 
     source: Annotated[
         tuple[str, ...],
         BeforeValidator(_several, json_schema_input_type=_NameOrNames),
-        Field(min_length=1),
-    ] = field("Name in the file, or a list of names: the first one present is used; also group/name.")
+    ] = field(
+        "Name in the file, or a list of names: the first one present is used; also group/name. Of `time`,"
+        " columns of a date and a clock.",
+        default=(),
+    )
     unit: str = field("Unit of the value; the file's own if left out.", default="")
     scale: float = field("Factor on every sample.", default=1.0, allow_inf_nan=False)
     offset: float = field("Added after scaling, in `unit`.", default=0.0, allow_inf_nan=False)
     sign: Literal[1, -1] = field("-1 if the file has the opposite sign.", default=1)
     states: dict[str, int] = field("Name of a state in the file -> its number.", default={})
+    wheel_radius: Annotated[Quantity, of_kind("length", "50 mm .. 1 m")] | None = optional(
+        "Of a speed in rpm: radius of the wheel that turns."
+    )
+    interval: Annotated[Quantity, of_kind("time", "0.01 ms .. 5 s")] | None = optional(
+        "Of `time`, in place of `source`: sampling interval of a file without a column of times."
+    )
+
+
+def _inconsistencies(place: tuple[str, ...], source: ChannelSource) -> Iterator[Inconsistency]:
+    name = place[-1]
+    of_first = name.replace(NUMBER, str(WHEELSETS[0]))
+    if of_first not in CHANNEL_UNITS:
+        known = dict.fromkeys(canonical.replace("_1", f"_{NUMBER}") for canonical in CHANNEL_UNITS)
+        yield Inconsistency(place, f"unknown channel {quoted(name)}", suggestion(name, known))
+        return
+    si = CHANNEL_UNITS[of_first]
+    rotates = si == "m/s" and source.unit in ROTATIONAL_SPEEDS
+    if source.unit and not rotates and recorded_unit_size(source.unit, si) is None:
+        accepted = "accepted: " + ", ".join(recorded_spellings(si))
+        yield Inconsistency((*place, "unit"), f"{quoted(source.unit)} is not a unit of {name}", accepted)
+    if not source.source and source.interval is None:
+        wanted = "source: NAME, or interval: 20 ms" if name == TIME else "source: NAME"
+        yield Inconsistency(place, f"{name}: no source", f"write {wanted}")
+    if source.interval is not None and name != TIME:
+        yield Inconsistency((*place, "interval"), "interval: of `time` alone", "it holds for every channel")
+    if source.wheel_radius is not None and si != "m/s":
+        yield Inconsistency((*place, "wheel_radius"), f"wheel_radius: {name} is no speed")
+
+
+_NOT_READ: Final = ChannelSource(source=("",))
 
 
 class DialectSection(Model):
     """How a text file writes its table; lines are counted from one."""
+
+    model_config = ConfigDict(json_schema_extra=_with_short_names)
 
     delimiter: str = field("Between two cells.", default=",", min_length=1, max_length=1)
     decimal: Literal[".", ","] = field("Before decimals.", default=".")
@@ -97,6 +141,21 @@ class DialectSection(Model):
     unit_line: int = field("Line of the units; 0: detected, or none.", default=0, ge=0, le=10_000)
     first_line: int = field("First line of samples; 0: the next.", default=0, ge=0, le=10_000)
     encoding: str = field("Encoding of the text.", default="utf-8", max_length=40)
+    dates: str = field(
+        'How dates or clocks are written, as in "%d.%m.%Y %H:%M:%S.%f"; empty: as ISO 8601.',
+        default="",
+        max_length=100,
+    )
+    missing: Annotated[tuple[str, ...], Field(max_length=100)] = field(
+        "Marks of missing samples, besides the usual ones.", default=()
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_short_names(cls, section: Any) -> Any:
+        if not isinstance(section, Mapping):
+            return section
+        return {_SHORT_NAMES.get(key, key): value for key, value in section.items()}
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield an unknown encoding, and a separator that is also the decimal sign."""
@@ -153,41 +212,38 @@ class ChannelMap(Model):
     schema_id: Literal["uictest/channel-map/1"] = field("What the file holds.", alias="schema")
     name: str = field("Name of the map.", pattern=r"^[a-z0-9][a-z0-9._-]{0,99}$")
     title: str = field("One line for people.", default="", max_length=200)
-    channels: dict[str, Annotated[ChannelSource, BeforeValidator(_shorthand)]] = field(
-        "Canonical channel -> where it comes from; {n} stands for each wheelset's number."
+    time: Annotated[ChannelSource, BeforeValidator(_shorthand)] | None = optional(
+        "Where the time comes from; in place of `time` among the channels."
+    )
+    channels: dict[str, Annotated[ChannelSource, BeforeValidator(_shorthand)] | None] = field(
+        "Canonical channel -> where it comes from; {n} stands for each wheelset's number. null: it is not"
+        " read, though the map that is extended has it."
     )
     csv: DialectSection = field("Dialect of text files.", default=DialectSection())
     preparation: Preparation = field("How a record is prepared before it is judged.", default=Preparation())
 
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield unknown channels, and units of another kind than their channel."""
+        if self.time is not None:
+            yield from _inconsistencies((TIME,), self.time)
         for name, source in self.channels.items():
-            of_first = name.replace(NUMBER, str(WHEELSETS[0]))
-            if of_first not in CHANNEL_UNITS:
-                known = dict.fromkeys(canonical.replace("_1", f"_{NUMBER}") for canonical in CHANNEL_UNITS)
-                yield Inconsistency(
-                    ("channels", name), f"unknown channel {quoted(name)}", suggestion(name, known)
-                )
-            elif source.unit and recorded_unit_size(source.unit, CHANNEL_UNITS[of_first]) is None:
-                yield Inconsistency(
-                    ("channels", name, "unit"),
-                    f"{quoted(source.unit)} is not a unit of {name}",
-                    "accepted: " + ", ".join(recorded_spellings(CHANNEL_UNITS[of_first])),
-                )
+            yield from _inconsistencies(("channels", name), source or _NOT_READ)
 
     @property
     def dialect(self) -> Dialect:
         """The dialect of text files."""
-        return Dialect(**dict(self.csv))
+        return Dialect(**{name: value for name, value in self.csv if name != "dates"})
 
     @cached_property
     def sources(self) -> Mapping[str, ChannelSource]:
         """The source of every channel, one per wheelset; a channel of one wheelset has precedence."""
-        spelled_out: dict[str, ChannelSource] = {}
+        spelled_out: dict[str, ChannelSource | None] = {}
         for name, source in self.channels.items():
             numbers = WHEELSETS if NUMBER in name else ()
-            spelled_out |= {name.replace(NUMBER, str(n)): _numbered(source, n) for n in numbers}
-        return spelled_out | {name: s for name, s in self.channels.items() if NUMBER not in name}
+            spelled_out |= {name.replace(NUMBER, str(n)): source and _numbered(source, n) for n in numbers}
+        spelled_out |= {name: s for name, s in self.channels.items() if NUMBER not in name}
+        spelled_out |= {TIME: self.time} if self.time else {}
+        return {name: source for name, source in spelled_out.items() if source is not None}
 
     def triggered_by(self, trigger: str | None) -> ChannelMap:
         """Return the map with another trigger, a name or a time; None: as it says. Raises ValueError."""
@@ -254,7 +310,7 @@ def channel_map_schema() -> dict[str, Any]:
     based_on = {"description": "A preset or a file that this map is based on.", **name}
     schema["properties"] = {**schema["properties"], "extends": based_on}
     schema["required"] = ["schema", "name"]
-    channels = schema["properties"]["channels"]
     names = {"type": "array", "minItems": 1, "items": name}
-    channels["additionalProperties"] = {"anyOf": [name, names, channels["additionalProperties"]]}
+    for source in (schema["properties"]["time"], schema["properties"]["channels"]["additionalProperties"]):
+        source["anyOf"] += [name, names]
     return schema

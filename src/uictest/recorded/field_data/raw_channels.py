@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,22 +15,24 @@ from numpy.typing import NDArray
 from uictest.core.physics import FILL, HOLD, VENT
 from uictest.core.recording import (
     LONGEST_RECORD,
-    STATES,
     TIME,
     Contents,
     Group,
     Implausible,
+    Samples,
     implausible_time,
     implausible_unit,
+    numbers_of,
     state_kind,
+    states_of,
 )
-from uictest.core.units import recorded_spellings, recorded_unit_size
+from uictest.core.recording.formats import Cells, Dialect, UnreadableError, seconds_of
+from uictest.core.units import ROTATIONAL_SPEEDS, is_recorded_unit, recorded_spellings, recorded_unit_size
 from uictest.plans.scenario.yaml import quoted, suggestion
 from uictest.recorded.field_data.channel_map import CHANNEL_UNITS, WHEELSETS, ChannelMap, ChannelSource
 
-_GROUPED = re.compile(r"[-+]?\d{1,3}(?:([., '])\d{3}(?:\1\d{3})+(?:[.,]\d+)?|([., '])\d{3}[.,]\d+)")
-_DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+")
-_DATE = re.compile(r"\d{1,4}[-./]\d\d?[-./]\d{1,4}\b")
+_DATE = re.compile(r"\d\D+\d+\D+\d|\d:\d")
+"""Of a date or a clock, in a text."""
 Array = NDArray[np.float64]
 
 
@@ -61,8 +63,9 @@ def select_channels(
 ) -> dict[str, RawChannel]:
     """Return the channels of a file that a map selects; a channel without a source in the file is omitted.
 
-    Its times may span `longest`, s; None: these are a part of a file whose units are known, all numbers are
-    taken as they are, and a text that is no state is NaN.
+    Its times may span `longest`, s, and count from the first where they are dates; infinite: these are a part
+    of a file, and dates are Unix time; None: a part whose units are known, all numbers are taken as they are,
+    and a text that is no state is NaN.
 
     Raises MapError where a name stands for several channels, a unit is unknown or not the channel's, a text
     is no state, or a channel has no time axis.
@@ -76,9 +79,9 @@ def select_channels(
         place = _find(contents, name, source)
         if place is not None:
             group, original = place
-            samples = _in_si(name, source, original, group, longest)
+            samples = _in_si(name, source, original, group, channel_map.dialect, longest)
             if id(group) not in times:
-                times[id(group)] = _time_of(group, sources.get(TIME), original, longest)
+                times[id(group)] = _time_of(group, channel_map, original, longest)
             selected[name] = RawChannel(name, original, times[id(group)], samples)
     if "speed" not in selected:
         raise MapError(_no_speed(contents, sources))
@@ -89,39 +92,101 @@ def _no_speed(contents: Contents, sources: Mapping[str, ChannelSource]) -> str:
     names = [name for group in contents.groups for name in group.channels]
     looked_for = sources["speed"].source if "speed" in sources else ("speed",)
     hint = suggestion(looked_for[0], names) if len(names) <= 40 else ""
+    if twice := [each for each in names if re.sub(r" \(\d+\)$", "", each) in looked_for]:
+        hint = f"several columns have that name: write one of {', '.join(map(quoted, twice))}"
+    skipped = "".join(f"; {quoted(name)} {reason}" for name, reason in list(contents.skipped.items())[:1])
     return (
         f"no channel for 'speed' (train speed): looked for {', '.join(map(quoted, looked_for))}"
-        f"{'; ' + hint if hint else ''}; 'uictest evaluate FILE --list' shows its channels"
+        f"{'; ' + hint if hint else ''}{skipped}; 'uictest evaluate FILE --list' shows its channels"
     )
 
 
 def _find(contents: Contents, name: str, source: ChannelSource) -> tuple[Group, str] | None:
+    found: list[tuple[Group, str]] = []
     for alias in source.source:
-        matches = list(_matches(contents, alias))
+        matches = dict(_matches(contents, alias))
         if len(matches) > 1:
-            groups = ", ".join(quoted(group.name) for group, _ in matches)
-            raise MapError(f"{name}: {quoted(alias)} is in several groups ({groups}): write group/name")
-        if matches:
-            return matches[0]
-    return None
+            several = ", ".join(map(quoted, matches))
+            raise MapError(f"{name}: {quoted(alias)} is in several groups: write one of {several}")
+        found += matches.values()
+    if len(source.source) == 1:
+        return next(iter(found), None)
+    # Of several names, one with a unit of another kind is another quantity: T1 is a temperature, no torque.
+    misfits = [_misfit(name, source, group.units.get(original, "")) for group, original in found]
+    least = min(misfits, default=_OF_ANOTHER_KIND)
+    return found[misfits.index(least)] if found and (least < _OF_ANOTHER_KIND or name == "speed") else None
 
 
-def _matches(contents: Contents, alias: str) -> Iterator[tuple[Group, str]]:
-    for group in contents.groups:
+def _matches(contents: Contents, alias: str) -> Iterator[tuple[str, tuple[Group, str]]]:
+    """Yield the channels that a name stands for by group and name; a group without a name has a number."""
+    for k, group in enumerate(contents.groups, start=1):
+        label = group.name or f"group {k}"
         for name in group.channels:
-            if alias in (name, f"{group.name}/{name}"):
-                yield group, name
+            if alias in (name, f"{group.name}/{name}", f"{label}/{name}"):
+                yield f"{label}/{name}", (group, name)
 
 
-def _time_of(group: Group, source: ChannelSource | None, beside: str, longest: float | None) -> Array:
+_OF_ANOTHER_KIND = 2
+
+
+def _misfit(name: str, source: ChannelSource, unit: str) -> int:
+    """Return 0 where a channel may have the unit, 1 where only with the radius of a wheel, else 2."""
+    si = CHANNEL_UNITS[name]
+    if source.unit or si == "1" or not is_recorded_unit(unit) or recorded_unit_size(unit, si) is not None:
+        return 0
+    return 1 if si == "m/s" and unit in ROTATIONAL_SPEEDS else _OF_ANOTHER_KIND
+
+
+def _time_of(group: Group, channel_map: ChannelMap, beside: str, longest: float | None) -> Array:
+    source = channel_map.sources.get(TIME)
+    if source is not None and source.interval is not None:
+        rows: Array = np.arange(group.first_row, group.first_row + len(group), dtype=np.float64)
+        return rows * float(source.interval)
     if group.time is not None:
         time = np.asarray(group.time, dtype=np.float64)
         implausible = None if longest is None else implausible_time(time, "s", {"s": 1.0}, longest)
         return _require_plausible(implausible, TIME, f"of {quoted(beside)}", time)
-    for alias in source.source if source else ():
-        if source and alias in group.channels:
-            return _in_si(TIME, source, alias, group, longest)
-    raise MapError(f"{quoted(beside)} has no time axis: map `time` to a channel of its group")
+    named = [alias for alias in source.source if alias in group.channels] if source else []
+    # LabVIEW has a column of times also where it writes none; a piece of a log may have them later.
+    present = [alias for alias in named if not is_empty(group.channels[alias])]
+    present = present or (named if longest is None or math.isinf(longest) else [])
+    if source is None or not present:
+        raise MapError(
+            f"{quoted(beside)} has no time axis: write time: {{source: NAME}} in the channel map, a channel"
+            " of its group, or where the file has none the sampling interval, as in time: {interval: 20 ms}"
+        )
+    dated = [alias for alias in present if holds_dates(group, alias)]
+    if dated and (channel_map.csv.dates or dated[0] == present[0]):
+        return _dated(group, dated, channel_map.csv.dates, longest)
+    return _in_si(TIME, source, present[0], group, channel_map.dialect, longest)
+
+
+def is_empty(samples: Samples) -> bool:
+    """Return whether a channel has no sample at all."""
+    return samples.dtype.kind != "U" and bool(np.isnan(samples).all())
+
+
+def holds_dates(group: Group, name: str) -> bool:
+    """Return whether a channel holds texts of several numbers each, and none that is one."""
+    samples = group.channels[name]
+    if samples.dtype.kind != "U" or np.isfinite(group.numbers.get(name, np.zeros(0))).any():
+        return False
+    return _DATE.search(next((text for text in samples.tolist() if text), "")) is not None
+
+
+def _dated(group: Group, columns: Sequence[str], written: str, longest: float | None) -> Array:
+    """Return dates, s, of the first column or of all together; of a whole record since its first."""
+    texts = [group.channels[name] for name in columns]
+    joined = functools.reduce(lambda one, other: np.char.add(np.char.add(one, " "), other), texts)
+    try:
+        time = seconds_of(texts[0], written)
+    except UnreadableError as error:
+        try:
+            time = seconds_of(joined, written)
+        except UnreadableError:
+            raise MapError(f"{TIME}: {quoted(columns[0])}: {error}") from error
+    first = time[np.isfinite(time)][:1]
+    return time - first if longest is not None and math.isfinite(longest) and len(first) else time
 
 
 def _in_si(
@@ -129,26 +194,32 @@ def _in_si(
     source: ChannelSource,
     original: str,
     group: Group,
+    dialect: Dialect,
     longest: float | None,
 ) -> Array:
     samples = group.channels[original]
-    if samples.dtype.kind == "U":
-        samples = _numbered(name, source, original, group, strict=longest is not None)
+    if samples.dtype.kind != "U":
+        samples = _of_states(samples, source.states)
+    else:
+        strict = longest is not None
+        samples = _numbers_of_texts(name, source, original, group, dialect.cells, strict=strict)
         if state_kind(name) is not None:
             return samples
     unit = source.unit or group.units.get(original, "")
-    size = _size(name, unit, original)
+    size = _size(name, unit, original, source.wheel_radius)
     # What overflows becomes infinite, which is reported as a sample that is no number.
     with np.errstate(over="ignore", invalid="ignore"):
         converted: Array = source.sign * (source.scale * samples + source.offset) * size
     if longest is None:
         return converted
-    return _require_plausible(_implausible(name, converted, unit, longest), name, quoted(original), converted)
+    return _require_plausible(
+        _implausible(name, converted, unit, size, longest), name, quoted(original), converted
+    )
 
 
-def _implausible(name: str, converted: Array, unit: str, longest: float) -> Implausible | None:
+def _implausible(name: str, converted: Array, unit: str, size: float, longest: float) -> Implausible | None:
     si = CHANNEL_UNITS[name]
-    sizes = {**recorded_spellings(si), unit: recorded_unit_size(unit, si) or 1.0}
+    sizes = {**recorded_spellings(si), unit: size}
     if name == TIME:
         return implausible_time(converted, unit, sizes, longest)
     return implausible_unit(converted, si, unit, sizes)
@@ -162,7 +233,7 @@ def _require_plausible(implausible: Implausible | None, name: str, original: str
     return samples
 
 
-def _size(name: str, unit: str, original: str) -> float:
+def _size(name: str, unit: str, original: str, wheel_radius: float | None) -> float:
     si = CHANNEL_UNITS[name]
     if not unit and si == "1":
         return 1.0
@@ -171,7 +242,23 @@ def _size(name: str, unit: str, original: str) -> float:
             f"{name}: the file does not state the unit of {quoted(original)}:"
             " write `unit:` in the channel map"
         )
+    if si == "m/s" and unit in ROTATIONAL_SPEEDS:
+        if wheel_radius is None:
+            raise MapError(
+                f"{name}: {quoted(original)} is in {unit}: write the radius of its wheel beside its source in"
+                " the channel map, as in wheel_radius: 0.46 m"
+            )
+        return ROTATIONAL_SPEEDS[unit] * float(wheel_radius)
+    if wheel_radius is not None:
+        raise MapError(
+            f"{name}: {quoted(original)} is in {unit}, no rotational speed: leave out wheel_radius"
+        )
     size = recorded_unit_size(unit, si)
+    if size is None and si == "K":
+        raise MapError(
+            f"{name}: {quoted(original)} has the unit {quoted(unit)}: write unit: K, and for degrees Celsius"
+            " offset: 273.15, in the channel map"
+        )
     if size is None:
         raise MapError(
             f"{name}: {quoted(original)} has the unit {quoted(unit)};"
@@ -180,46 +267,35 @@ def _size(name: str, unit: str, original: str) -> float:
     return size
 
 
-def _numbered(name: str, source: ChannelSource, original: str, group: Group, *, strict: bool) -> Array:
-    samples = group.channels[original]
-    kind = state_kind(name)
-    known: dict[str, int] = {**(STATES[kind] if kind else {}), **source.states}
-    numbers = {str(text): _number(str(text), known) for text in np.unique(samples)}
-    strange = [text for text, number in numbers.items() if number is None]
-    if strange and strict:
-        listed = ", ".join(map(quoted, strange[:3]))
-        place = f", the first in {group.first_texts[original]}" if original in group.first_texts else ""
+def _of_states(samples: Samples, states: Mapping[str, int]) -> Samples:
+    """Return samples of numbers with those that a map names as states, `"0": 1`, in their place."""
+    replaced = samples.copy() if states else samples
+    for text, number in states.items():
+        if Cells().is_number(text):
+            replaced[samples == Cells().column([text]).numbers[0]] = number
+    return replaced
+
+
+def _numbers_of_texts(
+    name: str, source: ChannelSource, original: str, group: Group, cells: Cells, *, strict: bool
+) -> Array:
+    """Return the numbers of a channel of texts: its own, and those of the states that it names.
+
+    Another text is NaN in a state where not `strict`, else it raises MapError.
+    """
+    values, strange = numbers_of(group, original, {**states_of(name), **source.states}, cells)
+    if strange and (strict or state_kind(name) is None):
+        text = strange[0]
+        place = group.first_texts.get(original, {}).get(text, "")
+        if state_kind(name) is None:
+            raise MapError(f"{name}: {quoted(original)}: {cells.refusal(text, place)}")
+        where = f", in {place}" if place else ""
+        example = json.dumps({each: k for k, each in enumerate(strange[:3])}, ensure_ascii=False)
         raise MapError(
-            f"{name}: {quoted(original)} contains texts that are not numbers: {listed}{place};"
-            f" {_remedy(strange[0])}"
+            f"{name}: {quoted(original)} is {quoted(text)}{where}, which is no state:"
+            f" name it in `states` of the channel map, as in states: {example}"
         )
-    numbers |= dict.fromkeys(strange, math.nan)
-    values: Any = np.vectorize(lambda text: numbers[str(text)], otypes=[np.float64])(samples)
-    return np.asarray(values, dtype=np.float64)
-
-
-def _remedy(text: str) -> str:
-    if grouped := _GROUPED.fullmatch(text.strip()):
-        separator = grouped[1] or grouped[2]
-        return (
-            f"for thousands separators, write csv: {{thousands: {json.dumps(separator)}}} in the channel map"
-        )
-    if _DECIMAL_COMMA.fullmatch(text.strip()):
-        return 'for decimal commas, write csv: {decimal: ","} in the channel map, and numbers without quotes'
-    if _DATE.match(text.strip()):
-        return "write dates as 2026-05-31T12:00:00.000"
-    return "name them in `states` of the channel map"
-
-
-def _number(text: str, known: Mapping[str, int]) -> float | None:
-    if text in known:
-        return float(known[text])
-    if not text.strip() or text.strip().lower() == "nan":
-        return float("nan")
-    try:
-        return float(text)
-    except ValueError:
-        return None
+    return values
 
 
 _ON = 0.5

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from uictest.core.recording import SAMPLE_INTERVALS, TIME, TRACK_BRAKES_BESIDE, Recording
+from uictest.core.recording import SAMPLE_INTERVALS, TIME, TRACK_BRAKES_BESIDE, Recording, usual_interval
 from uictest.core.recording.formats import read_contents
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.plans.scenario.yaml import QuantityError, parse_quantity
@@ -26,6 +26,7 @@ from uictest.recorded.field_data.raw_channels import (
 from uictest.recorded.field_data.sensor_defects import analogue_defects, distance_defects, speed_defects
 from uictest.recorded.field_data.time_axis import (
     Defect,
+    at_own_rates,
     by_axis,
     coarse_defects,
     disorder,
@@ -35,7 +36,6 @@ from uictest.recorded.field_data.time_axis import (
     low_passed,
     missing_samples,
     resampled,
-    usual_interval,
     without_implausible,
 )
 from uictest.recorded.field_data.trigger import (
@@ -92,7 +92,7 @@ def stop_in(path: Path, channel_map: ChannelMap) -> RecordedStop:
     Raises UnreadableError, MissingExtraError, MapError, UnusableError, OSError.
     """
     contents = read_contents(path, channel_map.dialect)
-    channels = with_valve_commands(select_channels(contents, channel_map))
+    channels = with_valve_commands(at_own_rates(select_channels(contents, channel_map)))
     return prepare(channels, contents.metadata, channel_map.preparation)
 
 
@@ -261,7 +261,7 @@ def _on_raster(
 ) -> tuple[Recording, tuple[float, float] | None, float]:
     """Return the recording over the time since the brake command, its standstill, and the place there."""
     if not (recorded := "distance" in channels):
-        channels = {**channels, "distance": integrated(channels["speed"], raster)}
+        channels = {**channels, "distance": integrated(channels["speed"], raster, trigger.time)}
     last = min(rest.last, rest.time) if rest else float(channels["speed"].time[-1])
     count = int((last - trigger.time) / raster + _SLACK)
     since: Array = np.arange(count + 1, dtype=np.float64) * raster

@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from uictest.core.recording import at_instants
 from uictest.core.units import BAR, KILONEWTON
 from uictest.recorded.field_data.channel_map import of_wheelsets
 from uictest.recorded.field_data.raw_channels import Array, RawChannel
@@ -15,6 +16,8 @@ from uictest.recorded.field_data.time_axis import Defect, integrated
 
 _STEEPEST = 150.0
 """m/s2: about three times what a brake or the rail can do to a wheelset; chosen."""
+_STEEPEST_TRAIN = 50.0
+"""m/s2: of the train, whose speed may be that of a wheelset which slides; chosen."""
 _LEAST_JUMP = 2.0
 """m/s: a smaller jump may be noise or the least speed that a sensor reads; chosen."""
 _LONGEST_STUCK = 0.5
@@ -51,7 +54,9 @@ def speed_defects(channels: Mapping[str, RawChannel], begin: float, end: float) 
     yield from _sudden_standstill(channels["speed"], begin, end)
     for name in _SPEEDS:
         if name in channels:
-            yield from _dropouts(channels[name], begin, end)
+            yield from _dropouts(
+                channels[name], begin, end, _STEEPEST if name != "speed" else _STEEPEST_TRAIN
+            )
             yield from _stuck_speeds(channels[name], channels, begin, end)
     yield from _speed_offsets(channels, begin)
 
@@ -72,18 +77,21 @@ def _sudden_standstill(speed: RawChannel, begin: float, end: float) -> Iterator[
         yield Defect("dropout", speed.name, text, spoils=True)
 
 
-def _dropouts(channel: RawChannel, begin: float, end: float) -> Iterator[Defect]:
-    """A fall and a return, both steeper than any wheelset can turn."""
+def _dropouts(channel: RawChannel, begin: float, end: float, steepest: float) -> Iterator[Defect]:
+    """A fall and a return, or a rise and a return, both steeper than `steepest`, m/s2."""
     time, speed = _part(channel, begin, end)
     if len(time) < 3:
         return
     change, interval = np.diff(speed), np.diff(time)
-    jump = np.abs(change) > np.maximum(_STEEPEST * interval, _LEAST_JUMP)
+    jump = np.abs(change) > np.maximum(steepest * interval, _LEAST_JUMP)
     falls, returns = np.flatnonzero(jump & (change < 0.0)), np.flatnonzero(jump & (change > 0.0))
-    if len(falls) and len(returns) and returns[-1] > falls[0]:
-        first, last = time[falls[0] + 1], time[returns[-1]]
-        text = f"falls and returns at once, {len(falls)} times from {first:.6g} to {last:.6g} s"
-        yield Defect("dropout", channel.name, text, spoils=True)
+    if len(falls) and len(returns):
+        fell = falls[0] < returns[0]
+        begins, ends = (falls, returns) if fell else (returns, falls)
+        first, last = time[begins[0] + 1], time[max(ends[-1], begins[0] + 1)]
+        word = "falls" if fell else "rises"
+        text = f"{word} and returns at once, {len(begins)} times from {first:.6g} to {last:.6g} s"
+        yield Defect("dropout" if fell else "spike", channel.name, text, spoils=True)
 
 
 def _stuck_speeds(
@@ -143,7 +151,7 @@ def _rolling_shares(channels: Mapping[str, RawChannel], begin: float) -> Iterato
         if name not in channels:
             continue
         time, speed = _part(channels[name], begin - 1.0, begin + _ROLLING)
-        running = np.interp(time, train.time, train.samples, left=np.nan, right=np.nan)
+        running = at_instants(train.time, train.samples, time, holds=False)
         known = np.isfinite(running) & (running > 1.0)
         if known.any():
             yield name, float(np.median(speed[known] / running[known]) - 1.0)
@@ -158,12 +166,13 @@ def distance_defects(
     ends = np.array([begin, end])
     recorded, made = (
         float(np.diff(np.interp(ends, each.time, each.samples))[0])
-        for each in (channels["distance"], integrated(channels["speed"], raster))
+        for each in (channels["distance"], integrated(channels["speed"], raster, begin))
     )
     if (difference := abs(recorded - made)) > max(_TOLD_SHARE * made, _LEAST_TOLD):
         text = f"grows by {recorded:.5g} m in the stop; by its speed the train runs {made:.5g} m"
         spoils = difference > max(_DISTANCE_SHARE * made, _LEAST_DISTANCE)
-        yield Defect("contradiction", "distance", text, spoils)
+        remedy = "; to integrate the speed instead, write channels: {distance: null} in the channel map"
+        yield Defect("contradiction", "distance", text + remedy if spoils else text, spoils)
 
 
 def _part(channel: RawChannel, begin: float, end: float) -> tuple[Array, Array]:

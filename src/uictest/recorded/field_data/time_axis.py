@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.recording import LARGEST, STATES, beyond, state_kind
+from uictest.core.recording import LARGEST, at_instants, beyond, states_of, usual_interval
 from uictest.recorded.field_data.channel_map import CHANNEL_UNITS
 from uictest.recorded.field_data.raw_channels import Array, RawChannel
 
@@ -22,6 +22,7 @@ DefectKind = Literal[
     "not-a-number",
     "out-of-range",
     "dropout",
+    "spike",
     "stuck",
     "offset",
     "contradiction",
@@ -51,6 +52,10 @@ class Defect:
 _GAP_INTERVALS = 2.5
 """An interval longer than this many usual ones is a gap, if it also exceeds the raster; chosen."""
 
+_SLOWER = 1.5
+"""Times the interval of its rows that a channel of a rate of its own takes at least; chosen."""
+_FEW_SAMPLES = 10
+"""Samples that show a rate at least; chosen."""
 _LONGEST_GAP = 60.0
 """s within a stop for which nothing may be recorded; chosen."""
 
@@ -75,20 +80,43 @@ def disorder(time: Array, names: str) -> Iterator[Defect]:
         )
     with np.errstate(invalid="ignore"):
         step = np.diff(time)
-    for kind, wrong, words in (
-        ("time-backwards", step < 0.0, "goes back in time"),
-        ("time-duplicate", step == 0.0, "repeats a time"),
+    # A coarse clock repeats most of its times, one that is started late those before its start.
+    interval = usual_interval(time) or float(time[-1] - time[0]) / max(len(step), 1)
+    stated = f"time: {{interval: {1e3 * interval:.6g} ms}}"
+    even = f"; if all samples are evenly spaced, write {stated} in the channel map"
+    for kind, wrong, words, remedy in (
+        (
+            "time-backwards",
+            step < 0.0,
+            "goes back in time",
+            "; sort the rows by time, or cut the record there",
+        ),
+        ("time-duplicate", step == 0.0, "repeats a time", even if interval > 0.0 else ""),
     ):
         if wrong.any():
             first = int(np.argmax(wrong)) + 1
             where = f"sample {first + 1}: {time[first]:.6g} s after {time[first - 1]:.6g} s"
-            text = f"{words} {int(wrong.sum())} times, first at {where}"
+            text = f"{words} {int(wrong.sum())} times, first at {where}{remedy}"
             yield Defect(kind, names, text, True)  # type: ignore[arg-type]
 
 
-def usual_interval(time: Array) -> float:
-    """Return the median interval of a time axis, s; 0 for fewer than two samples."""
-    return float(np.median(np.diff(time))) if len(time) > 1 else 0.0
+def at_own_rates(channels: Mapping[str, RawChannel]) -> dict[str, RawChannel]:
+    """Return channels whose samples regularly miss in the rows of others over a time of their own.
+
+    Programs write channels of several rates or clocks into one table so. Whatever else is missing stays so.
+    """
+    axes: dict[tuple[int, bytes], Array] = {}
+    own_rates = dict(channels)
+    for name, channel in channels.items():
+        present = np.isfinite(channel.samples) & np.isfinite(channel.time)
+        times = axes.setdefault((id(channel.time), present.tobytes()), channel.time[present])
+        if len(times) < _FEW_SAMPLES or np.all(np.diff(np.flatnonzero(present)) == 1):
+            continue
+        usual = usual_interval(times)
+        slower = usual > _SLOWER * usual_interval(channel.time) and not gaps(times, 0.0).any()
+        if slower or np.max(np.diff(times)) <= _SLOWER * usual:
+            own_rates[name] = replace(channel, time=times, samples=channel.samples[present])
+    return own_rates
 
 
 def gaps(time: Array, raster: float) -> NDArray[np.bool_]:
@@ -133,7 +161,7 @@ def coarse_defects(interval: float, names: str) -> Iterator[Defect]:
 def without_implausible(channel: RawChannel) -> tuple[RawChannel, list[Defect]]:
     """Return a channel with NaN for samples that are implausibly large or no state, and the defect."""
     si = CHANNEL_UNITS[channel.name]
-    states = sorted(STATES.get(state_kind(channel.name) or "", {}).values())
+    states = sorted(states_of(channel.name).values())
     wrong = beyond(channel.samples, si)
     if states:
         wrong = np.isfinite(channel.samples) & ~np.isin(channel.samples, states)
@@ -164,8 +192,6 @@ def _place(flagged: NDArray[np.bool_]) -> str:
     return f"at sample {int(np.argmax(flagged)) + 1}"
 
 
-_SLACK = 1e-6
-"""Share of the sampling interval by which a time may miss a sample and still be the sample's."""
 _HIGHEST_SHARE = 0.4
 """Of the sampling rate: above it a low-pass would change nothing that was sampled."""
 
@@ -200,22 +226,14 @@ def resampled(channel: RawChannel, times: Array, raster: float) -> Array:
     """
     if len(channel.time) < 2:
         return np.full(len(times), np.nan)
-    slack = _SLACK * usual_interval(channel.time)
-    before = np.searchsorted(channel.time, times + slack, side="right") - 1
-    inside = (times >= channel.time[0] - slack) & (times <= channel.time[-1] + slack)
-    last = np.clip(before, 0, None)
-    held = channel.samples[last]
-    values = held if channel.is_state else np.interp(times, channel.time, channel.samples)
-    on_sample = np.abs(times - channel.time[last]) <= slack
-    values = np.where(on_sample, held, values)
-    interval = np.clip(before, 0, len(channel.time) - 2)
-    lost = gaps(channel.time, raster)[interval] & ~on_sample
-    return np.where(inside & ~lost, values, np.nan)
+    lost = gaps(channel.time, raster)
+    return at_instants(channel.time, channel.samples, times, holds=channel.is_state, gaps=lost)
 
 
-def integrated(speed: RawChannel, raster: float) -> RawChannel:
-    """Return the distance, m: the speed integrated by trapezoids; unknown from the first gap on."""
+def integrated(speed: RawChannel, raster: float, begin: float) -> RawChannel:
+    """Return the distance, m: the speed integrated; unknown from its first gap after `begin`, s."""
     steps = 0.5 * (speed.samples[1:] + speed.samples[:-1]) * np.diff(speed.time)
     steps[gaps(speed.time, raster)] = np.nan
+    steps[np.isnan(steps) & (speed.time[1:] <= begin)] = 0.0
     distance: Array = np.concatenate(([0.0], np.cumsum(steps)))
     return replace(speed, name="distance", source=f"{speed.source}, integrated", samples=distance)

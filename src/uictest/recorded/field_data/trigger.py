@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from uictest.core.recording import BRAKE_COMMAND_TIME
+from uictest.core.recording import BRAKE_COMMAND_TIME, at_instants
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.plans.scenario.yaml import QuantityError, parse_quantity
 from uictest.recorded.field_data.channel_map import Preparation, of_wheelsets
@@ -18,6 +18,8 @@ Metadata = Mapping[str, str]
 _PRESSURES = ("brake_line_pressure", *of_wheelsets("cylinder_pressure"), *of_wheelsets("tank_pressure"))
 _ON = 0.5
 """Above it the brake command, a state of 0 and 1, is given."""
+SHORTEST_APPLICATION = 0.1
+"""s: no brake acts so briefly, what is shorter is noise; chosen."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,9 +69,10 @@ def _stated(channels: Channels, time: float, by: str, preparation: Preparation) 
     first, last = (float(channels["speed"].time[k]) for k in (0, -1))
     if time >= last:
         raise MapError(
-            f"the brake command at {time:.6g} s, {by}, is not in the record, which ends at {last:.6g} s"
+            f"the brake command at {time:.6g} s, {by}, is not in the record from {first:.6g} to {last:.6g} s"
         )
-    text = f"at {time:.6g} s, {by}"
+    before = f", before the record begins at {first:.10g} s" if time < first else ""
+    text = f"at {time:.6g} s, {by}{before}"
     _require_running(channels["speed"], max(time, first), f"the brake command {text}", preparation)
     return BrakeCommand(max(time, first), text, late=time < first - 1e-6)
 
@@ -79,9 +82,11 @@ def _require_running(speed: RawChannel, time: float, what: str, preparation: Pre
     known = np.isfinite(speed.samples)
     running = float(np.interp(time, speed.time[known], speed.samples[known]))
     if running <= float(preparation.trigger_speed):
+        backwards = running < -float(preparation.trigger_speed)
+        remedy = "; if it runs forwards, write sign: -1 beside the source of the speed" if backwards else ""
         raise MapError(
             f"{what}: the train runs at {running / KILOMETRE_PER_HOUR:.4g} km/h there, not above the"
-            f" {preparation.trigger_speed.text} of `trigger_speed`"
+            f" {preparation.trigger_speed.text} of `trigger_speed`{remedy}"
         )
 
 
@@ -126,9 +131,10 @@ def _first_of(
         return None
     first = min(rises, key=lambda rise: rise.time)
     if first.late:
-        return BrakeCommand(
-            first.time, f"before the record, in which {first.text} is on from the start", late=True
-        )
+        text = f"before the record, in which {first.text} is on from the start"
+        inverted = ', or inverted: then write states: {"0": 1, "1": 0} beside its source'
+        is_state = channels[first.text].is_state
+        return BrakeCommand(first.time, text + inverted if is_state else text, late=True)
     lead = float(preparation.trigger_lead)
     time = max(first.time - lead, float(channels["speed"].time[0]))
     ahead = f", {preparation.trigger_lead.text} before it" if lead > 0.0 else ""
@@ -139,16 +145,23 @@ def _first_of(
 def _rise(
     channel: RawChannel, speed: RawChannel, level: float, least_speed: float
 ) -> Iterator[tuple[float, bool]]:
-    """Yield when a channel first rises through `level` while the train runs, or that it was above already."""
+    """Yield when a channel first rises through `level` to stay there, or that it was above it already.
+
+    The train must run then. Contacts bounce: it stays if it is above for most of the shortest application,
+    and of two samples.
+    """
     known = np.isfinite(channel.samples)
     time, samples = channel.time[known], channel.samples[known]
     if len(time) < 2:
         return
-    running = np.interp(time, speed.time, speed.samples, left=np.nan, right=np.nan) > least_speed
+    running = at_instants(speed.time, speed.samples, time, holds=False) > least_speed
     above = samples > level
     rises = np.flatnonzero(above[1:] & ~above[:-1] & running[1:])
-    if len(rises):
-        yield _crossing(time, samples, int(rises[0]), level, held=channel.is_state), False
+    ends = np.searchsorted(time, time[rises + 1] + SHORTEST_APPLICATION, side="right")
+    shown = [np.mean(above[k + 1 : max(end, k + 3)]) for k, end in zip(rises, ends, strict=True)]
+    lasting = [int(k) for k, share in zip(rises, shown, strict=True) if share > 0.5]
+    if lasting:
+        yield _crossing(time, samples, lasting[0], level, held=channel.is_state), False
     elif above[0] and running[0]:
         yield float(time[0]), True
 

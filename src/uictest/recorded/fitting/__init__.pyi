@@ -1,4 +1,4 @@
-from .fit import Fit as Fit, fit_stop as fit_stop
+from .fit import COVERED as COVERED, Fit as Fit, fit_stop as fit_stop
 from .outputs import (
     agreement as agreement,
     fit_document as fit_document,

@@ -162,14 +162,28 @@ class Balances:
             brake_factor: on the torque of the brakes.
         """
         by_rail, by_brake = self.rail_impulse(friction, share), self.brake_impulse(brake_factor)
-        load, sliding, standing = self._load_impulse, self.windows.sliding, self.windows.standing
-        if by_brake is None:
-            of_wheelsets, impulse, known = np.empty(0), by_rail, sliding.all(axis=0)
-        else:
-            of_wheelsets = ((by_rail - by_brake) / load)[sliding & ~standing]
-            impulse, known = np.where(sliding, by_rail, by_brake), (sliding | ~standing).all(axis=0)
+        of_wheelsets, impulse, load = np.empty(0), by_rail, self._load_impulse
+        if by_brake is not None:
+            of_wheelsets = ((by_rail - by_brake) / load)[self._known[0]]
+            impulse = np.where(self.windows.sliding, by_rail, by_brake)
         of_train = (impulse.sum(axis=0) - self.lost_momentum) / load.sum(axis=0)
-        return of_wheelsets, np.asarray(of_train[known])
+        return of_wheelsets, np.asarray(of_train[self._known[1]])
+
+    @cached_property
+    def _known(self) -> tuple[Mask, Mask]:
+        """Where a balance is known: of which wheelset in which window, (4, k), and of the train, (k,)."""
+        sliding, known = self.windows.sliding, ~self.windows.standing & (self.samples.torque is not None)
+        return sliding & known, np.asarray((sliding | known).all(axis=0))
+
+    def noise_variance(self, row: int) -> float:
+        """Return what the noise of the train speed adds to the variance of the mean of residuals in a row.
+
+        Between windows that follow each other it cancels. Wheelsets are so light that theirs hardly counts.
+        """
+        known = self._known[1]
+        single = self.scenario.vehicle.total_mass * self.samples.noise / self._load_impulse.sum(axis=0)
+        followed = np.count_nonzero(known[1:] & known[:-1]) / np.count_nonzero(known)
+        return 2.0 * float(np.mean(single[known] ** 2)) * (1.0 - (1.0 - 1.0 / row) * followed) / row
 
     @cached_property
     def lost_momentum(self) -> Array:

@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 import yaml
 
-from uictest.core.recording import TIME, Recording
+from uictest.core.recording import TIME, Recording, at_instants
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import evaluation
 from uictest.plans import library
@@ -47,12 +47,12 @@ class Agreement:
 def overlay(recorded: RecordedStop, simulated: SimulatedStop) -> Recording:
     """Return train and wheel speeds of both stops on the raster of the record, m/s."""
     assert simulated.recording is not None
-    time = np.asarray(recorded.recording[TIME])
+    time, other = np.asarray(recorded.recording[TIME]), simulated.recording
     channels = {TIME: time}
     for name in _COMPARED:
-        other = simulated.recording
         channels[f"{name}_recorded"] = np.asarray(recorded.recording[name])
-        channels[f"{name}_simulated"] = np.interp(time, other[TIME], other[name], right=0.0)
+        followed = at_instants(other[TIME], other[name], time, holds=False)
+        channels[f"{name}_simulated"] = np.where(time > other[TIME][-1], 0.0, followed)
     units = {name: "s" if name == TIME else "m/s" for name in channels}
     return Recording(channels, units)
 
@@ -76,13 +76,7 @@ _LONGEST_NAME: Final = 90
 """Letters of the name of a part that a fit writes; chosen."""
 
 
-def fitted_yaml(
-    case: Case,
-    statements: Mapping[str, str],
-    fit: Fit,
-    scenario: Path,
-    folder: Path,
-) -> str:
+def fitted_yaml(case: Case, statements: Mapping[str, str], fit: Fit, scenario: Path, folder: Path) -> str:
     """Return the text of a scenario that extends `scenario` from `folder` and states the fitted friction.
 
     Args:
@@ -160,12 +154,6 @@ def _with_pads(scenario: Scenario, factor: float) -> dict[str, Any]:
 
 def fit_document(fit: Fit, agreement: Agreement, choices: dict[str, str]) -> dict[str, Any]:
     """Return the fitted values, the agreement of the simulated stop and the preparation; NaN as None."""
-    document = {
-        "schema": SCHEMA,
-        "determined": fit.determined,
-        "fit": asdict(fit),
-        "agreement": asdict(agreement),
-        "preparation": choices,
-    }
-    form: dict[str, Any] = evaluation.json_form(document)
+    found = {"determined": fit.determined, "fit": asdict(fit), "agreement": asdict(agreement)}
+    form: dict[str, Any] = evaluation.json_form({"schema": SCHEMA, **found, "preparation": choices})
     return form

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +48,8 @@ def _coupling_height(vehicle: scenario.Vehicle) -> float:
 Array = NDArray[np.float64]
 _SMOOTHING = 0.1
 """s over which speeds are averaged before differences are taken of them; chosen."""
+_THIRD_DIFFERENCE = 0.6745 * 20.0**0.5
+"""Median size of the third differences of a normal noise, over its standard deviation."""
 
 
 class FitError(ValueError):
@@ -64,10 +66,11 @@ class StopSamples:
         wheel_speed: circumferential, smoothed, m/s.
         slip: slip speed, m/s.
         place: of each wheelset on the track, m from where the first was at the brake command.
-        load: of one wheel, N, from the deceleration.
+        load: of one wheel, N, as recorded, else of the vehicle at its deceleration.
         torque: of the brake on each wheelset, N m; None where no clamping forces or torques are recorded.
         sliding: where a wheelset slides, by the scenario's definition.
         standing: where a wheelset is locked: its brake then holds, and its torque is not known.
+        noise: standard deviation of that of `speed`, m/s, by the third differences of what was recorded.
 
     """
 
@@ -80,6 +83,12 @@ class StopSamples:
     torque: Array | None
     sliding: NDArray[np.bool_]
     standing: NDArray[np.bool_]
+    noise: float
+
+    def without_delay(self, delay: float) -> StopSamples:
+        """Return the samples of wheel speeds that are recorded so many seconds after the train speed."""
+        wheel_speed = self.wheel_speed + delay * np.gradient(self.wheel_speed, self.time, axis=1)
+        return replace(self, wheel_speed=wheel_speed, slip=self.speed - wheel_speed)
 
 
 def samples_of(stop: field_data.RecordedStop, scenario: Scenario) -> StopSamples:
@@ -99,16 +108,20 @@ def samples_of(stop: field_data.RecordedStop, scenario: Scenario) -> StopSamples
     speed = _smoothed(np.asarray(recording["speed"])[part], width)
     wheels = np.array([_smoothed(np.asarray(recording[name])[part], width) for name in names[1:]])
     slip = speed - wheels
+    loads = _of_wheelsets(recording, "wheel_load", part, width)
+    if loads is None:
+        loads = wheel_loads(scenario.vehicle, -np.gradient(_smoothed(speed, 5 * width), time))
     return StopSamples(
         time,
         speed,
         wheels,
         slip,
         np.asarray(recording["distance"])[part] - _behind(scenario)[:, None],
-        wheel_loads(scenario.vehicle, -np.gradient(_smoothed(speed, 5 * width), time)),
+        loads,
         _torque(recording, scenario, part, width),
         (slip > definition.sliding_slip) & (slip > definition.sliding_slide * speed),
         wheels < 2.0 * definition.locked_speed,
+        float(np.median(np.abs(np.diff(recording["speed"][part], 3)))) / _THIRD_DIFFERENCE / width**0.5,
     )
 
 
@@ -168,8 +181,14 @@ def _torque(recording: Recording, scenario: Scenario, part: slice, width: int) -
     sources = (("clamping_force", per_force), ("brake_torque", np.ones_like(per_force)))
     by_torque_alone = scenario.brake.pad.varies or scenario.brake.dynamic is not None
     for kind, factor in sources[1:] if by_torque_alone else sources:
-        names = [f"{kind}_{n}" for n in WHEELSETS]
-        if all(name in recording.channels and np.isfinite(recording[name]).all() for name in names):
-            samples = [_smoothed(np.asarray(recording[name])[part], width) for name in names]
-            return np.asarray(factor * np.array(samples))
+        if (samples := _of_wheelsets(recording, kind, part, width)) is not None:
+            return np.asarray(factor * samples)
     return None
+
+
+def _of_wheelsets(recording: Recording, kind: str, part: slice, width: int) -> Array | None:
+    """Return the smoothed samples of a kind of channel, (4, n); None where one has gaps or is missing."""
+    names = [f"{kind}_{n}" for n in WHEELSETS]
+    if any(name not in recording.channels or not np.isfinite(recording[name]).all() for name in names):
+        return None
+    return np.array([_smoothed(np.asarray(recording[name])[part], width) for name in names])

@@ -46,7 +46,7 @@ class Estimate:
             return f"{self.name}: no wheelset came there"
         if self.standing == "at least":
             return f"{self.name}: at least {self.value:.4f}; nothing slid there, so it may be higher"
-        share = 100.0 * self.half_width / self.value
+        share = 100.0 * self.half_width / abs(self.value)
         return f"{self.name}: {self.value:.4f} +- {self.half_width:.4f} ({share:.1f} %, 95 % confidence)"
 
 
@@ -66,6 +66,8 @@ class Stretches:
     def counts(self) -> list[int]:
         """Windows of sliding in each stretch."""
         sliding, where = self.balances.windows.sliding, self._number_in_windows
+        if self.balances.samples.torque is None:  # The train alone tells, where all slide.
+            sliding = sliding & sliding.all(axis=0)
         return [int((sliding & (where == k)).sum()) for k in range(len(self.breaks) + 1)]
 
     @property

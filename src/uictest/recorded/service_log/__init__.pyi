@@ -1,3 +1,4 @@
+from .clocks import clock_text as clock_text
 from .finder import (
     FinderSettings as FinderSettings,
     Log as Log,

@@ -9,16 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
-from uictest.core.recording import TIME, beyond
-from uictest.core.recording.formats import read_pieces
+from uictest.core.recording import TIME, beyond, state_kind, usual_interval
+from uictest.core.recording.formats import DAY, is_clock, read_pieces
 from uictest.recorded.field_data import (
     CHANNEL_UNITS,
     ChannelMap,
     MapError,
     RawChannel,
+    at_own_rates,
     resampled,
     select_channels,
-    usual_interval,
 )
 
 _SPEED = "speed"
@@ -47,17 +47,31 @@ def pieces_of(path: Path, channel_map: ChannelMap, needed: Collection[str] | Non
     chosen = sources if needed is None else {TIME, _SPEED, *needed}
     names = {alias for name in chosen if name in sources for alias in sources[name].source}
     leading = sources[_SPEED].source if _SPEED in sources else ()
+    states = [source for name, source in sources.items() if source.states or state_kind(name)]
+    texts = {alias for source in states for alias in source.source}
     known: list[str] = []
-    for contents in read_pieces(path, channel_map.dialect, names, leading):
+    last = math.nan
+    for contents in read_pieces(path, channel_map.dialect, names, leading, texts):
         try:
-            read = select_channels(contents, channel_map, None if known else math.inf)
+            read = at_own_rates(select_channels(contents, channel_map, None if known else math.inf))
         except MapError:
             if not known:  # The message names what the file has, not only what was looked for.
                 select_channels(next(read_pieces(path, channel_map.dialect)), channel_map, math.inf)
             raise
+        if is_clock(channel_map.csv.dates):
+            read = _after(last, read)
+            last = float(np.fmax.reduce(read[_SPEED].time, initial=last))
         known = known or list(read)
         believed = {name: _believed(channel) for name, channel in _without_empty_rows(read).items()}
         yield _over_one_time(believed, known, float(channel_map.preparation.raster))
+
+
+def _after(last: float, channels: dict[str, RawChannel]) -> dict[str, RawChannel]:
+    """Return channels whose clock, one of a day, runs on from the last time of the piece before, s."""
+    first = next(iter(channels[_SPEED].time[np.isfinite(channels[_SPEED].time)]), math.nan)
+    days = DAY * np.nan_to_num(np.round((last - first) / DAY))
+    axes = {id(channel.time): channel.time + max(days, 0.0) for channel in channels.values()}
+    return {name: replace(channel, time=axes[id(channel.time)]) for name, channel in channels.items()}
 
 
 def _without_empty_rows(channels: dict[str, RawChannel]) -> dict[str, RawChannel]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Collection, Sequence
+from datetime import UTC, datetime
 from itertools import combinations, pairwise
 from pathlib import Path
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,14 +14,21 @@ from numpy.typing import NDArray
 from uictest.core.recording.formats import UnreadableError
 from uictest.recorded.service_log.signals import Array, Before, Rows
 
-_EARLIEST_DATE: Final = 946_684_800.0
-"""s: 2000-01-01 as Unix time; a clock that shows less counts from somewhere else."""
+_EARLIEST_DATE, _LATEST_DATE = 946_684_800.0, 4_102_444_800.0
+"""s: 2000-01-01 and 2100-01-01 as Unix time; a clock that shows less or more counts from somewhere else."""
 _LARGEST_OVERLAP = 3.0
 """s by which a clock may have been put right between two files, less than a stop takes; chosen."""
 _MOST_REPEATED = 0.1
 """Share of the rows in which a clock may repeat its time; chosen."""
 _LONGEST_INTERVAL = 60.0
 """s: a longer interval between two rows is a step of the clock or an interruption; chosen."""
+
+
+def clock_text(time: float) -> str:
+    """Return a recorded time for a reader: a date where the clock shows one, else seconds."""
+    if not _EARLIEST_DATE < time < _LATEST_DATE:
+        return f"{time:.12g} s"
+    return datetime.fromtimestamp(time, UTC).replace(tzinfo=None).isoformat(" ", "milliseconds")
 
 
 def continuous_clock(time: Array, before: Before) -> Array:

@@ -8,13 +8,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.recorded.field_data import SHORTEST_APPLICATION
 from uictest.recorded.service_log.clocks import continuous_clock, last_interval, runs_on, steps_of_clock
 from uictest.recorded.service_log.signals import Array, Before, Rows, constant_before, reference_speed
 
 SHORTEST_RELEASE = 3.0
 """s: a shorter release belongs to the application: pressures fall where the WSP vents all; chosen."""
-_SHORTEST_APPLICATION = 0.1
-"""s: no brake acts so briefly, what is shorter is noise; chosen."""
 _RUN_OUT = 3.0
 """s after the release in which a train that still moves may come to its stop; chosen."""
 _STANDS = 1.0
@@ -139,7 +138,7 @@ class Course:
     def _lasts(self, first: int, end: int) -> bool:
         """Return whether rows with the brake applied are no noise."""
         seconds = self.clock[min(end, len(self.clock) - 1)] - self.clock[first]
-        return bool(seconds >= _SHORTEST_APPLICATION - _TIE)
+        return bool(seconds >= SHORTEST_APPLICATION - _TIE)
 
     def is_whole(self, end: int) -> bool:
         """Return whether the record shows what follows an application that ends before row `end`."""

@@ -126,6 +126,8 @@ def case_view(
 
 def _notes(result: evaluation.CaseResult, subject: CaseDescription, trace: PlotTrace) -> Iterator[str]:
     yield from (f"{sentence[:1].upper()}{sentence[1:]}." for sentence in real_time_sentences(result))
+    if result.controller_log:
+        yield f"The controller printed: {result.controller_log}."
     for span in trace.faults:
         yield f"Fault {span.label} from {span.start:.4g} s to {span.end:.4g} s."
     yield sampling_text(trace)

@@ -134,6 +134,8 @@ def _measures(result: evaluation.CaseResult) -> Iterator[str]:
         yield f"missed_deadlines={times.missed_deadlines}"
         yield f"longest_answer_s={number(times.longest_answer_s)}"
         yield f"start_jitter_s={number(times.start_jitter_s)}"
+    if result.controller_log:
+        yield f"controller_log={result.controller_log}"
 
 
 def _deciding(result: evaluation.CaseResult) -> evaluation.CaseResult | evaluation.RailValidity:

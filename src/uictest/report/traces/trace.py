@@ -183,7 +183,7 @@ def trace_of(
     return PlotTrace(
         float(time[0]),
         float(time[-1]),
-        interval_of(time),
+        recording.mean_interval(time),
         {name: Curve(drawn, samples[rows]) for name, samples in series.items() if name not in states},
         {name: _states(time, samples) for name, samples in series.items() if name in states},
         tuple(name for name in series if name not in record.channels),
@@ -280,8 +280,3 @@ def _states(time: Series, samples: Series) -> States:
     state = np.where(np.isfinite(samples), np.rint(samples), UNKNOWN).astype(np.int64)
     changes = np.flatnonzero(np.diff(state, prepend=state[0] - 1))
     return States(time[changes], state[changes])
-
-
-def interval_of(time: Series) -> float:
-    """Return the mean time between two samples, s (0 for a single sample)."""
-    return float(time[-1] - time[0]) / (len(time) - 1) if len(time) > 1 else 0.0

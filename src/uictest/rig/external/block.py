@@ -5,19 +5,13 @@ they need the interpreter, or can have only one controller at a time.
 """
 
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.controllers import (
-    EXCHANGE,
-    Config,
-    ControllerError,
-    ControllerInstance,
-    ControllerProgram,
-)
+from uictest.controllers import EXCHANGE, Config, ControllerError, ControllerProgram
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.external.in_process import opened
@@ -73,12 +67,6 @@ class _Block(NamedTuple):
     exchanges: NDArray[Any]
     run: BlockRun
 
-    def opened(self, place: int) -> AbstractContextManager[ControllerInstance]:
-        """Return the context in which the controller of a case from outside is open."""
-        program, config = self.inputs.programs[place], self.inputs.configs[place]
-        parameters, exchange = self.inputs.parameters[place], self.exchanges[place]
-        return opened(program, config, parameters, exchange)  # type: ignore[arg-type]
-
 
 def run_block(inputs: BlockInputs, exchanges: NDArray[Any] | None = None) -> BlockRun:
     """Run the stop of every case; a controller that fails ends its own stop, the others keep their bits.
@@ -120,12 +108,14 @@ def load_block(programs: Sequence[ControllerProgram | None]) -> None:
 
 def _is_ready(block: _Block, place: int, controllers: ExitStack) -> bool:
     """Open the controller of a case, and return whether it waits for the lanes; else its stop is over."""
-    if block.inputs.programs[place] is None:
+    program, config = block.inputs.programs[place], block.inputs.configs[place]
+    if program is None or config is None:
         return True
+    parameters, exchange = block.inputs.parameters[place], block.exchanges[place]
     with ExitStack() as opening:
         # The outer context gets the failure of a stop, which is known when its controller is closed.
         opening.enter_context(_noted(block.run.failures, place))
-        controller = opening.enter_context(block.opened(place))
+        controller = opening.enter_context(opened(program, config, parameters, exchange))
         if controller.runs_beside_others:
             controllers.enter_context(opening.pop_all())
             return True

@@ -7,7 +7,9 @@ standard error.
 
 import mmap
 import os
-from typing import Any, BinaryIO
+import resource
+import sys
+from typing import Any, BinaryIO, Final
 
 import numpy as np
 
@@ -30,6 +32,10 @@ from uictest.rig.external.messages import (
     write_message,
 )
 
+MEMORY_LIMIT: Final = 4 * 2**30
+"""Most memory of a child, or of a process that its controller starts, bytes; chosen: a child takes some
+110 MB, and a controller that leaks is to end before the machine does."""
+
 
 def serve(exchange_file: int) -> None:
     """Answer requests until there are no more.
@@ -51,7 +57,11 @@ def serve(exchange_file: int) -> None:
         except StreamEndedError:
             return
         memory[:] = bytes(len(memory))
-        write_message(answers, _answer(request, exchanges))
+        answer = _answer(request, exchanges)
+        try:
+            write_message(answers, answer)
+        except OSError:  # a controller has closed it
+            os._exit(os.EX_IOERR)
 
 
 def _answer(request: Message, exchanges: Any) -> Message:
@@ -81,3 +91,10 @@ def _private_streams() -> tuple[BinaryIO, BinaryIO]:
     os.dup2(2, 1)
     os.close(nothing)
     return requests, answers
+
+
+if __name__ == "__main__":
+    _, most = resource.getrlimit(resource.RLIMIT_DATA)
+    limit = MEMORY_LIMIT if most == resource.RLIM_INFINITY else min(MEMORY_LIMIT, most)
+    resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
+    serve(int(sys.argv[1]))

@@ -27,6 +27,7 @@ from uictest.controllers import (
     open_controller,
 )
 from uictest.rig.external.in_process import raise_failure
+from uictest.rig.external.process_state import ControllerCalls
 from uictest.rig.model.controller import call_step
 
 FILLING_TIME: Final = 2.0
@@ -42,7 +43,7 @@ _GUARD_AT: Final = OUTPUTS_AT + OUTPUTS.itemsize
 
 Beginning = Literal["create", "reset", "beside"]
 """How a drive begins: with a new controller, with the one of the drive before, or with a new one beside
-another that is shown the same inputs, last first, each before the controller is shown its own."""
+another that is shown the same sensors, last first, each cycle before the controller is shown its own."""
 
 
 class DriveRequest(NamedTuple):
@@ -78,12 +79,15 @@ class Driven(NamedTuple):
 class Drives(NamedTuple):
     """What a controller says of itself, its drives, the JSON in which it declares its parameters, and the
     version of the contract that it keeps.
+
+    `traces` is what its calls left changed in the process, and the call, e.g. `locale de_DE after step`.
     """
 
     version: str
     drives: tuple[Driven, ...]
     declares: str = ""
     contract: int = 1
+    traces: tuple[str, ...] = ()
 
 
 def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
@@ -92,64 +96,59 @@ def drive_controller(request: DriveRequest, exchange: Any) -> Drives:
     A drive beside another controller has no answers where only one can be open in a process.
     """
     drives: list[Driven] = []
+    calls = ControllerCalls(exchange)
     with ExitStack() as controllers:
         instance: ControllerInstance | None = None
         for beginning in request.beginnings:
             if beginning != "reset":
                 controllers.close()
-                instance = controllers.enter_context(_opened(request, exchange))
+                instance = controllers.enter_context(_opened(request, calls))
             if instance is None:
                 raise ValueError("the first drive begins with a new controller")
-            with _called(exchange, OPENING):
+            with calls.of("reset", OPENING):
                 instance.reset()
             if beginning == "beside":
-                drives.append(_drive_beside(instance, request, exchange))
+                drives.append(_drive_beside(instance, request, calls))
             else:
-                drives.append(drive(instance, request.inputs, request.config.cycle_time, exchange))
-        if instance is None:
-            return Drives("", ())
-        return Drives(instance.version, tuple(drives), instance.declares, instance.contract)
+                drives.append(_driven(_answers(instance, request.inputs, request.config.cycle_time, calls)))
+    if instance is None:
+        return Drives("", ())
+    said = instance.declares, instance.contract
+    return Drives(instance.version, tuple(drives), *said, tuple(calls.traces.values()))
 
 
 @contextmanager
-def _opened(request: DriveRequest, exchange: Any) -> Iterator[ControllerInstance]:
-    with _called(exchange, OPENING):
+def _opened(request: DriveRequest, calls: ControllerCalls) -> Iterator[ControllerInstance]:
+    with calls.of("loading or create", OPENING):
         instance = open_controller(request.program, request.config)
     try:
         yield instance
     finally:
-        with _called(exchange, CLOSING):
+        with calls.of("destroy", CLOSING):
             instance.close()
-
-
-@contextmanager
-def _called(exchange: Any, calling: int) -> Iterator[None]:
-    """Say in the exchange what a controller is called for."""
-    exchange["calling"] = calling
-    try:
-        yield
-    finally:
-        exchange["calling"] = NOT_CALLED
 
 
 def drive(instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float, exchange: Any) -> Driven:
     """Drive a controller that has been reset. Raises ControllerError where it fails."""
-    return _driven(_answers(instance, inputs, cycle_time, exchange))
+    return _driven(_answers(instance, inputs, cycle_time, ControllerCalls(exchange)))
 
 
-def _drive_beside(instance: ControllerInstance, request: DriveRequest, exchange: Any) -> Driven:
+def _drive_beside(instance: ControllerInstance, request: DriveRequest, calls: ControllerCalls) -> Driven:
     """Drive a controller that has been reset while another one is driven."""
     inputs, cycle_time = request.inputs, request.config.cycle_time
+    reversed_inputs = inputs[::-1].copy()
+    for name in ("cycle", "time"):  # its own cycles begin at 0, too: no clock runs backwards
+        reversed_inputs[name] = inputs[name]
     with ExitStack() as others:
         try:
-            other = others.enter_context(_opened(request, exchange))
+            other = others.enter_context(_opened(request, calls))
         except OnlyOneError:
             return _driven(())
-        with _called(exchange, OPENING):
+        with calls.of("reset", OPENING):
             other.reset()
         both = zip(
-            _answers(other, inputs[::-1], cycle_time, exchange),
-            _answers(instance, inputs, cycle_time, exchange),
+            _answers(other, reversed_inputs, cycle_time, calls),
+            _answers(instance, inputs, cycle_time, calls),
             strict=True,
         )
         return _driven(own for _, own in both)
@@ -164,12 +163,13 @@ def _driven(answers: Iterable[tuple[bytes, float]]) -> Driven:
 
 
 def _answers(
-    instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float, exchange: Any
+    instance: ControllerInstance, inputs: NDArray[Any], cycle_time: float, calls: ControllerCalls
 ) -> Iterator[tuple[bytes, float]]:
     """Yield what a controller answers in each cycle, as bytes, and how long that took.
 
     Between two cycles the exchange may serve another controller. Raises ControllerError.
     """
+    exchange = calls.exchange
     address = exchange.__array_interface__["data"][0]
     layout: Any = EXCHANGE
     fields: Any = np.ctypeslib.as_ctypes_type(layout).from_address(address)
@@ -196,6 +196,7 @@ def _answers(
         status = call_step(instance.step_address, instance.handle, address)
         seconds = perf_counter() - started
         fields.calling = NOT_CALLED
+        calls.restore_state("step")
         beyond = fields.guard != GUARD
         if beyond or (
             untouched and (reduction[:] != kept or any(fields.sand_request) or fields.track_brake_request)

@@ -1,9 +1,10 @@
 """A stop in this process, of a car or a train; controllers from outside opened and driven."""
 
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, nullcontext
 from dataclasses import replace
 from pathlib import Path
+from threading import Lock
 from typing import Any, Final
 
 import numpy as np
@@ -18,6 +19,7 @@ from uictest.controllers import (
     NO_FAILURE,
     NO_MAGNET_STATE,
     NO_REDUCTION,
+    NO_REFERENCE,
     NO_REQUEST,
     NOT_CALLED,
     OPENING,
@@ -32,6 +34,7 @@ from uictest.controllers import (
 )
 from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.backends.trains import compiled_train
+from uictest.rig.external.process_state import ControllerCalls
 from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
 from uictest.rig.train_stop import TrainInputs, TrainStop, run_train_to_end
 
@@ -41,12 +44,17 @@ _FAILURES: Final = {
     NO_MAGNET_STATE: "a magnet of wheelset {wheelset} is neither 0 nor 1: hold {hold}, vent {vent}",
     WROTE_BEYOND: "the controller wrote beyond its outputs",
     NO_REDUCTION: "the reduction of the dynamic brake of wheelset {wheelset} is {reduction}, expected 0 to 1",
+    NO_REFERENCE: "the reference speed is {reference}, expected a number of m/s, or NaN for none",
     NO_REQUEST: "a request is neither 0 nor 1: sand at wheelset {wheelset} {sand}, track brake {track_brake}",
 }
 
 
 class DamagedExchangeError(ControllerError):
     """A library wrote over the exchange of a controller, maybe of another: nobody is to blame for certain."""
+
+
+_ALONE: Final = Lock()
+"""Held while a controller is opened or closed: its folder and locale are those of all threads meanwhile."""
 
 
 def empty_exchange() -> Any:
@@ -60,28 +68,39 @@ def opened(
 ) -> Iterator[ControllerInstance]:
     """Open a controller, reset it, and tell the stop with these parameters where it is.
 
+    What it changes of the process is put back once it is reset and once it is closed; within the stop the
+    compiled rig puts back what its numbers depend on after every step.
+
     Raises:
         ControllerError: when it cannot be loaded, created or reset, and after a stop in which it failed.
     """
-    exchange["calling"] = OPENING
+    # A program at a socket changes nothing here, and may wait until it has served another.
+    alone: Any = nullcontext() if program.kind == "connect" else _ALONE
+    with alone:
+        calls = ControllerCalls(exchange)
+        with calls.of("loading, create or reset", OPENING):
+            instance = _reset_instance(program, config)
     try:
-        instance = open_controller(program, config)
-        try:
-            instance.reset()
-            exchange["calling"] = NOT_CALLED
-            check_requests(instance.contract, parameters)
-            parameters["controller_step"] = instance.step_address
-            parameters["controller_handle"] = instance.handle
-            parameters["controller_contract"] = instance.contract
-            parameters["controller_exchange"] = exchange.__array_interface__["data"][0]
-            yield instance
-            raise_failure(exchange, instance)
-        finally:
-            exchange["calling"] = CLOSING
-            instance.close()
+        check_requests(instance.contract, parameters)
+        parameters["controller_step"] = instance.step_address
+        parameters["controller_handle"] = instance.handle
+        parameters["controller_contract"] = instance.contract
+        parameters["controller_exchange"] = exchange.__array_interface__["data"][0]
+        yield instance
+        raise_failure(exchange, instance)
     finally:
-        # Also where it could not be opened: whoever watches a block asks which controller does not return.
-        exchange["calling"] = NOT_CALLED
+        with alone, calls.of("destroy", CLOSING):
+            instance.close()
+
+
+def _reset_instance(program: ControllerProgram, config: Config) -> ControllerInstance:
+    instance = open_controller(program, config)
+    try:
+        instance.reset()
+    except BaseException:
+        instance.close()
+        raise
+    return instance
 
 
 def check_requests(contract: int, parameters: Any) -> None:
@@ -106,13 +125,16 @@ def raise_failure(exchange: Any, instance: ControllerInstance) -> None:
         exchange["failure"] = WROTE_BEYOND
         raise DamagedExchangeError("some controller of the process wrote beyond its outputs")
     if failure == NO_FAILURE:
-        return
+        if not instance.failed:
+            return
+        failure = STEP_FAILED
     reason = _FAILURES[failure].format(
         error=_explanation(exchange, instance) if failure == STEP_FAILED else "",
         wheelset=place + 1,
         hold=exchange["hold"][place],
         vent=exchange["vent"][place],
         reduction=exchange["dynamic_reduction"][place],
+        reference=exchange["reference_speed"],
         sand=exchange["sand_request"][place],
         track_brake=exchange["track_brake_request"],
     )
@@ -207,7 +229,9 @@ def of_car(car: int, program: ControllerProgram) -> Iterator[None]:
         raise
     except ControllerError as error:
         name = program.location if program.kind == "connect" else Path(program.location).name
-        raise ControllerError(f"car {car + 1} ({name}): {error}") from error
+        named = ControllerError(f"car {car + 1} ({name}): {error}")
+        named.output = error.output
+        raise named from error
 
 
 def _with_controller(finished: FinishedStop, controller: ControllerInstance) -> FinishedStop:

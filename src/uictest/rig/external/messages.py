@@ -111,18 +111,14 @@ def drive_message(request: DriveRequest) -> Message:
 def drive_request_of(message: Message) -> DriveRequest:
     """Return what a controller is driven through from its message."""
     program, config = read_controller(message.head["controllers"][0])
-    return DriveRequest(
-        program,
-        config,
-        np.frombuffer(message.blocks[0], INPUTS),
-        message.head["beginnings"],
-    )
+    inputs = np.frombuffer(message.blocks[0], INPUTS)
+    return DriveRequest(program, config, inputs, message.head["beginnings"])
 
 
 def drives_message(drives: Drives) -> Message:
     """Return what a controller has answered as a message."""
     records = [each for driven in drives.drives for each in driven]
-    head = {"version": drives.version, "declares": drives.declares, "contract": drives.contract}
+    head = {name: getattr(drives, name) for name in ("version", "declares", "contract", "traces")}
     return Message(head, bytes_of(records))
 
 
@@ -130,8 +126,9 @@ def drives_of(message: Message) -> Drives:
     """Return what a controller has answered from its message."""
     pairs = zip(message.blocks[::2], message.blocks[1::2], strict=True)
     drives = (Driven(np.frombuffer(outputs, OUTPUTS), np.frombuffer(seconds)) for outputs, seconds in pairs)
-    said = (message.head[name] for name in ("declares", "contract"))
-    return Drives(message.head["version"], tuple(drives), *said)
+    head = message.head
+    said = head["declares"], head["contract"], tuple(head["traces"])
+    return Drives(head["version"], tuple(drives), *said)
 
 
 _STOP: Final = (STOP_MEASURES, WHEELSET_MEASURES, CAR, WHEELSET, TRAIN_SAMPLE, WHEELSET_SAMPLE)
@@ -164,16 +161,20 @@ def finished_message(finished: FinishedStop) -> Message:
 
 def finished_of(message: Message) -> FinishedStop:
     """Return what a stop has left."""
-    arrays: list[Any] = [np.frombuffer(*each) for each in zip(message.blocks, _STOP, strict=True)]
-    measures, wheelset_measures, car, wheelsets, train, samples = arrays
+    records = [np.frombuffer(*each) for each in zip(message.blocks, _STOP, strict=True)]
+    return _finished(records, message.head["controller_version"], message.head["contract"])
+
+
+def _finished(records: Sequence[Any], controller_version: str, contract: int) -> FinishedStop:
+    measures, wheelset_measures, car, wheelsets, train, samples = records
     return FinishedStop(
         measures[0],
         wheelset_measures.view(np.recarray),
         car[0],
         wheelsets.view(np.recarray),
         Trace(train, samples.reshape(-1, 4)),
-        message.head["controller_version"],
-        contract=message.head["contract"],
+        controller_version,
+        contract=contract,
     )
 
 
@@ -224,21 +225,9 @@ def train_stop_of(message: Message, parameters: Any) -> TrainStop:
         np.frombuffer(*each) if each[0] else np.empty(0, each[1])
         for each in zip(message.blocks, _TRAIN_STOP, strict=True)
     )
-    n = len(parameters)
-    measures, of_wheelsets, cars, wheelsets, train, samples = (each.reshape(n, -1) for each in of_cars)
-    said = zip(message.head["controller_version"], message.head["contract"], strict=True)
-    finished = tuple(
-        FinishedStop(
-            measures[j, 0],
-            of_wheelsets[j].view(np.recarray),
-            cars[j, 0],
-            wheelsets[j].view(np.recarray),
-            Trace(train[j], samples[j].reshape(-1, 4)),
-            version,
-            contract=contract,
-        )
-        for j, (version, contract) in enumerate(said)
-    )
+    cars = zip(*(each.reshape(len(parameters), -1) for each in of_cars), strict=True)
+    said = message.head["controller_version"], message.head["contract"]
+    finished = tuple(_finished(*of_car) for of_car in zip(cars, *said, strict=True))
     return TrainStop(finished, couplers, parameters)
 
 

@@ -4,11 +4,10 @@ import mmap
 import os
 import signal
 import subprocess
-import sys
 import tempfile
 import weakref
 from collections.abc import Callable, Sequence
-from contextlib import suppress
+from pathlib import Path
 from select import select
 from socket import socket, socketpair
 from time import monotonic
@@ -27,6 +26,7 @@ from uictest.controllers import (
     ControllerError,
     ProgramKey,
 )
+from uictest.core.guarded_process import GuardedProcess
 from uictest.rig.external.block import BlockInputs, BlockRun
 from uictest.rig.external.drives import DriveRequest, Drives
 from uictest.rig.external.messages import (
@@ -44,6 +44,7 @@ from uictest.rig.external.messages import (
     train_stop_of,
     write_message,
 )
+from uictest.rig.external.printed import PrintedOutput
 from uictest.rig.single_stop import FinishedStop, StopInputs
 from uictest.rig.train_stop import TrainInputs, TrainStop
 
@@ -59,7 +60,7 @@ IDLE_LIMIT: Final = 300.0
 between two cycles the rig takes microseconds."""
 _LONGEST_WAIT: Final = 0.1
 """Time between two looks at a child that has not answered, s; chosen."""
-_CHILD: Final = "uictest.rig.external.guard"
+_CHILD: Final = "uictest.rig.external.child"
 _NAMES: Final = {
     STEPPING: "step",
     OPENING: "loading, create or reset",
@@ -89,18 +90,19 @@ class Worker:
     another version would take the place of its own.
     """
 
-    def __init__(self, keys: frozenset[ProgramKey]) -> None:
+    def __init__(self, keys: frozenset[ProgramKey], *, keep_output: bool = False) -> None:
+        """Start it; what it prints is kept, or goes to standard error."""
         self.keys = keys
         """Of the programs that may run on it."""
+        self.printed = printed = PrintedOutput(kept=keep_output)
         # The child is ended by a signal and removes no file: its temporary files lie in a folder of ours.
         self._folder = tempfile.TemporaryDirectory(prefix="uictest-child-", ignore_cleanup_errors=True)
         with tempfile.TemporaryFile() as shared:
             shared.truncate(LARGEST_BLOCK * EXCHANGE.itemsize)
             self._memory = mmap.mmap(shared.fileno(), 0)
             self._exchanges: Any = np.frombuffer(self._memory, EXCHANGE)
-            self._process, self._channel, lifeline = _started(shared.fileno(), self._folder.name)
-        # Only once: the numbers of a closed pipe and of a collected process may be those of others soon.
-        self._release = weakref.finalize(self, _end, self._process, self._channel, lifeline, self._folder)
+            self._process, self._channel = _started(shared.fileno(), self._folder.name, printed)
+        self._release = weakref.finalize(self, _end, self._process, self._channel, self._folder, printed)
         self.usable = True
         """Whether another stop may be run on it."""
 
@@ -125,6 +127,7 @@ class Worker:
     def close(self) -> None:
         """End the child and whatever it has started."""
         self.usable = False
+        self.printed.read()
         self._release()
 
     def _answer(self, request: Message, programs: Any, read: Callable[[Message], Read]) -> Read:
@@ -168,7 +171,7 @@ class Worker:
     def _wait(self, time_limits: Sequence[float]) -> None:
         """Wait for an answer; a child that does not get on in time, whatever it does, is an error."""
         state, since = self._state(), monotonic()
-        while not select([self._channel], [], [], min(_LONGEST_WAIT, *time_limits))[0]:
+        while not self._has_answered_within(min(_LONGEST_WAIT, *time_limits)):
             now = self._state()
             if now != state:
                 state, since = now, monotonic()
@@ -177,6 +180,13 @@ class Worker:
             limit = max(least, time_limits[place])
             if monotonic() - since > limit:
                 raise self._lost(f"{_NAMES[calling]} did not return within {limit:g} s")
+
+    def _has_answered_within(self, seconds: float) -> bool:
+        """Wait for an answer, and take what is printed meanwhile."""
+        watched: list[socket | int] = [self._channel, *self.printed.open_ends]
+        ready, _, _ = select(watched, [], [], seconds)
+        self.printed.read()
+        return self._channel in ready
 
     def _state(self) -> tuple[int, int, int]:
         """Return which stop's controller is asked at present, for what, and how many steps were begun."""
@@ -203,43 +213,38 @@ class Worker:
         try:
             code = self._process.wait(ANSWER_LIMIT)
         except subprocess.TimeoutExpired:
-            return "closed what its answers go through"
+            code = os.EX_IOERR
+        if code == os.EX_IOERR:
+            return "closed files of its process that are not its own: what its answers go through is one"
         crash = f"crashed with {signal.Signals(-code).name}" if code < 0 else ""
         within = "" if calling in (STEPPING, NOT_CALLED) else f"{_NAMES[calling]} "
         return within + (crash or f"ended its process with exit code {code}")
 
 
-def _started(exchange_file: int, temporary_folder: str) -> tuple[Any, socket, int]:
-    """Start a child; return it, what it is talked to through, and the pipe that keeps it alive."""
-    end, lifeline = os.pipe()
+def _started(exchange_file: int, folder: str, printed: PrintedOutput) -> tuple[GuardedProcess, socket]:
+    """Start a child; return it, and what it is talked to through."""
     channel, its_channel = socketpair()
     channel.settimeout(ANSWER_LIMIT)
+    streams = {"stdin": its_channel, "stdout": its_channel, "stderr": printed.its_end}
     try:
-        process = subprocess.Popen(
-            # -P: modules of the working folder are not ours, whatever they are called.
-            [sys.executable, "-P", "-m", _CHILD, str(exchange_file), str(end), temporary_folder],
-            stdin=its_channel.fileno(),
-            stdout=its_channel.fileno(),
-            pass_fds=(exchange_file, end),
-            # Signals of the terminal are for this process, which ends the child and what that has started.
-            start_new_session=True,
-            env={**os.environ, "TMPDIR": temporary_folder},
+        # -P: modules of the working folder are not ours, whatever they are called. -u: what Python and C
+        # print belongs to the stop in which they do, and is not lost in a crash.
+        process = GuardedProcess(
+            _CHILD, [str(exchange_file)], Path(folder), ["-P", "-u"], pass_fds=(exchange_file,), **streams
         )
     except BaseException:
-        os.close(lifeline)
         channel.close()
         raise
     finally:
-        os.close(end)
         its_channel.close()
-    return process, channel, lifeline
+        if printed.its_end is not None:
+            os.close(printed.its_end)
+    return process, channel
 
 
-def _end(process: Any, channel: socket, lifeline: int, folder: tempfile.TemporaryDirectory[str]) -> None:
+def _end(process: GuardedProcess, channel: socket, folder: Any, printed: PrintedOutput) -> None:
     """End a child, its guard and whatever it has started."""
-    with suppress(ProcessLookupError):
-        os.killpg(process.pid, signal.SIGKILL)
-    process.wait()
+    process.end()
     channel.close()
-    os.close(lifeline)
     folder.cleanup()
+    printed.close()

@@ -7,7 +7,7 @@ from threading import Lock
 from types import TracebackType
 from typing import Final, Self, TypeGuard
 
-from uictest.controllers import ControllerProgram, ProgramKey
+from uictest.controllers import ControllerError, ControllerProgram, ProgramKey
 from uictest.rig.backends.scalar import compiled_stop
 from uictest.rig.backends.trains import compiled_train
 from uictest.rig.external.block import BlockInputs, BlockRun, empty_run, load_block, run_block
@@ -46,9 +46,14 @@ class Workers:
 
     A crash, a hang or a forbidden command of a controller ends its stop and, where it must, its process;
     other stops go on.
+
+    Args:
+        keep_output: whether what controllers print is part of their stops, in place of going to standard
+            error.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, keep_output: bool = False) -> None:
+        self._keep_output = keep_output
         self._idle: list[Worker] = []
         self._all: list[Worker] = []
         self._lock = Lock()
@@ -72,7 +77,7 @@ class Workers:
             return run_in_process(inputs, steps_per_sample)
         compiled_stop()  # so that the child finds it in the cache
         with self._worker(inputs.program) as worker:
-            return worker.run(inputs, steps_per_sample)
+            return replace(worker.run(inputs, steps_per_sample), controller_output=worker.printed.taken())
 
     def run_train(self, inputs: TrainInputs, steps_per_sample: int = 0) -> TrainStop:
         """Run a stop of a train; one whose controllers are built in, or processes of their own, runs here.
@@ -86,7 +91,13 @@ class Workers:
         compiled_train()  # so that the child finds it in the cache
         try:
             with self._worker(*programs.values()) as worker:
-                return worker.run_train(inputs, steps_per_sample)
+                stop = worker.run_train(inputs, steps_per_sample)
+                output = worker.printed.taken()  # of all controllers, which one process runs
+            cars = (
+                replace(car, controller_output=output if place in programs else "")
+                for place, car in enumerate(stop.cars)
+            )
+            return stop._replace(cars=tuple(cars))
         except LostChildError as error:
             if error.place is None:
                 raise
@@ -142,6 +153,9 @@ class Workers:
         worker = self._taken(frozenset(each.key for each in programs if each is not None))
         try:
             yield worker
+        except ControllerError as error:
+            error.output = worker.printed.taken()
+            raise
         finally:
             if not worker.usable:
                 worker.close()
@@ -162,7 +176,7 @@ class Workers:
             if len(self._idle) >= _MOST_IDLE:
                 self._idle[0].close()
                 self._all.remove(self._idle.pop(0))
-            worker = Worker(keys)
+            worker = Worker(keys, keep_output=self._keep_output)
             self._all.append(worker)
             return worker
 

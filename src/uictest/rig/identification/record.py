@@ -92,6 +92,9 @@ def _channels(groups: Sequence[recording.Group], names: Mapping[str, str]) -> di
 
 
 def _in_si(role: str, name: str, samples: NDArray[np.generic], unit: str) -> Samples:
+    if role == "time" and formats.are_dates(samples):
+        samples, unit = formats.seconds_of(samples, ""), "s"
+        samples = samples - samples[0]
     if samples.dtype.kind not in "biuf":
         raise UnsuitableRecordError(f"channel {name!r} contains texts; numbers are needed")
     numbers = np.asarray(samples, dtype=np.float64)

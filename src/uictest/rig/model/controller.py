@@ -21,6 +21,7 @@ from uictest.controllers import (
     NO_FAILURE,
     NO_MAGNET_STATE,
     NO_REDUCTION,
+    NO_REFERENCE,
     NO_REQUEST,
     NOT_CALLED,
     OUTPUTS_AT,
@@ -38,6 +39,7 @@ from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.state import Car, Wheelset
 
 _NAN = float("nan")
+_INFINITE = float("inf")
 
 
 def begin_external(train: TrainMemory, wheelsets: Sequence[ControlledWheelset], speed: float) -> None:
@@ -121,6 +123,8 @@ def read_outputs(exchange: Any, car: Car, wheelsets: Sequence[Wheelset], p: Para
     """Set what the controller commands and requests; a command that no valve has is a failure."""
     if exchange.guard != GUARD or (p.controller_contract == 1 and _was_touched(exchange)):
         exchange.failure = WROTE_BEYOND
+    if abs(exchange.reference_speed) == _INFINITE and exchange.failure == NO_FAILURE:
+        exchange.failure = NO_REFERENCE
     car.reference_speed = exchange.reference_speed
     car.diagnosis = exchange.diagnosis
     for i in range(4):

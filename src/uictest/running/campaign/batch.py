@@ -245,7 +245,7 @@ def run_cases(
             batch.results.append(result)
             on_case(case_run._replace(result=result))
 
-    with rig.Workers() as workers:
+    with rig.Workers(keep_output=settings.recording.keep_output is not None) as workers:
         run: rig.RunInputs = rig.run_in_process if settings.in_process else workers.run
         run = rig.in_real_time(run) if settings.real_time else run
         of_train = rig.run_train_in_process if settings.in_process else workers.run_train

@@ -22,11 +22,13 @@ class RecordingRequest(NamedTuple):
     """Cases to record (`failed`: those that miss their expectation), and the interval of samples, s.
 
     Of a repeated case the first stop is recorded; of so many `band_stops` the extremes over time are kept.
+    `keep_output` takes the id of a case and what its controller printed, and returns where that lies.
     """
 
     cases: Literal["all", "failed", "none"] = "failed"
     every: float = 0.01
     band_stops: int = 0
+    keep_output: Callable[[str, str], str] | None = None
 
     def wants(self, result: evaluation.CaseResult) -> bool:
         """Return whether to record a case with this result."""
@@ -43,13 +45,14 @@ class RecordingRequest(NamedTuple):
 class CaseRun(NamedTuple):
     """A case's result, the recording of its stop if there is one, and the traceback of a crash.
 
-    `extremes` are those of the first stops of a repeated case, as many as were asked for.
+    `extremes` are those of the first stops of a repeated case, `output` what its controller printed.
     """
 
     result: evaluation.CaseResult
     recording: Recording | None = None
     traceback: str = ""
     extremes: tuple[report.StopExtremes, ...] = ()
+    output: str = ""
 
 
 class Stop(NamedTuple):
@@ -210,10 +213,13 @@ def _judged(
 def _finished(
     stop: Stop, result: evaluation.CaseResult, simulated: rig.SimulatedStop, request: RecordingRequest
 ) -> StopRun:
-    if not stop.is_repeated:
-        return StopRun(stop, CaseRun(result, simulated.recording if request.wants(result) else None))
     records = (simulated.measures, simulated.wheelset_measures) if result.outcome != "error" else ()
-    return StopRun(stop, _of_repeated(stop, request, result, simulated.recording), records)
+    if stop.is_repeated:
+        case_run = _of_repeated(stop, request, result, simulated.recording)
+    else:
+        case_run = CaseRun(result, simulated.recording if request.wants(result) else None)
+    case_run = case_run._replace(output=simulated.controller_output)
+    return StopRun(stop, case_run, records if stop.is_repeated else ())
 
 
 def interval_at_once(stop: Stop, request: RecordingRequest) -> float | None:
@@ -236,7 +242,7 @@ def _failed(case: scenario.Case, error: Exception, duration: float) -> CaseRun:
     result = evaluation.error_result(case, f"controller: {error}" if of_controller else reason, duration)
     if of_controller:
         result = replace(result, case_sha256=rig.sha256_of_case(case))
-    return CaseRun(result, traceback="".join(traceback.format_exception(error)))
+    return CaseRun(result, None, "".join(traceback.format_exception(error)), (), getattr(error, "output", ""))
 
 
 def _of_repeated(
@@ -249,8 +255,7 @@ def _of_repeated(
     if stop.place:
         return CaseRun(result, extremes=extremes)
     which = f"{stop.seed}, the first of {stop.case.scenario.repeat} stops"
-    recording = replace(samples, metadata={**samples.metadata, "seed": which})
-    return CaseRun(result, recording, extremes=extremes)
+    return CaseRun(result, replace(samples, metadata={**samples.metadata, "seed": which}), extremes=extremes)
 
 
 @dataclass(slots=True)
@@ -268,7 +273,7 @@ class CaseAssembly:
         """Yield the cases all of whose stops are there, each once."""
         for case_id, runs in list(self._runs.items()):
             if len(runs) == next(iter(runs.values())).stop.case.scenario.repeat:
-                case_run = self._together([runs[place] for place in sorted(runs)])
+                case_run = self._with_log(self._together([runs[place] for place in sorted(runs)]))
                 # Not before: an interrupt while the stops are judged does not lose them.
                 del self._runs[case_id]
                 yield case_run
@@ -283,6 +288,13 @@ class CaseAssembly:
         result = evaluation.evaluate_repeats(stop.case, repeats)
         crash = next((text for run in runs if (text := run.case_run.traceback)), "")
         recording = first.recording if self.request.wants(result) else None
-        return CaseRun(
-            result, recording, crash, tuple(each for run in runs for each in run.case_run.extremes)
-        )
+        extremes = tuple(each for run in runs for each in run.case_run.extremes)
+        printed = {run.stop.seed: run.case_run.output for run in runs if run.case_run.output}
+        output = "".join(f"--- seed {seed}\n{text}" for seed, text in printed.items())
+        return CaseRun(result, recording, crash, extremes, output)
+
+    def _with_log(self, run: CaseRun) -> CaseRun:
+        """Keep what the controller of a case printed, and name it in the result."""
+        keep = self.request.keep_output
+        log = keep(run.result.id, run.output) if keep and run.output else ""
+        return run._replace(result=replace(run.result, controller_log=log)) if log else run

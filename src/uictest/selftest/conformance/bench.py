@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from types import SimpleNamespace, TracebackType
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 from uictest import rig
 from uictest.controllers import (
@@ -117,7 +116,7 @@ def _blank(record: Any) -> Any:
 REPEATED: tuple[rig.Beginning, ...] = ("create", "reset", "create")
 
 
-class Answers:
+class Answers(NamedTuple):
     """A situation and what the controller has answered in it.
 
     Attributes:
@@ -125,9 +124,8 @@ class Answers:
         drives: its answers; several where the situation was repeated.
     """
 
-    def __init__(self, situation: Situation, drives: tuple[rig.Driven, ...]) -> None:
-        self.situation = situation
-        self.drives = drives
+    situation: Situation
+    drives: tuple[rig.Driven, ...]
 
     @property
     def hold(self) -> Any:
@@ -160,6 +158,8 @@ class Bench:
         self._cycle_time = subject.config.cycle_time
         self._driven: dict[str, Answers | ControllerError] = {}
         self.asked: dict[str, Answers] = {}
+        self.traces: dict[str, None] = {}
+        """What its calls have left changed in their process so far, in words."""
         self._workers = rig.Workers()
 
     def __enter__(self) -> Self:
@@ -176,28 +176,22 @@ class Bench:
 
     def one_slides(self, wheelset: int) -> Answers:
         """Answers while one wheelset slides, then rolls again."""
-        return self._once(
-            f"wheelset {wheelset + 1} slides", partial(situations.one_slides, wheelset=wheelset)
-        )
+        return self._once(f"wheelset {wheelset + 1} slides", situations.one_slides, wheelset=wheelset)
 
     def motor_slides(self, wheelset: int) -> Answers:
         """Answers while one wheelset slides under a dynamic brake, then rolls again."""
-        return self._once(
-            f"wheelset {wheelset + 1} slides under a dynamic brake",
-            partial(situations.motor_slides, wheelset=wheelset),
-        )
+        name = f"wheelset {wheelset + 1} slides under a dynamic brake"
+        return self._once(name, situations.motor_slides, wheelset=wheelset)
 
     def locked(self, *wheelsets: int) -> Answers:
         """Answers while some wheelsets stand still."""
         listed = ", ".join(str(wheelset + 1) for wheelset in wheelsets)
-        return self._once(f"wheelset {listed} locked", partial(situations.locked, wheelsets=wheelsets))
+        return self._once(f"wheelset {listed} locked", situations.locked, wheelsets=wheelsets)
 
     def sensor_lost(self, wheelset: int) -> Answers:
         """Answers while the speed sensor of one wheelset reports a fault."""
-        return self._once(
-            f"speed sensor of wheelset {wheelset + 1} lost",
-            partial(situations.sensor_lost, wheelset=wheelset),
-        )
+        name = f"speed sensor of wheelset {wheelset + 1} lost"
+        return self._once(name, situations.sensor_lost, wheelset=wheelset)
 
     def anything(self) -> Answers:
         """Answers to random inputs: of a new controller, after a reset, and of a second one."""
@@ -222,11 +216,12 @@ class Bench:
     def _once(
         self,
         name: str,
-        situation_at: Callable[[float], Situation],
+        situation_at: Callable[..., Situation],
         beginnings: tuple[rig.Beginning, ...] = ("create",),
+        **places: Any,
     ) -> Answers:
         if name not in self._driven:
-            situation = situation_at(self._cycle_time)
+            situation = situation_at(self._cycle_time, **places)
             situation.inputs.flags.writeable = False  # the next controller is driven through the same
             try:
                 self._driven[name] = Answers(situation, self._drives(situation, beginnings))
@@ -242,8 +237,13 @@ class Bench:
         program, config = self.subject.program, self.subject.config
         if program is None:
             return tuple(self._drive_plain(situation) for _ in beginnings)
+        if len(beginnings) > 1:
+            # What a controller keeps beyond a reset must not be there already in the first of these drives.
+            self._workers.close()
+            self._workers = rig.Workers()
         drives = self._workers.drive(rig.DriveRequest(program, config, situation.inputs, beginnings))
         self.version, self.contract = drives.version, drives.contract
+        self.traces |= dict.fromkeys(drives.traces)
         return drives.drives
 
     def _drive_plain(self, situation: Situation) -> rig.Driven:

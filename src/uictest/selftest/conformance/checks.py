@@ -65,28 +65,46 @@ def _illegal_in_version_2(outputs: Any) -> Any:
 def _same_after_reset(bench: Bench) -> Observation:
     first, after_reset, second = bench.anything().drives
     different = [_different(first.outputs, other.outputs) for other in (after_reset, second)]
-    words = f"after reset {different[0]} cycles differ, with a second controller {different[1]}"
-    return Observation(sum(different), words)
+    counts = [len(each) for each in different]
+    words = f"after reset {counts[0]} cycles differ, with a second controller {counts[1]}"
+    return Observation(sum(counts), words + _first_of(np.concatenate(different)))
 
 
 def _same_beside_another(bench: Bench) -> Observation:
-    program = bench.subject.program
-    if program is not None and program.kind == "connect":
+    if _is_at_socket(bench):
         return Observation(None, "a program at a socket need not serve two")
     alone, beside = bench.beside_another().drives
     if not len(beside.outputs):
         return Observation(None, "a process can have only one")
-    return Observation(_different(alone.outputs, beside.outputs), "answered in turn with a second controller")
+    different = _different(alone.outputs, beside.outputs)
+    return Observation(len(different), f"answered in turn with a second controller{_first_of(different)}")
 
 
-def _different(one: Any, other: Any) -> int:
-    """Return in how many cycles answers differ by a bit; C may leave anything between and behind fields."""
+def _first_of(cycles: Any) -> str:
+    return f"; first in cycle {cycles.min()}" if len(cycles) else ""
+
+
+def _is_at_socket(bench: Bench) -> bool:
+    program = bench.subject.program
+    return program is not None and program.kind == "connect"
+
+
+def _leaves_no_trace(bench: Bench) -> Observation:
+    if _is_at_socket(bench):
+        return Observation(None, "a program at a socket has a process of its own")
+    bench.anything()
+    left = ", ".join(bench.traces) or "modes of floating point, locale, folder, signals are as they were"
+    return Observation(len(bench.traces), left)
+
+
+def _different(one: Any, other: Any) -> Any:
+    """Return the cycles in which answers differ by a bit; C may leave anything between and behind fields."""
     names = [name for name in one.dtype.names if not name.startswith("padding")]
     differs = np.zeros(len(one), bool)
     for name in names:
         first, second = (each[name].reshape(len(one), -1) for each in (one, other))
         differs |= ((first != second) & ~((first != first) & (second != second))).any(axis=1)
-    return int(differs.sum())
+    return np.flatnonzero(differs)
 
 
 def _keeps_brake(bench: Bench) -> Observation:
@@ -118,17 +136,18 @@ def _spares_rolling(bench: Bench) -> Observation:
 
 
 def _gives_back(bench: Bench) -> Observation:
-    times = [_time_to_fill(bench.one_slides(each), each) for each in range(WHEELSETS)]
+    answers = map(bench.one_slides, range(WHEELSETS))
+    times = [_time_to_end(each, n, (each.hold != 0) | (each.vent != 0)) for n, each in enumerate(answers)]
     return Observation(max(times), f"until it is filled for good; wheelsets 1 to 4: {_listed(times)}")
 
 
-def _time_to_fill(answers: Answers, wheelset: int) -> float:
-    """Return the time from rolling again until the last command that is not to fill, s."""
-    time, rolls = answers.situation.time, _rolls_at(answers, wheelset)
-    acting = (answers.hold[:, wheelset] != 0) | (answers.vent[:, wheelset] != 0)
-    if acting[-1]:
+def _time_to_end(answers: Answers, wheelset: int, acting: Any) -> float:
+    """Return the time from rolling again until the last cycle in which the controller acts on it, s."""
+    acts = acting[:, wheelset]
+    if acts[-1]:
         return np.inf
-    return max(float(time[acting][-1] - rolls), 0.0) if acting.any() else 0.0
+    last = answers.situation.time[acts][-1] if acts.any() else 0.0
+    return max(float(last) - _rolls_at(answers, wheelset), 0.0)
 
 
 def _not_vented_for_ever(bench: Bench) -> Observation:
@@ -201,16 +220,9 @@ def _spares_motors(bench: Bench) -> Observation:
 
 
 def _motor_back(bench: Bench) -> Observation:
-    times = [_time_to_restore(bench.motor_slides(each), each) for each in range(WHEELSETS)]
+    answers = map(bench.motor_slides, range(WHEELSETS))
+    times = [_time_to_end(each, n, each.reduction > 0.0) for n, each in enumerate(answers)]
     return Observation(max(times), f"until nothing is taken off for good; wheelsets 1 to 4: {_listed(times)}")
-
-
-def _time_to_restore(answers: Answers, wheelset: int) -> float:
-    reduced = answers.reduction[:, wheelset] > 0.0
-    if reduced[-1]:
-        return np.inf
-    last = answers.situation.time[reduced][-1] if reduced.any() else 0.0
-    return max(float(last) - _rolls_at(answers, wheelset), 0.0)
 
 
 def _rolls_at(answers: Answers, wheelset: int) -> float:
@@ -228,6 +240,7 @@ CHECKS: Final = (
     Check("legal-commands", "Only commands that a valve has.", 0, "1", _legal_commands),
     Check("same-after-reset", "The same answers after reset.", 0, "cycles", _same_after_reset),
     Check("same-beside-another", "The same answers beside another.", 0, "cycles", _same_beside_another),
+    Check("leaves-no-trace", "The state of its process is as before.", 0, "1", _leaves_no_trace),
     Check("keeps-brake", "Brake force is kept on a good rail.", 0, "cycles", _keeps_brake),
     Check("vents-sliding", "A sliding wheelset is vented.", 1.0, "s", _vents_sliding),
     Check("spares-rolling", "The others are not vented.", 0, "cycles", _spares_rolling),

@@ -132,6 +132,7 @@ def anything(cycle_time: float, cycles: int = 3000) -> Situation:
     situation = _situation(cycle_time, train, speeds)
     situation.inputs["brake_demand"] = draw.choice((0.0, 0.3, 1.0), cycles)[segment]
     situation.inputs["speed_valid"] = draw.choice((0, 1), (cycles, WHEELSETS), p=(0.1, 0.9))[segment]
+    situation.inputs["speed_valid"][-_BEGINNING:] = 0  # all sensors at once
     situation.inputs["cylinder_pressure"] *= situation.inputs["brake_demand"][:, np.newaxis]
     return situation
 

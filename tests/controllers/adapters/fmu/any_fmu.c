@@ -20,7 +20,8 @@
 
 enum { SPEED = 0, TIME = 13, HOLD = 21, VENT = 25, REFERENCE_SPEED = 29, DIAGNOSIS = 30, FAULT = 31, AT = 32,
        THRESHOLD = 33, LATE = 34, PLACES = 64, ARRAYS = 100 };
-enum { NO_FAULT, NAN_HOLD, HALF_VENT, ERROR_STEP, FATAL_STEP, END, FORBIDDEN, NAN_DIAGNOSIS, ERROR_START };
+enum { NO_FAULT, NAN_HOLD, HALF_VENT, ERROR_STEP, FATAL_STEP, END, FORBIDDEN, NAN_DIAGNOSIS, ERROR_START,
+       ERROR_RESET, FATAL_RESET };
 
 typedef struct {
     double place[PLACES];
@@ -113,7 +114,13 @@ void NAME(FreeInstance)(void *own) { free(own); }
 const char *NAME(GetVersion)(void) { return FMI == 2 ? "2.0" : "3.0"; }
 STATUS NAME(ExitInitializationMode)(void *own) { return started(own); }
 STATUS NAME(Terminate)(void *own) { return (void)own, NAME(OK); }
-STATUS NAME(Reset)(void *own) { return begin(own), NAME(OK); }
+STATUS NAME(Reset)(void *own)
+{
+    int fault = (int)((Instance *)own)->place[FAULT];
+    if (fault == ERROR_RESET || fault == FATAL_RESET)
+        return logged(own, fault == ERROR_RESET ? NAME(Error) : NAME(Fatal), "no reset");
+    return begin(own), NAME(OK);
+}
 
 #if FMI == 2
 ACCESS(Real, double)

@@ -177,6 +177,28 @@ def test_reset_returns_to_the_start_values_and_the_parameters(make_fmu, open_fmu
     assert magnets(ask(other, *SPEEDS)) == ([0] * 4, [0] * 4)
 
 
+@pytest.mark.parametrize("fault", [9, 10], ids=["error", "fatal"])
+def test_an_fmu_that_cannot_be_reset_begins_each_stop_as_another_instance(
+    make_fmu, open_fmu, ask, fmi, fault
+):
+    """Some tools leave the reset out, though both standards ask for it."""
+    path = make_fmu(fmi)
+    for _ in range(2):
+        instance = open_fmu(path, {"threshold": 10.0, "late": 1, "fault": fault})
+        for _ in range(2):
+            instance.reset()
+            assert magnets(ask(instance, *SPEEDS)) == ([0] * 4, [0] * 4)
+            assert magnets(ask(instance, *SPEEDS)) == VENTS_TWO_AND_FOUR
+        instance.close()
+
+
+def test_instances_have_names_of_their_own(make_fmu, open_fmu, fmi):
+    """As both standards ask; a tool may keep what belongs to an instance under its name."""
+    path = make_fmu(fmi)
+    names = {open_fmu(path)._slave._fmu.instanceName for _ in range(3)}
+    assert len(names) == 3
+
+
 def test_an_fmu_is_loaded_once_per_thread_and_two_at_once_are_apart(
     make_fmu, open_fmu, ask, fmi, temporary_folder
 ):

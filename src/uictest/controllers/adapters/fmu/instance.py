@@ -167,9 +167,8 @@ class FmuInstance(CalledInstance):
         with self._slave.checked():
             self._slave.reset()
             _set(self._parameters, constants | self._parameter_values)
-            self._slave.enter_initialisation()
-            self._set_inputs(Inputs(0, 0.0, speeds, (True,) * WHEELSETS, pressures, 0.0))
-            self._slave.exit_initialisation()
+            with self._slave.initialising():
+                self._set_inputs(Inputs(0, 0.0, speeds, (True,) * WHEELSETS, pressures, 0.0))
 
     def step(self, inputs: Inputs) -> Outputs:
         """Set the inputs, make a step of one cycle, read the outputs."""

@@ -4,7 +4,6 @@ FMPy calls the functions and raises where they fail. What it leaves to its calle
 be loaded, what a user is told, what the FMU has logged, and when an instance is used again or released.
 """
 
-import hashlib
 import io
 import math
 import os
@@ -14,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from ctypes import byref, c_int
 from importlib import import_module
+from itertools import count
 from pathlib import Path
 from threading import Lock, local
 from typing import Any, Final, NamedTuple
@@ -22,7 +22,7 @@ from zipfile import BadZipFile, ZipFile
 import fmpy
 from fmpy import fmi1, fmi2, fmi3
 
-from uictest.controllers.adapters.errors import ControllerError
+from uictest.controllers.adapters.errors import ControllerError, unchanged_content
 from uictest.controllers.adapters.instance import reason_of
 from uictest.core import files
 
@@ -52,11 +52,8 @@ class UnpackedFmu(NamedTuple):
     description: Any
 
 
-def unpack(path: Path, sha256: str) -> UnpackedFmu:
+def unpack(content: bytes) -> UnpackedFmu:
     """Unpack an FMU into a temporary folder. Raises ControllerError where it cannot be run here."""
-    content = path.read_bytes()
-    if hashlib.sha256(content).hexdigest() != sha256:
-        raise ControllerError("has changed since the scenario was read")
     folder = files.new_temporary_folder("fmu")
     try:
         _extract(content, folder)
@@ -78,15 +75,14 @@ def _extract(content: bytes, folder: Path) -> None:
     try:
         with ZipFile(io.BytesIO(content)) as archive:
             size = sum(each.file_size for each in archive.infolist())
-        if size > LARGEST:
-            raise ControllerError(f"has {size:,} bytes unpacked, at most {LARGEST:,} are accepted")
-        fmpy.extract(io.BytesIO(content), folder)
-    except ControllerError:
-        raise
+        if size <= LARGEST:
+            fmpy.extract(io.BytesIO(content), folder)
     except BadZipFile:
         raise ControllerError("is no FMU: it is not a ZIP archive, or a damaged one") from None
     except Exception as error:
         raise ControllerError(f"cannot be unpacked: {reason_of(error)}") from error
+    if size > LARGEST:
+        raise ControllerError(f"has {size:,} bytes unpacked, at most {LARGEST:,} are accepted")
     if not (folder / "modelDescription.xml").is_file():
         raise ControllerError("is no FMU: it has no modelDescription.xml")
 
@@ -148,21 +144,26 @@ def _fmi2_callbacks() -> Any:
 _FMI2_CALLBACKS: Final = _fmi2_callbacks()
 """What FMUs of FMI 2.0 call. FMPy formats messages for one logger only, so there is one for all FMUs."""
 _loading: Final = Lock()
+_numbers: Final = count(1)
+"""Of instances, part of their names: the standards ask for names that are unique."""
 
 
 class Slave:
     """An FMU, instantiated for co-simulation; FMPy's slave does the calls."""
 
-    def __init__(self, fmu: Any, description: Any, folder: Path) -> None:
-        self.description = description
-        self.usable = True
-        """False once a call has failed."""
-        self._fmu = fmu
-        self._is_fmi2 = description.fmiVersion == "2.0"
+    def __init__(self, unpacked: UnpackedFmu) -> None:
+        self._unpacked = unpacked
+        self.description = unpacked.description
+        self._is_fmi2 = unpacked.description.fmiVersion == "2.0"
         self.types = _TYPES[self._is_fmi2]
         """Types of variables, and the name of each in functions."""
-        self._started = False
-        self.release = weakref.finalize(self, _release, fmu, folder)
+        self._instantiate()
+
+    def _instantiate(self) -> None:
+        self._fmu = _instantiated(*self._unpacked)
+        self._started, self.usable = False, True
+        """`usable`: False once a call has failed."""
+        self.release = weakref.finalize(self, _release, self._fmu, self._unpacked.folder)
         """Free the instance, unload the library and remove its folder; at the latest when Python ends."""
 
     @contextmanager
@@ -172,11 +173,14 @@ class Slave:
         try:
             yield
         except fmi1.FMICallException as error:
-            self.usable = False
-            if error.status == _FATAL:  # the standard forbids any further call
-                self._fmu.component = None
+            self._note_failure(error)
             status = _STATUS[error.status] if error.status < len(_STATUS) else error.status
             raise ControllerError(_log.after(f"{error.function} returned {status}")) from error
+
+    def _note_failure(self, error: Any) -> None:
+        self.usable = False
+        if error.status == _FATAL:  # the standard forbids any further call
+            self._fmu.component = None
 
     def check_step_size(self, cycle_time: float) -> None:
         """Raise ControllerError if the FMU cannot make steps of one cycle, s."""
@@ -202,18 +206,25 @@ class Slave:
 
     def reset(self) -> None:
         """Return to the state after instantiation."""
-        if self._started:
-            self._fmu.reset()
+        try:
+            if self._started:
+                self._fmu.reset()
+        except fmi1.FMICallException as error:
+            # Some tools' FMUs cannot be reset, though the standards ask for it: another instance can begin.
+            self._note_failure(error)
+            _free(self._fmu)
+            release = self.release
+            self._instantiate()
+            release.detach()
         self._started = True
         if self._is_fmi2:
             self._fmu.setupExperiment(startTime=0.0)
 
-    def enter_initialisation(self) -> None:
-        """Begin to initialise at time 0."""
+    @contextmanager
+    def initialising(self) -> Iterator[None]:
+        """Initialise at time 0; afterwards it is ready for the first step."""
         self._fmu.enterInitializationMode()
-
-    def exit_initialisation(self) -> None:
-        """Be ready for the first step."""
+        yield
         self._fmu.exitInitializationMode()
 
     def step(self, time: float, size: float) -> None:
@@ -241,10 +252,11 @@ class Slave:
 
 def load_slave(path: Path, sha256: str) -> Slave:
     """Unpack an FMU, load its library and instantiate it. Raises ControllerError."""
+    content = unchanged_content(path, sha256)
     try:
-        unpacked = unpack(path, sha256)
+        unpacked = unpack(content)
         try:
-            return _instantiated(unpacked)
+            return Slave(unpacked)
         except BaseException:
             files.remove_temporary_folder(unpacked.folder)
             raise
@@ -252,8 +264,8 @@ def load_slave(path: Path, sha256: str) -> Slave:
         raise ControllerError(f"{path.name} {error}") from error
 
 
-def _instantiated(unpacked: UnpackedFmu) -> Slave:
-    folder, description = unpacked
+def _instantiated(folder: Path, description: Any) -> Any:
+    """Load the library and return FMPy's slave, instantiated. Raises ControllerError."""
     is_fmi2, interface = description.fmiVersion == "2.0", description.coSimulation
     kind = fmi2.FMU2Slave if is_fmi2 else fmi3.FMU3Slave
     with _loading:  # FMPy changes the working folder to load a library
@@ -263,6 +275,7 @@ def _instantiated(unpacked: UnpackedFmu) -> Slave:
                 guid=description.guid,
                 unzipDirectory=str(folder),
                 modelIdentifier=interface.modelIdentifier,
+                instanceName=f"{interface.modelIdentifier}_{next(_numbers)}",
             )
         except Exception as error:
             reason = str(error).replace(f"{folder}{os.sep}", "")
@@ -280,13 +293,17 @@ def _instantiated(unpacked: UnpackedFmu) -> Slave:
         tool = description.generationTool or "not named"
         needs = f" (it needs its tool on this machine: {tool})" if interface.needsExecutionTool else ""
         raise ControllerError(_log.after(f"cannot be instantiated{needs}")) from error
-    return Slave(fmu, description, folder)
+    return fmu
 
 
 def _release(fmu: Any, folder: Path) -> None:
-    if fmu.component:
-        with suppress(Exception):
-            fmu.terminate()
-        with suppress(Exception):
-            fmu.freeInstance()
+    _free(fmu)
     files.remove_temporary_folder(folder)
+
+
+def _free(fmu: Any) -> None:
+    if fmu.component:
+        for end in (fmu.terminate, fmu.freeInstance):
+            with suppress(Exception):
+                end()
+        fmu.component = None

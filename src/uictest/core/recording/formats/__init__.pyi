@@ -1,3 +1,12 @@
+from .cells import Cells as Cells
+from .csv_text import INTERVAL as INTERVAL
+from .dates import (
+    DAY as DAY,
+    are_dates as are_dates,
+    is_clock as is_clock,
+    seconds_of as seconds_of,
+    written_as as written_as,
+)
 from .file_formats import (
     FORMATS as FORMATS,
     MissingExtraError as MissingExtraError,

@@ -1,95 +1,152 @@
-"""Recordings as text tables of a declared dialect.
-
-The lines of samples are checked one by one before a library parses them.
-"""
+"""Recordings as text tables of a declared dialect."""
 
 from __future__ import annotations
 
 import csv
 import io
 import itertools
-import math
-import re
-from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TextIO
 
-import numpy as np
-
+from uictest.core.recording.formats.cells import LONGEST_TEXT, Cells, TextColumn, joined
 from uictest.core.recording.formats.file_formats import MOST_CHANNELS, MOST_VALUES, UnreadableError
 from uictest.core.recording.formats.layout import (
+    BYTE_ORDER_MARK,
     COMMENT,
-    MARK,
+    END_OF_HEADER,
     Dialect,
     TableLayout,
     cells_of,
     encoding_of,
-    name_and_unit,
+    names_and_units_of,
     table_layout,
     undecodable,
 )
-from uictest.core.recording.recording import Contents, Group, Recording, Samples
+from uictest.core.recording.recording import TIME, Contents, Group, Recording
 
 LONGEST_LINE = 2**20
 """characters"""
 _HEADING = 1000
 """Most lines before the first sample."""
-_LONGEST_TEXT = 64
+_ROWS = 2**16
+"""Rows of which the cells are read at once; chosen."""
 _DIGITS = 10
-_DATE = re.compile(r"\s*\d{4}-\d\d-\d\d[T ]\d\d:\d\d(?::\d\d.*)?")
+_DIGITS_OF_TIME = 16
+"""All but those of rounding: a time that is off by more is that of another state."""
+REMARK = "Comment"
+"""Last channel of LabVIEW's text files, whose cells are left out where they are empty."""
+INTERVAL = "Delta_X"
+"""Where LabVIEW's text files state their sampling interval, s."""
 
 
 @dataclass(frozen=True, slots=True)
-class SampleLines:
-    """Which lines hold samples.
+class TextTable:
+    """A text whose table is known.
 
     Args:
-        skipped: rising numbers of all other lines, from one: heading, comments, lines without a value.
-        width: cells of the widest row of samples.
+        path: of the file.
+        dialect: by which it is read.
+        encoding: that of the file.
+        heading: its first lines.
+        layout: where names, units and samples stand.
+        names: of the channels, all different.
+        units: of each channel; empty where none is stated.
 
     """
 
-    skipped: tuple[int, ...]
-    width: int
+    path: Path
+    dialect: Dialect
+    encoding: str
+    heading: Sequence[str]
+    layout: TableLayout
+    names: list[str]
+    units: list[str]
 
-    def number(self, row: int) -> int:
-        """Return the number of the line that holds a row of samples, counted from zero."""
-        number = row + 1
-        while (later := row + 1 + bisect_right(self.skipped, number)) != number:
-            number = later
-        return number
+    @property
+    def cells(self) -> Cells:
+        """What reads its cells."""
+        return self.dialect.cells
+
+    def line_of(self, name: str, text: str) -> str:
+        """Return where a text first stands in a channel, for a reader."""
+        k = self.names.index(name)
+        found = (
+            number for number, row in self.rows() if "".join(row[k : k + 1]).strip()[:LONGEST_TEXT] == text
+        )
+        return f"line {next(found)}, column {k + 1}"
+
+    def require_complete(self, numbers: Sequence[str]) -> None:
+        """Raise UnreadableError with the first line that is too short, or has no number in such a channel."""
+        columns, cells = [self.names.index(name) for name in numbers], self.cells
+        for number, row in self.rows():
+            if len(row) < len(self.names):
+                raise UnreadableError(f"line {number} has {len(row)} cells; {self._heading}")
+            for k in columns:
+                if cells.is_text(row[k]):
+                    raise UnreadableError(cells.refusal(row[k], f"line {number}, column {k + 1}"))
+
+    @property
+    def _heading(self) -> str:
+        return f"line {self.layout.header_line} names {len(self.names)} channels"
+
+    def rows(self) -> Iterator[tuple[int, list[str]]]:
+        """Yield numbers and cells of the lines of samples: those with a value that are no comments.
+
+        Raises UnreadableError where a line has more values than there are channels, is too long, holds a NUL
+        character or an open quotation, UnicodeError where it is not of the encoding.
+        """
+        delimiter, channels = self.dialect.delimiter, len(self.names)
+        blank = f'{delimiter} \t\r\n"'
+        with self.path.open(encoding=self.encoding) as file:
+            for number, line in _lines(file):
+                if number < self.layout.first_line or line.startswith(COMMENT) or not line.strip(blank):
+                    continue
+                if line.startswith(END_OF_HEADER):
+                    raise UnreadableError(
+                        f"line {number} ends the header of another segment: write each into a file of its own"
+                    )
+                if is_quoted := '"' in line:
+                    reject_open_quotation(number, line)
+                row = cells_of(line, delimiter) if is_quoted else line.rstrip("\r\n").split(delimiter)
+                if len(row) > channels and any(cell.strip() for cell in row[channels:]):
+                    raise UnreadableError(
+                        f"line {number} has {len(row)} cells, {self._heading}:"
+                        " name every column, and write numbers with decimal commas in quotation marks"
+                    )
+                yield number, row
+
+    def require_names(self, widest: int) -> None:
+        """Raise UnreadableError where no row is as wide as the heading: its names are shifted."""
+        numbered = enumerate(self.names, start=1)
+        named = max((k for k, name in numbered if name not in (f"column {k}", REMARK)), default=1)
+        if not widest:
+            raise UnreadableError(f"no line of samples follows the names in line {self.layout.header_line}")
+        if widest < named:
+            raise UnreadableError(
+                f"{self._heading}, but no line of samples has more than {widest} cells: correct it, so that"
+                " each name stands above its column"
+            )
 
 
-def sample_lines(
-    path: Path, encoding: str, dialect: Dialect, layout: TableLayout, channels: int
-) -> SampleLines:
-    """Return which lines of a file hold samples.
+def add_texts(group: Group, name: str, column: TextColumn, places: dict[str, str]) -> None:
+    """Add a column to a group; `places` are those of its first texts."""
+    group.channels[name] = column.samples
+    if column.texts is not None:
+        group.numbers[name] = column.numbers
+    if places:
+        group.first_texts[name] = places
 
-    Raises UnreadableError where a line has more values than there are channels, is too long, holds a NUL
-    character or an open quotation, UnicodeError where it is not of the encoding.
-    """
-    skipped: list[int] = []
-    width, rows = channels, 0
-    blank = f'{dialect.delimiter} \t\r\n"'
-    with path.open(encoding=encoding) as file:
-        for number, line in _lines(file):
-            if number < layout.first_line or line.startswith(COMMENT) or not line.strip(blank):
-                skipped.append(number)
-                continue
-            cells, values = _counts(number, line, dialect.delimiter)
-            if values > channels:
-                raise UnreadableError(
-                    f"line {number} has {values} cells; line {layout.header_line} names {channels} channels"
-                )
-            width, rows = max(width, cells), rows + 1
-            if rows * width > MOST_VALUES:
-                raise UnreadableError(f"more than {MOST_VALUES} values")
-    if not rows:
-        raise UnreadableError(f"no line of samples follows the names in line {layout.header_line}")
-    return SampleLines(tuple(skipped), width)
+
+def opened(path: Path, dialect: Dialect) -> TextTable:
+    """Return the table of a text. Raises UnreadableError where it is none of this dialect, UnicodeError."""
+    encoding = encoding_of(path, dialect.encoding)
+    heading = heading_of(path, encoding, dialect)
+    layout = table_layout(heading, dialect)
+    return TextTable(path, dialect, encoding, heading, layout, *names_and_units(heading, layout, dialect))
 
 
 def reject_open_quotation(number: int, line: str) -> None:
@@ -99,44 +156,32 @@ def reject_open_quotation(number: int, line: str) -> None:
 
 
 def _lines(file: TextIO) -> Iterator[tuple[int, str]]:
-    for number, line in enumerate(iter(lambda: file.readline(LONGEST_LINE), ""), start=1):
+    for number, line in enumerate(iter(partial(file.readline, LONGEST_LINE), ""), start=1):
         if len(line) >= LONGEST_LINE:
             raise UnreadableError(f"line {number} has more than {LONGEST_LINE} characters")
         if "\0" in line:
-            raise UnreadableError(f"line {number} holds a NUL character: the file is damaged or no text")
+            raise UnreadableError(
+                f"line {number} holds a NUL character: the file is damaged there, or no text"
+            )
         yield number, line
-
-
-def _counts(number: int, line: str, delimiter: str) -> tuple[int, int]:
-    """Return how many cells a line has, and how many up to its last value."""
-    reject_open_quotation(number, line)
-    if '"' in line:
-        cells = cells_of(line, delimiter)
-        return len(cells), max(k for k, cell in enumerate(cells, start=1) if cell)
-    return line.count(delimiter) + 1, line.rstrip(f"{delimiter} \r\n").count(delimiter) + 1
 
 
 def read(path: Path, dialect: Dialect | None = None) -> Contents:
     """Read a table; lines that begin with `#` are comments, `# key: value` among them facts.
 
-    A cell that is no number makes its channel one of texts: a channel map says what they mean. Dates become
-    seconds after the first.
+    A cell that is no number makes its channel one of texts: a channel map says what they mean.
 
     Raises UnreadableError where the file is no table of this dialect.
     """
     dialect = dialect or Dialect()
-    encoding = encoding_of(path, dialect.encoding)
     try:
-        heading = heading_of(path, encoding, dialect)
-        layout = table_layout(heading, dialect)
-        names, units = names_and_units(heading, layout, dialect)
-        lines = sample_lines(path, encoding, dialect, layout, len(names))
-        group = _group(names, units, _table(path, encoding, dialect, lines), lines)
+        table = opened(path, dialect)
+        group = _group(table)
     except UnicodeError as error:
-        raise UnreadableError(undecodable(path, encoding)) from error
+        raise UnreadableError(undecodable(path, encoding_of(path, dialect.encoding))) from error
     except csv.Error as error:
         raise UnreadableError(f"not a table: {error}") from error
-    return Contents((group,), _facts(heading))
+    return Contents((group,), {**_facts(table.heading), **_interval(table)}, dialect=dialect)
 
 
 def encoded(recording: Recording) -> bytes:
@@ -146,7 +191,8 @@ def encoded(recording: Recording) -> bytes:
         text.write(f"{COMMENT} {_one_line(key)}: {_one_line(value)}\n")
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(f"{name} [{recording.units[name]}]" for name in recording.channels)
-    columns = [[f"{value:.{_DIGITS}g}" for value in samples] for samples in recording.channels.values()]
+    digits = {name: _DIGITS_OF_TIME if name == TIME else _DIGITS for name in recording.channels}
+    columns = [[f"{value:.{digits[name]}g}" for value in recording[name]] for name in digits]
     writer.writerows(zip(*columns, strict=True))
     return text.getvalue().encode()
 
@@ -162,14 +208,14 @@ def heading_of(path: Path, encoding: str, dialect: Dialect) -> list[str]:
         lines = list(itertools.islice(iter(lambda: file.readline(LONGEST_LINE), ""), count))
     if any(len(line) >= LONGEST_LINE for line in lines):
         raise UnreadableError(f"a line of more than {LONGEST_LINE} characters")
-    return [lines[0].removeprefix(MARK), *lines[1:]] if lines else []
+    return [lines[0].removeprefix(BYTE_ORDER_MARK), *lines[1:]] if lines else []
 
 
 def names_and_units(
     heading: Sequence[str], layout: TableLayout, dialect: Dialect
 ) -> tuple[list[str], list[str]]:
     """Return names, made distinct, and their units: those in the names, else those of the line of units."""
-    named = [name_and_unit(cell) for cell in _cells(heading, layout.header_line, dialect)]
+    named = names_and_units_of(_cells(heading, layout.header_line, dialect))
     below = _cells(heading, layout.unit_line, dialect) if layout.unit_line else []
     if not 0 < len(named) <= MOST_CHANNELS:
         raise UnreadableError(f"{len(named)} columns; expected 1 to {MOST_CHANNELS}")
@@ -197,84 +243,36 @@ def _distinct(names: Sequence[str]) -> list[str]:
     return distinct
 
 
-def _table(path: Path, encoding: str, dialect: Dialect, lines: SampleLines) -> Any:
-    """Return the samples as a data frame whose columns are counted from zero."""
-    import pandas as pd
-
-    try:
-        return pd.read_csv(
-            path,
-            sep=dialect.delimiter,
-            decimal=dialect.decimal,
-            thousands=dialect.thousands or None,
-            encoding=encoding,
-            skiprows=[number - 1 for number in lines.skipped],
-            header=None,
-            names=range(lines.width),
-            index_col=False,
-            skipinitialspace=True,
-            skip_blank_lines=False,
-            low_memory=False,
-        )
-    except (ValueError, OverflowError) as error:
-        if isinstance(error, UnicodeError):
-            raise
-        raise UnreadableError(f"not a table from line {lines.number(0)} on") from error
+def _group(table: TextTable) -> Group:
+    """Return the samples of a table, read in blocks of rows."""
+    lines: list[int] = []
+    blocks: list[list[TextColumn]] = []
+    widest, rows = 0, table.rows()
+    while block := list(itertools.islice(rows, _ROWS)):
+        lines += (number for number, _ in block)
+        widest = max(widest, *(len(row) for _, row in block))
+        if len(lines) * len(table.names) > MOST_VALUES:
+            raise UnreadableError(f"more than {MOST_VALUES} values")
+        columns = itertools.zip_longest(*(row for _, row in block))
+        padded = itertools.chain(columns, itertools.repeat((None,) * len(block)))
+        blocks.append([table.cells.column(next(padded)) for _ in table.names])
+    table.require_names(widest)
+    units = {name: unit for name, unit in zip(table.names, table.units, strict=True) if unit}
+    group = Group("", {}, units)
+    for k, name in enumerate(table.names):
+        column = joined([block[k] for block in blocks])
+        places = {text: f"line {lines[row]}, column {k + 1}" for text, row in column.first_rows().items()}
+        add_texts(group, name, column, places)
+    return group
 
 
-def _group(names: Sequence[str], units: Sequence[str], table: Any, lines: SampleLines) -> Group:
-    channels: dict[str, Samples] = {}
-    stated = {name: unit for name, unit in zip(names, units, strict=True) if unit}
-    first_texts: dict[str, str] = {}
-    for position, name in enumerate(names):
-        column = table[position]
-        if (seconds := _seconds(column)) is not None:
-            channels[name], stated[name] = seconds, "s"
-            continue
-        channels[name] = _samples(column)
-        if (row := _first_text(column)) is not None:
-            first_texts[name] = f"line {lines.number(row)}, column {position + 1}"
-    return Group("", channels, stated, first_texts=first_texts)
-
-
-def _samples(column: Any) -> Samples:
-    if column.dtype.kind in "biuf":
-        return np.asarray(column, dtype=np.float64)
-    return np.array([str(cell)[:_LONGEST_TEXT] if cell == cell else "" for cell in column], dtype=np.str_)
-
-
-def is_date(text: str) -> bool:
-    """Return whether a text is a date with a time."""
-    return _DATE.fullmatch(text) is not None
-
-
-def _seconds(column: Any) -> Samples | None:
-    """Return dates and times as seconds after the first, NaN where there is none; None for other columns."""
-    import pandas as pd
-
-    texts = column.dropna()
-    if column.dtype.kind in "biuf" or not len(texts) or not _DATE.fullmatch(str(texts.iloc[0])):
-        return None
-    stamps = pd.to_datetime(column, format="ISO8601", errors="coerce", utc=True)
-    if stamps.isna().sum() > column.isna().sum():
-        return None
-    return np.asarray((stamps - stamps.dropna().iloc[0]).dt.total_seconds(), dtype=np.float64)
-
-
-def _first_text(column: Any) -> int | None:
-    """Return the row of the first text in a column that also holds numbers, else None."""
-    if column.dtype.kind in "biuf":
-        return None
-    numbers = np.array([_is_number(cell) for cell in column])
-    texts = np.flatnonzero(~numbers & column.notna().to_numpy())
-    return int(texts[0]) if len(texts) and numbers.any() else None
-
-
-def _is_number(cell: object) -> bool:
-    try:
-        return not math.isnan(float(str(cell)))
-    except ValueError:
-        return False
+def _interval(table: TextTable) -> dict[str, str]:
+    """Return the sampling interval that LabVIEW states above a table, as a fact."""
+    for line in table.heading[: table.layout.header_line]:
+        name, number = [*cells_of(line, table.dialect.delimiter), "", ""][:2]
+        if name == INTERVAL and not table.cells.is_text(number):
+            return {INTERVAL: f"{table.cells.column([number]).numbers[0]:.12g}"}
+    return {}
 
 
 def _facts(heading: Sequence[str]) -> dict[str, str]:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import importlib
+import itertools
 import math
-from collections.abc import Callable, Iterable
+import re
+from collections.abc import Callable, Container, Iterable
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
@@ -61,34 +63,73 @@ def check_size(shapes: Iterable[tuple[int, ...]]) -> None:
         raise UnreadableError(f"{sum(sizes)} values; at most {MOST_VALUES} are read")
 
 
+def distinct(name: str, channels: Container[str]) -> str:
+    """Return a name that is not among those of `channels`: itself, or with a number behind it."""
+    if name not in channels:
+        return name
+    return next(other for k in itertools.count(2) if (other := f"{name} ({k})") not in channels)
+
+
 class FileFormat(NamedTuple):
     """A format of measurement files.
 
     Args:
         module: the module of this package that reads and writes it.
         suffix: of the files that are written.
-        beginnings: with which bytes its files begin; none for text.
+        beginning: a regular expression of the bytes with which its files begin; empty for text.
 
     """
 
     module: str
     suffix: str
-    beginnings: tuple[bytes, ...] = ()
+    beginning: bytes = b""
 
 
+_MAT: Final = (
+    rb"MATLAB [\d.]+ MAT-file|.{124}(\0[\x01\x02]IM|[\x01\x02]\0MI)|"
+    # Version 4: type, rows, columns, complex or not, length of the name, in either order of bytes; the name.
+    rb"([\0-\x34]\0{3}.{8}[\0\x01]\0{3}[\x02-\x40]\0{3}"
+    rb"|\0\0(\x03[\xe8-\xff]|\x04[\0-\x1c]).{8}\0{3}[\0\x01]\0{3}[\x02-\x40])[A-Za-z]\w*\0"
+)
 FORMATS: Final = MappingProxyType(
     {
         "csv": FileFormat("csv_text", ".csv"),
-        "mdf": FileFormat("mdf", ".mf4", (b"MDF     ", b"UnFinMF ")),
-        "tdms": FileFormat("tdms", ".tdms", (b"TDSm",)),
-        "mat": FileFormat("mat", ".mat", (b"MATLAB ", b"\x89HDF\r\n\x1a\n")),
-        "parquet": FileFormat("parquet", ".parquet", (b"PAR1",)),
+        "mdf": FileFormat("mdf", ".mf4", rb"MDF     |UnFinMF "),
+        "tdms": FileFormat("tdms", ".tdms", rb"TDSm"),
+        "mat": FileFormat("mat", ".mat", _MAT),
+        "parquet": FileFormat("parquet", ".parquet", rb"PAR1"),
     }
 )
 """Every format by name."""
 
-_TEXT_SUFFIXES: Final = (".csv", ".txt", ".tsv", ".asc", ".dat")
-_ENOUGH: Final = 128
+_WORKBOOK: Final = (
+    rb"PK\x03\x04.{26}(\[Content_Types\]\.xml|_rels/|docProps/|xl/|mimetypeapplication/vnd\.oasis)"
+    rb"|\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
+)
+_COMPRESSED: Final = (
+    rb"PK\x03\x04|\x1f\x8b|BZh\d1AY&SY|\xfd7zXZ\0|\x28\xb5\x2f\xfd|7z\xbc\xaf\x27\x1c|Rar!\x1a\x07"
+)
+_DECODE: Final = "it holds frames of a bus: decode them with their DBC and save the signals as MDF 4 or CSV"
+_REFUSED: Final = (
+    ("Excel or OpenDocument workbook", _WORKBOOK, "save its sheet as CSV"),
+    ("HTML page", rb"(?i)\s*<(!doctype )?html\b", "save its table as CSV"),
+    ("compressed file", _COMPRESSED, "unpack it, and name the file inside"),
+    ("Vector BLF", rb"LOGG.\0{3}", _DECODE),
+    ("Vector ASC", rb"(\xef\xbb\xbf)?date [^\r\n]+\r?\nbase (hex|dec)", _DECODE),
+    ("PEAK TRC", rb";\$FILEVERSION=", _DECODE),
+    ("candump log", rb"\(\d+\.\d+\) \w+ [0-9A-F]+#", _DECODE),
+    ("imc FAMOS", rb"\|C[FK],\d", "export it as CSV from imc FAMOS"),
+    ("DIAdem TDM", rb"(\xef\xbb\xbf)?<\?xml[^>]*>\s*<usi:tdm\b", "save it as TDMS from DIAdem"),
+    ("SIE of HBM or nCode", rb".{8}\x51\xed\xa7\xa0", "export it as CSV or MDF 4"),
+    ("Arrow or Feather", rb"ARROW1|FEA1", "write it as Parquet: pandas.read_feather(FILE).to_parquet(...)"),
+    ("HDF5, not MAT 7.3", rb"\x89HDF\r\n\x1a\n", "write its channels as CSV or Parquet"),
+    ("text of Octave", rb"# Created by Octave", "save it with save -7 (MAT 7)"),
+    ("PDF", rb"%PDF-", "it is no measurement: name the file of the samples"),
+)
+"""Formats that are known but not read: the name, how its files begin, what to do. The first counts."""
+
+_TEXT_SUFFIXES: Final = (".csv", ".txt", ".tsv", ".tab", ".prn", ".asc", ".dat", ".lvm")
+_ENOUGH: Final = 256
 
 
 def format_of(path: Path) -> str:
@@ -100,13 +141,17 @@ def format_of(path: Path) -> str:
         beginning = file.read(_ENOUGH)
     if not beginning:
         raise UnreadableError("the file is empty")
+    for name, pattern, remedy in _REFUSED:
+        if re.match(pattern, beginning, re.DOTALL):
+            raise UnreadableError(f"{name}: {remedy}")
     for name, file_format in FORMATS.items():
-        if beginning.startswith(file_format.beginnings):
+        if file_format.beginning and re.match(file_format.beginning, beginning, re.DOTALL):
             return name
     if path.suffix.lower() in _TEXT_SUFFIXES:
         return "csv"
     raise UnreadableError(
-        f"not a recording: known are Parquet, MDF, TDMS and MAT files and texts ({', '.join(_TEXT_SUFFIXES)})"
+        "not a recording: known are Parquet, MDF, TDMS and MAT files (versions 4 to 7.3) and texts"
+        f" ({', '.join(_TEXT_SUFFIXES)}); give a table of text one of these suffixes"
     )
 
 

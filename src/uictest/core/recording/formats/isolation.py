@@ -7,8 +7,6 @@ import errno
 import json
 import os
 import signal
-import subprocess
-import sys
 import threading
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
@@ -18,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from uictest.core import files
+from uictest.core.guarded_process import reading_process
 from uictest.core.recording.formats.file_formats import (
     LARGEST_FILE,
     READING_SECONDS,
@@ -30,7 +29,7 @@ from uictest.core.recording.formats.layout import Dialect
 from uictest.core.recording.recording import Contents, Group
 
 _MODULE = "uictest.core.recording.formats.reader"
-REJECTED, EXTRA_MISSING, TOO_LARGE, NO_ROOM = 10, 11, 12, 13
+REJECTED, EXTRA_MISSING, NO_ROOM = 10, 11, 12
 """Exit codes of the reading process, besides 0."""
 PIECE_READY = b"piece\n"
 """What the reading process says when a piece of a long file lies in its folder; it goes on after a line."""
@@ -53,37 +52,32 @@ def read_contents(path: Path, dialect: Dialect | None = None, seconds: float = R
     if not path.is_file():
         raise UnreadableError("not a file")
     name = format_of(path)
-    with files.temporary_folder() as folder:
-        _run(name, path, dialect or Dialect(), folder, seconds)
-        return _collect(folder)
+    (contents,) = read_apart(name, path, {"dialect": asdict(dialect or Dialect())}, seconds)
+    return contents
 
 
 def read_apart(
     name: str, path: Path, request: Mapping[str, object], seconds: float = READING_SECONDS
 ) -> Iterator[Contents]:
-    """Yield a long file piece by piece; while one is used, the next is read.
+    """Yield a file piece by piece, as another process reads it; while one is used, the next is read.
 
-    `request` has the arguments of `streams.PIECES` by name; each piece may take so many seconds.
+    `request` has the `dialect` in which all of it is one piece, or the arguments of `streams.PIECES` by name;
+    each piece may take so many seconds.
 
     Raises as :func:`read_contents`.
     """
-    with files.temporary_folder() as folder:
-        command = _command(name, path, Dialect(), json.dumps(request))
-        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-        process: Any
-        with subprocess.Popen(command, **{**_surroundings(folder), **pipes}) as process:
-            try:
-                while _says(process, name, seconds) == PIECE_READY:
-                    contents = _collect(folder)
-                    with contextlib.suppress(BrokenPipeError):
-                        os.write(process.stdin.fileno(), b"\n")
-                    yield contents
-                _reject_failure(process.wait(), name, path, folder)
-            finally:
-                process.kill()
+    arguments = [name, str(path.absolute()), json.dumps(request)]
+    process: Any
+    with files.temporary_folder() as folder, reading_process(_MODULE, arguments, folder) as process:
+        while _line_of(process, name, seconds) == PIECE_READY:
+            contents = _collect(folder)
+            with contextlib.suppress(BrokenPipeError):
+                os.write(process.stdin.fileno(), b"\n")
+            yield contents
+        _reject_failure(process.wait(), name, path, folder)
 
 
-def _says(process: Any, name: str, seconds: float) -> bytes:
+def _line_of(process: Any, name: str, seconds: float) -> bytes:
     """Return the next line that a process writes, nothing where it ends; it is killed where that lasts."""
     overdue = threading.Event()
 
@@ -93,45 +87,13 @@ def _says(process: Any, name: str, seconds: float) -> bytes:
 
     timer = threading.Timer(seconds, stop)
     timer.start()
-    line: bytes = process.stdout.readline()
-    timer.cancel()
-    if overdue.is_set() and not line:
-        raise UnreadableError(_too_slow(name, seconds))
-    return line
-
-
-def _too_slow(name: str, seconds: float) -> str:
-    return f"reading it as {name} did not end within {seconds:g} s"
-
-
-def _command(name: str, path: Path, dialect: Dialect, *request: str) -> list[str]:
-    # -I: neither the environment nor the working folder, where the file may lie, decides what is imported.
-    # -B: on a full disk Python could leave half a compiled module, which every later reader would fail on.
-    flags = ["-I", "-B", "-m", _MODULE]
-    return [sys.executable, *flags, name, str(path.absolute()), json.dumps(asdict(dialect)), *request]
-
-
-def _surroundings(folder: Path) -> dict[str, Any]:
-    return {
-        "cwd": folder,
-        "env": {**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))},
-        **dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL),
-    }
-
-
-def _read_in_process(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> int:
-    """Return the exit code of a process that reads a file into a folder."""
-    command = _command(name, path, dialect)
-    done = subprocess.run(command, **_surroundings(folder), timeout=seconds, check=False)
-    return done.returncode
-
-
-def _run(name: str, path: Path, dialect: Dialect, folder: Path, seconds: float) -> None:
     try:
-        code = _read_in_process(name, path, dialect, folder, seconds)
-    except subprocess.TimeoutExpired as error:
-        raise UnreadableError(_too_slow(name, seconds)) from error
-    _reject_failure(code, name, path, folder)
+        line: bytes = process.stdout.readline()
+    finally:
+        timer.cancel()
+    if overdue.is_set() and not line:
+        raise UnreadableError(f"reading it as {name} did not end within {seconds:g} s")
+    return line
 
 
 def _reject_failure(code: int, name: str, path: Path, folder: Path) -> None:
@@ -159,7 +121,9 @@ def _reason_in(folder: Path) -> str:
 
 def _collect(folder: Path) -> Contents:
     form = json.loads((folder / "contents.json").read_text(encoding="utf-8"))
-    return Contents(tuple(_group(each, folder) for each in form["groups"]), form["metadata"], form["skipped"])
+    dialect = None if form["dialect"] is None else Dialect.of(form["dialect"])
+    groups = tuple(_group(each, folder) for each in form["groups"])
+    return Contents(groups, form["metadata"], form["skipped"], dialect, form["guesses"])
 
 
 def _group(form: Mapping[str, Any], folder: Path) -> Group:
@@ -171,5 +135,6 @@ def _group(form: Mapping[str, Any], folder: Path) -> Group:
         {name: array(number) for name, number in form["channels"].items()},
         form["units"],
         None if form["time"] is None else array(form["time"]),
+        {name: array(number) for name, number in form["numbers"].items()},
         form["first_texts"],
     )

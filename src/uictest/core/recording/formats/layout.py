@@ -9,11 +9,19 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
+from uictest.core.recording.formats.cells import Cells, grouping_of
 from uictest.core.recording.formats.file_formats import MOST_CHANNELS, UnreadableError
+from uictest.core.units import is_recorded_unit
 
 COMMENT = "#"
+END_OF_HEADER: Final = "***End_of_Header***"
+"""Line of LabVIEW's text files above the table, after the header of the file and that of a segment."""
+_SEGMENT: Final = "Channels"
+"""How the header of a segment begins."""
+OF_WINDOWS: Final = "cp1252"
+"""Encoding of most Windows programs that write no UTF-8."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +39,8 @@ class Dialect:
             stand in the names, as in `speed [m/s]`.
         first_line: the first line of samples; 0: the one after names and units.
         encoding: of the text, where it does not begin with a byte-order mark.
+        missing: marks of missing samples, besides the usual ones.
+        by_itself: find out the dialect where the stated one does not read the file.
 
     """
 
@@ -41,22 +51,29 @@ class Dialect:
     unit_line: int = 0
     first_line: int = 0
     encoding: str = "utf-8"
+    missing: tuple[str, ...] = ()
+    by_itself: bool = False
 
-    def changes_to(self, other: Dialect) -> str:
-        """Return the `csv` section with the settings of another dialect that differ from this one."""
-        declared = asdict(self)
-        changes = {name: value for name, value in asdict(other).items() if value != declared[name]}
-        return f"csv: {{{', '.join(f'{name}: {json.dumps(value)}' for name, value in changes.items())}}}"
+    @classmethod
+    def of(cls, form: Mapping[str, Any]) -> Dialect:
+        """Return the dialect of a form that went through JSON, where a tuple is a list."""
+        return cls(**{**form, "missing": tuple(form["missing"])})
+
+    @property
+    def cells(self) -> Cells:
+        """What reads the cells of such a file."""
+        return Cells(self.decimal, self.thousands, self.missing)
+
+    def settings(self, other: Dialect) -> dict[str, Any]:
+        """Return the settings that differ from those of another dialect."""
+        theirs = asdict(other)
+        return {name: value for name, value in asdict(self).items() if value != theirs[name]}
 
 
-_NAME_AND_UNIT = re.compile(r"\s*(?P<name>.*?)\s*(?:\[(?P<square>[^\[\]]*)\]|\((?P<round>[^()]*)\))\s*")
 _SEPARATORS: Final = (";", "\t", "|", ",")
 _LAST_ROWS: Final = 5
 """Lines of which the one with most numbers shows what a row of samples looks like; chosen."""
-_WITH_POINT: Final = re.compile(
-    r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|[-+]?(?:nan|inf)", re.ASCII | re.IGNORECASE
-)
-_WITH_COMMA: Final = re.compile(r"[-+]?\d+,\d+(?:e[-+]?\d+)?", re.ASCII | re.IGNORECASE)
+_BY_DECIMAL: Final = {sign: Cells(sign) for sign in (".", ",")}
 _BRACKETED: Final = re.compile(r"\[[^\[\]]*\]|\([^()]*\)")
 _USUAL_UNIT: Final = re.compile(
     "[mµun]?s|sec|min|h|[km]?m|(?:km|m)/(?:s|h)|km/?h|kph|mph|m/s[2²]|g|m?bar|[kM]?Pa|k?N|k?N ?m|%|1|-|m?[VA]"
@@ -68,17 +85,32 @@ _USUAL_UNIT: Final = re.compile(
 
 @dataclass(frozen=True, slots=True)
 class TableLayout:
-    """Lines of a table, counted from one; `unit_line` is 0 where no line holds units."""
+    """Lines of a table, counted from one; `unit_line` is 0 where no line holds units.
+
+    `alike` are other lines that may be those of the names, for they are as wide.
+    """
 
     header_line: int
     unit_line: int
     first_line: int
+    alike: tuple[int, ...] = ()
 
 
 def table_layout(heading: Sequence[str], dialect: Dialect) -> TableLayout:
     """Return where the table stands whose first lines are `heading`.
 
     Raises UnreadableError where it is not of the declared dialect; the message says what to declare.
+    """
+    layout, likely = likely_layout(heading, dialect)
+    if likely != dialect:
+        raise UnreadableError(_advice(dialect, likely))
+    return layout
+
+
+def likely_layout(heading: Sequence[str], dialect: Dialect) -> tuple[TableLayout, Dialect]:
+    """Return where the table stands by a dialect, and the dialect that makes it one of samples.
+
+    Raises UnreadableError for a file without a table.
     """
     _reject_width(heading)
     lines = dict(_content(heading, dialect))
@@ -93,16 +125,26 @@ def table_layout(heading: Sequence[str], dialect: Dialect) -> TableLayout:
         likely = replace(likely, header_line=names)
     if samples and any(first <= n < samples for n in lines):
         likely = replace(likely, first_line=samples)
-    if likely != dialect:
-        raise UnreadableError(_advice(dialect, likely))
-    return TableLayout(names, units, first)
+    filled = {n: sum(map(bool, cells)) for n, cells in above.items() if not _holds_units(cells)}
+    alike = [n for n, count in filled.items() if n != names and count == filled.get(names)]
+    return TableLayout(names, units, first, () if dialect.header_line else tuple(alike)), likely
 
 
 def _content(heading: Sequence[str], dialect: Dialect) -> Iterator[tuple[int, str]]:
     separator = "" if dialect.thousands == dialect.delimiter else dialect.thousands
-    for number, line in enumerate(heading, start=1):
+    begin = _begin(heading)
+    for number, line in enumerate(heading[begin:], start=begin + 1):
         if line.strip() and not line.startswith(COMMENT):
             yield number, line.replace(separator, "") if separator else line
+
+
+def _begin(heading: Sequence[str]) -> int:
+    """Return how many lines the headers of LabVIEW take, that of the file and that of its first segment."""
+    ends = [number for number, line in enumerate(heading, start=1) if line.startswith(END_OF_HEADER)]
+    for end in ends:
+        if not next((line for line in heading[end:] if line.strip()), "").startswith(_SEGMENT):
+            return end
+    return max(ends, default=0)
 
 
 def cells_of(line: str, delimiter: str) -> list[str]:
@@ -121,6 +163,9 @@ def _sample_row(lines: Mapping[int, str], dialect: Dialect) -> tuple[list[str], 
     """Return a row of samples, and the dialect that makes most of its cells numbers."""
     separators = dict.fromkeys((dialect.delimiter, *_SEPARATORS))
     last = list(lines.values())[-_LAST_ROWS:]
+    declared = max((cells_of(line, dialect.delimiter) for line in last), key=_likelihood)
+    if not any(map(dialect.cells.is_text, declared)) and _likelihood(declared)[0] == 1.0:
+        return declared, dialect
     rows = [(cells_of(line, separator), separator) for separator in separators for line in last]
     row, delimiter = max(rows, key=lambda pair: _likelihood(pair[0]))
     likely = replace(dialect, delimiter=delimiter)
@@ -128,13 +173,19 @@ def _sample_row(lines: Mapping[int, str], dialect: Dialect) -> tuple[list[str], 
 
 
 def _likelihood(row: Sequence[str]) -> tuple[float, int]:
-    return sum(map(_is_number, row)) / max(len(row), 1), len(row)
+    filled = [cell for cell in row if cell]
+    return sum(map(_is_number, filled)) / max(len(filled), 1), len(row)
 
 
 def _decimal(row: Sequence[str], dialect: Dialect) -> str:
-    commas = sum(_WITH_COMMA.fullmatch(cell) is not None for cell in row)
-    points = sum("." in cell and _WITH_POINT.fullmatch(cell) is not None for cell in row)
-    if dialect.delimiter == "," or dialect.thousands or commas == points:
+    """Return the sign before the decimals of a row; three behind it alone may be a group of digits."""
+    if dialect.delimiter == "," or dialect.thousands:
+        return dialect.decimal
+    signed = [(s, cell) for cell in row for s in ",." if s in cell and _BY_DECIMAL[s].is_number(cell)]
+    clear = [sign for sign, cell in signed if not grouping_of(cell)] or [sign for sign, _ in signed]
+    commas, points = map(clear.count, ",.")
+    # A declared comma that stands in a number is believed: a cell written otherwise is named.
+    if commas == points or (dialect.decimal == "," and any(sign == "," for sign, _ in signed)):
         return dialect.decimal
     return "," if commas > points else "."
 
@@ -174,7 +225,7 @@ def _holds_units(row: Sequence[str]) -> bool:
 
 
 def _is_number(cell: str) -> bool:
-    return _WITH_POINT.fullmatch(cell) is not None or _WITH_COMMA.fullmatch(cell) is not None
+    return cell.lower() == "nan" or any(cells.is_number(cell) for cells in _BY_DECIMAL.values())
 
 
 def _advice(declared: Dialect, likely: Dialect) -> str:
@@ -187,16 +238,46 @@ def _advice(declared: Dialect, likely: Dialect) -> str:
         seems.append(f"have its names in line {likely.header_line}")
     if likely.first_line != declared.first_line:
         seems.append(f"begin its samples in line {likely.first_line}")
-    section = declared.changes_to(likely)
-    return f"the table seems to {' and '.join(seems)}: set {section} in a channel map (--map)"
+    settings = ", ".join(f"{name}: {json.dumps(value)}" for name, value in likely.settings(declared).items())
+    section = f"csv: {{{settings}}}"
+    return (
+        f"the table seems to {' and '.join(seems)}: set {section} in a channel map (--map of evaluate,"
+        " log, fit), or let 'uictest evaluate FILE --write-map MAP' write it"
+    )
 
 
-def name_and_unit(text: str) -> tuple[str, str]:
-    """Return the name and the unit in brackets at its end; an empty unit where there is none."""
-    match = _NAME_AND_UNIT.fullmatch(text[:500])
-    if match is None or not match["name"]:
-        return text.strip(), ""
-    return match["name"], (match["square"] or match["round"] or "").strip()
+def names_and_units_of(headings: Sequence[str]) -> list[tuple[str, str]]:
+    """Return names and the units in brackets behind them; an empty unit where the brackets hold none.
+
+    Brackets that tell channels apart, as in `v[0]`, `v[1]`, are part of the names.
+    """
+    parts = [_name_and_brackets(heading.strip()) for heading in headings]
+    kept = {name.strip() for name, text in parts if not _is_unit(name, text)}
+    return [
+        (heading.strip(), "") if name.strip() in kept else (name.strip(), text.strip())
+        for heading, (name, text) in zip(headings, parts, strict=True)
+    ]
+
+
+def _name_and_brackets(heading: str) -> tuple[str, str]:
+    """Return what stands before the unit or the brackets at the end of a heading, and these."""
+    for word in (" in ", " / "):  # as DIN 461 writes units
+        name, _, text = heading.rpartition(word)
+        if name and is_recorded_unit(text.strip()):
+            return name.rstrip(" /") + " ", text
+    opening = {"]": "[", ")": "("}.get(heading[-1:], "")
+    name, bracket, text = heading[:-1].rpartition(opening) if opening else (heading, "", "")
+    whole = bracket and name.strip() and heading[-1] not in text
+    return (name.rstrip("/ ") + name[len(name.rstrip()) :], text) if whole else (heading, "")
+
+
+def _is_unit(name: str, text: str) -> bool:
+    """Return whether the text in brackets behind a name is a unit; that of `v[1]` is an index."""
+    if text.strip() == "1":
+        return name.endswith(" ")
+    return (
+        not text.strip() or is_recorded_unit(text.strip()) or _USUAL_UNIT.fullmatch(text.strip()) is not None
+    )
 
 
 _BYTE_ORDER_MARKS: Final = (
@@ -204,27 +285,16 @@ _BYTE_ORDER_MARKS: Final = (
     (codecs.BOM_UTF16_LE, "utf-16-le"),
     (codecs.BOM_UTF16_BE, "utf-16-be"),
 )
-_COMPRESSED: Final = (
-    (b"\x1f\x8b", "gzip"),
-    (b"PK\x03\x04", "zip"),
-    (b"BZh", "bzip2"),
-    (b"\xfd7zX", "xz"),
-    (b"\x28\xb5\x2f\xfd", "zstd"),
-)
-MARK: Final = "\ufeff"
+BYTE_ORDER_MARK: Final = "\ufeff"
 """The byte-order mark as a character: UTF-16 of a named byte order keeps it at the start of the text."""
 
 
 def encoding_of(path: Path, stated: str) -> str:
-    """Return the encoding of a byte-order mark, else the stated one.
-
-    Raises OSError, and UnreadableError for a compressed file.
-    """
+    """Return the encoding of a byte-order mark, else the stated one. Raises OSError."""
     with path.open("rb") as file:
         beginning = file.read(4)
-    if packed := next((name for mark, name in _COMPRESSED if beginning.startswith(mark)), ""):
-        raise UnreadableError(f"compressed by {packed}: unpack it")
-    return next((name for mark, name in _BYTE_ORDER_MARKS if beginning.startswith(mark)), stated)
+    unmarked = {b"\0": "utf-16-be"}.get(beginning[:1], "utf-16-le") if beginning.count(0) == 2 else stated
+    return next((name for mark, name in _BYTE_ORDER_MARKS if beginning.startswith(mark)), unmarked)
 
 
 def undecodable(path: Path, encoding: str) -> str:
@@ -236,7 +306,8 @@ def undecodable(path: Path, encoding: str) -> str:
         before = content[: error.start].decode(encoding, "replace")
         start = max(before.rfind("\n"), before.rfind("\r")) + 1
         line = 1 + before.count("\n") + before.count("\r") - before.count("\r\n")
-        byte = 1 + len(before[start:].lstrip(MARK).encode(encoding.removesuffix("-sig"), "replace"))
+        in_line = before[start:].lstrip(BYTE_ORDER_MARK)
+        byte = 1 + len(in_line.encode(encoding.removesuffix("-sig"), "replace"))
         wrong = f"line {line}, byte {byte}: {content[error.start]:#04x} is not {_shown(encoding)}"
         return f"{wrong}; {encoding_advice(encoding)} in a channel map (--map)"
     return f"not a text in {_shown(encoding)}"
@@ -249,5 +320,5 @@ def _shown(encoding: str) -> str:
 def encoding_advice(encoding: str) -> str:
     """Return what to write where a file does not have an encoding."""
     if encoding.startswith("utf"):
-        return "for a file of a Windows program, write csv: {encoding: cp1252}"
+        return f"for a file of a Windows program, write csv: {{encoding: {OF_WINDOWS}}}"
     return "write the file's encoding in csv: {encoding: ...}"

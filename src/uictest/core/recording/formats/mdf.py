@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import io
-import itertools
 import re
 import tempfile
-from collections.abc import Container, Iterator
+from collections.abc import Iterator
 from datetime import UTC, datetime
 from html import unescape
 from pathlib import Path
@@ -14,12 +13,17 @@ from typing import Any
 
 import numpy as np
 
-from uictest.core.recording.formats.file_formats import check_size, required_module
-from uictest.core.recording.plausibility import STATES, state_kind
+from uictest.core.recording.formats.file_formats import check_size, distinct, required_module
+from uictest.core.recording.plausibility import states_of
 from uictest.core.recording.recording import TIME, Contents, Group, Recording, Samples
 
 VERSION = "4.10"
 EXTRA = "mdf"
+_FRAMES = re.compile("(CAN|LIN|FLX|ETH|MOST)_[A-Za-z]*Frame")  # as ASAM names the channels of bus logging
+RAW_FRAMES = (
+    "holds raw frames of a bus: decode them with their DBC and save the signals, in asammdf (Bus logging) or"
+    " by mdf.extract_bus_logging({'CAN': [('bus.dbc', 0)]}).save('signals.mf4')"
+)
 _COMMENT_TEXT = re.compile(r"<TX[^>]*>(.*?)</TX>", re.DOTALL)
 # A simulated stop has no date; one that is always the same keeps files of the same stop alike.
 _NO_DATE = datetime(1970, 1, 1, tzinfo=UTC)
@@ -52,7 +56,7 @@ def encoded(recording: Recording) -> bytes:
             timestamps=time,
             name=name,
             unit=recording.units[name],
-            conversion=_names_of_states(name),
+            conversion=_names_of_states(name, np.asarray(samples)),
         )
         for name, samples in recording.channels.items()
         if name != TIME
@@ -67,6 +71,9 @@ def encoded(recording: Recording) -> bytes:
 
 
 def _group(mdf: Any, number: int, skipped: dict[str, str]) -> Iterator[Group]:
+    if frames := raw_frames(mdf.groups[number]):
+        skipped[frames] = RAW_FRAMES
+        return
     master = mdf.masters_db.get(number)
     channels: dict[str, Samples] = {}
     units: dict[str, str] = {}
@@ -87,16 +94,14 @@ def _group(mdf: Any, number: int, skipped: dict[str, str]) -> Iterator[Group]:
         yield Group(group_name(mdf.groups[number]), channels, units, time)
 
 
+def raw_frames(group: Any) -> str:
+    """Return the name of the frames where a group is a log of a bus, else nothing."""
+    return next((str(each.name) for each in group.channels if _FRAMES.fullmatch(str(each.name))), "")
+
+
 def group_name(group: Any) -> str:
     """Return the name of a group; version 3 has none."""
     return str(getattr(group.channel_group, "acq_name", "") or "")
-
-
-def distinct(name: str, channels: Container[str]) -> str:
-    """Return a name that is not among those of `channels`: itself, or with a number behind it."""
-    if name not in channels:
-        return name
-    return next(other for k in itertools.count(2) if (other := f"{name} ({k})") not in channels)
 
 
 def holds_samples(signal: Any) -> bool:
@@ -114,11 +119,12 @@ def valid_samples(signal: Any) -> Samples:
     return samples
 
 
-def _names_of_states(name: str) -> dict[str, object] | None:
-    kind = state_kind(name)
-    if kind is None or not STATES[kind]:
+def _names_of_states(name: str, samples: Samples) -> dict[str, object] | None:
+    """Return what names the states of a channel; None where a sample has no name, which would be lost."""
+    states = states_of(name)
+    if not states or not np.isin(samples[~np.isnan(samples)], list(states.values())).all():
         return None
-    pairs = enumerate(STATES[kind].items())
+    pairs = enumerate(states.items())
     return {
         key: value
         for k, (state, number) in pairs

@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from uictest.core.recording.formats.cells import LONGEST_TEXT
+from uictest.core.recording.formats.dates import over_midnight
 from uictest.core.recording.formats.file_formats import UnreadableError, check_size
+from uictest.core.recording.formats.layout import names_and_units_of
 from uictest.core.recording.parquet import parquet_bytes
 from uictest.core.recording.recording import Contents, Group, Recording, Samples
 
 if TYPE_CHECKING:
     import pyarrow as pa
-
-_LONGEST_TEXT = 64
 
 
 def read(path: Path) -> Contents:
@@ -27,17 +28,17 @@ def read(path: Path) -> Contents:
     try:
         with path.open("rb") as file, pq.ParquetFile(file) as parquet:
             rows, schema = parquet.metadata.num_rows, parquet.schema_arrow
-            reject_same_names(schema.names)
-            names = [field.name for field in schema if _holds_samples(field.type)]
+            columns, units = columns_of(schema)
+            read = [column for column in columns.values() if _holds_samples(schema.field(column).type)]
             check_size([(rows,)] * len(schema))
-            table = parquet.read(columns=names, use_threads=False)
+            table = parquet.read(columns=read, use_threads=False)
     except (pa.ArrowException, OSError) as error:
         raise UnreadableError("no Parquet file, or a damaged one") from error
     facts = {key.decode("utf-8", "replace"): value for key, value in (schema.metadata or {}).items()}
-    units = units_of(schema)
-    skipped = {field.name: f"holds {field.type}" for field in schema if field.name not in names}
-    channels = {name: samples_of_column(table.column(name)) for name in names}
-    return Contents((Group("", channels, units),), _object(facts.get("uictest.metadata")), skipped)
+    skipped = {field.name: f"holds {field.type}" for field in schema if field.name not in read}
+    channels = {n: samples_of_column(table.column(column)) for n, column in columns.items() if column in read}
+    stated = {name: unit for name, unit in units.items() if name in channels}
+    return Contents((Group("", channels, stated),), _object(facts.get("uictest.metadata")), skipped)
 
 
 def encoded(recording: Recording) -> bytes:
@@ -45,11 +46,25 @@ def encoded(recording: Recording) -> bytes:
     return parquet_bytes(recording)
 
 
-def reject_same_names(names: list[str]) -> None:
-    """Raise UnreadableError for a name that several columns have."""
-    for name, count in Counter(names).items():
+def columns_of(schema: pa.Schema) -> tuple[dict[str, str], dict[str, str]]:
+    """Return the column of each channel by the channel's name, and the units of those that state one.
+
+    A unit in brackets behind a name is none of the name where the file states no other.
+
+    Raises UnreadableError for a name that several columns have.
+    """
+    for name, count in Counter(schema.names).items():
         if count > 1:
             raise UnreadableError(f"{count} columns have the name {name!r}")
+    units = _stated_units(schema)
+    split = dict(zip(schema.names, names_and_units_of(schema.names), strict=True))
+    alike = Counter(name for name, _ in split.values())
+    columns: dict[str, str] = {}
+    for column, (name, unit) in split.items():
+        plain = name if unit and column not in units and alike[name] == 1 else column
+        columns[plain] = column
+        units |= {plain: unit} if plain != column else {}
+    return columns, units
 
 
 def _holds_samples(kind: pa.DataType) -> bool:
@@ -60,10 +75,10 @@ def _holds_samples(kind: pa.DataType) -> bool:
 
 
 def holds_times(kind: pa.DataType) -> bool:
-    """Return whether a column holds dates or durations."""
+    """Return whether a column holds dates, times of a day or durations."""
     import pyarrow as pa
 
-    return bool(pa.types.is_timestamp(kind) or pa.types.is_duration(kind))
+    return is_moment(kind) or bool(pa.types.is_duration(kind))
 
 
 def holds_texts(kind: pa.DataType) -> bool:
@@ -80,22 +95,36 @@ def samples_of_column(column: Any) -> Samples:
     import pyarrow as pa
 
     if holds_texts(column.type):
-        return np.array([(text or "")[:_LONGEST_TEXT] for text in column.to_pylist()], dtype=np.str_)
-    if pa.types.is_timestamp(column.type):
-        return _seconds(column.to_numpy().astype("datetime64[us]"))
+        return np.array([(text or "")[:LONGEST_TEXT] for text in column.to_pylist()], dtype=np.str_)
+    if is_moment(column.type):
+        moments = seconds_of_moments(column)
+        return moments - next(iter(moments[np.isfinite(moments)]), 0.0)
     if pa.types.is_duration(column.type):
-        return np.asarray(column.to_numpy() / np.timedelta64(1, "ns") * 1e-9, dtype=np.float64)
-    return np.asarray(column.cast(pa.float64(), safe=False).to_numpy(), dtype=np.float64)
+        durations = column.to_numpy(zero_copy_only=False)
+        return np.asarray(durations / np.timedelta64(1, "ns") * 1e-9, dtype=np.float64)
+    numbers = column.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False)
+    return np.asarray(numbers, dtype=np.float64)
 
 
-def _seconds(stamps: Any) -> Samples:
-    """Return time stamps as seconds after the first; one that is missing becomes NaN."""
-    since = (stamps - stamps[~np.isnat(stamps)][:1]) / np.timedelta64(1, "us") * 1e-6
-    return np.asarray(since, dtype=np.float64)
+def is_moment(kind: pa.DataType) -> bool:
+    """Return whether a column holds dates or times of a day."""
+    import pyarrow as pa
+
+    return bool(pa.types.is_timestamp(kind) or pa.types.is_time(kind))
 
 
-def units_of(schema: pa.Schema) -> dict[str, str]:
-    """Return the unit of every column that states one."""
+def seconds_of_moments(column: Any) -> Samples:
+    """Return dates as Unix time and times of a day since its midnight, s; one that is missing becomes NaN."""
+    import pyarrow as pa
+
+    if pa.types.is_time(column.type):
+        of_day = column.cast(pa.time64("us")).cast(pa.int64()).to_numpy(zero_copy_only=False)
+        return over_midnight(np.asarray(1e-6 * of_day, dtype=np.float64))
+    stamps = column.to_numpy(zero_copy_only=False).astype("datetime64[us]")
+    return np.asarray((stamps - np.datetime64(0, "us")) / np.timedelta64(1, "us") * 1e-6, dtype=np.float64)
+
+
+def _stated_units(schema: pa.Schema) -> dict[str, str]:
     of_schema = _object((schema.metadata or {}).get(b"uictest.units"))
     times = {field.name: "s" for field in schema if holds_times(field.type)}
     return {**of_schema, **_field_units(schema), **times}

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Collection, Iterator, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
-
-import numpy as np
+from typing import Any, NamedTuple
 
 from uictest.core.recording.formats import csv_text, isolation, parquet, streams
+from uictest.core.recording.formats.cells import MOST_PLACED
 from uictest.core.recording.formats.file_formats import UnreadableError, format_of
-from uictest.core.recording.formats.layout import COMMENT, Dialect, encoding_advice, encoding_of, table_layout
-from uictest.core.recording.recording import Contents, Group, Samples
+from uictest.core.recording.formats.layout import COMMENT, Dialect, cells_of, encoding_advice
+from uictest.core.recording.recording import Contents, Group
 
 _BLOCK = 2 * 2**20
 """Bytes of text that are parsed at once, of which Arrow reads up to 32 blocks ahead; chosen."""
@@ -25,10 +24,15 @@ _SAMPLED = 200
 
 
 def read_pieces(
-    path: Path, dialect: Dialect, wanted: Collection[str] | None = None, leading: Collection[str] = ()
+    path: Path,
+    dialect: Dialect,
+    wanted: Collection[str] | None = None,
+    leading: Collection[str] = (),
+    texts: Collection[str] = (),
 ) -> Iterator[Contents]:
     """Yield a CSV, Parquet, MDF or TDMS file piece by piece, with its `wanted` channels; None: with all.
 
+    Columns of a text that may hold texts among numbers are `texts`, or show it in its first lines.
     Times that are written as dates become Unix time, s. Of several groups with their own times, the one that
     has a channel of `leading` comes first and is read block by block; the others have what lies beside each
     block, and some samples around it. MDF and TDMS are read in a process of their own.
@@ -44,14 +48,29 @@ def read_pieces(
         request = {"wanted": asked, "leading": list(leading), "at_once": streams.AT_ONCE[kind]}
         yield from isolation.read_apart(kind, path, request)
     elif kind in ("csv", "parquet"):
-        yield from _tables(path, dialect, wanted, _csv if kind == "csv" else _parquet)
+        opened = partial(_csv, texts=texts) if kind == "csv" else _parquet
+        yield from _tables(path, dialect, wanted, opened)
     else:
         raise UnreadableError(
             f"{kind} is not read in pieces; write it as Parquet: uictest export {path.name} --to parquet"
         )
 
 
-Table = tuple[list[str], dict[str, str], Iterator[Any]]
+class Table(NamedTuple):
+    """A table that is read in batches.
+
+    Args:
+        names: of the columns of a batch, in their order.
+        units: name -> unit.
+        batches: of Arrow.
+        source: the text that is read; None where columns of texts stay such.
+
+    """
+
+    names: list[str]
+    units: dict[str, str]
+    batches: Iterator[Any]
+    source: csv_text.TextTable | None = None
 
 
 def _tables(
@@ -59,12 +78,15 @@ def _tables(
 ) -> Iterator[Contents]:
     import pyarrow as pa
 
-    dated: set[str] = set()
     try:
-        names, units, batches = opened(path, dialect, wanted)
-        for batch in batches:
-            columns = {name: _samples(name, batch.column(k), dated) for k, name in enumerate(names)}
-            yield Contents((Group("", columns, {**units, **dict.fromkeys(dated, "s")}),))
+        table, first_row = opened(path, dialect, wanted), 0
+        places: dict[str, dict[str, str]] = {name: {} for name in table.names}
+        for batch in table.batches:
+            group = Group("", {}, dict(table.units), first_row=first_row)
+            for k, name in enumerate(table.names):
+                _add(group, name, batch.column(k), table.source, places[name])
+            yield Contents((group,))
+            first_row += batch.num_rows
     except UnicodeEncodeError as error:
         raise UnreadableError("the name of the file is not UTF-8, which Arrow needs: rename it") from error
     except UnicodeError as error:
@@ -77,60 +99,81 @@ def _tables(
         raise UnreadableError(f"damaged, or not a table of numbers throughout: {told[:_LONGEST]}") from error
 
 
+def _add(
+    group: Group, name: str, column: Any, source: csv_text.TextTable | None, places: dict[str, str]
+) -> None:
+    """Add the samples of a column to a group; time stamps are Unix time, s. `places` are of earlier texts."""
+    if source is not None and parquet.holds_texts(column.type):
+        read = source.cells.column(column)
+        # To look for those of a column of texts alone would take as long as to read it.
+        for text in read.first_rows() if read.is_mixed else ():
+            if text not in places and len(places) < MOST_PLACED:
+                places[text] = source.line_of(name, text)
+        csv_text.add_texts(group, name, read, dict(places))
+    elif parquet.is_moment(column.type):
+        group.channels[name] = parquet.seconds_of_moments(column)
+    else:
+        group.channels[name] = parquet.samples_of_column(column)
+
+
 def _parquet(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Table:
     import pyarrow.parquet as pq
 
     file = pq.ParquetFile(path, pre_buffer=False)  # else all that is to be read stays in memory
-    parquet.reject_same_names(file.schema_arrow.names)
-    names = [name for name in file.schema_arrow.names if wanted is None or name in wanted]
-    units = parquet.units_of(file.schema_arrow)
-    batches: Iterator[Any] = file.iter_batches(_ROWS, columns=names, use_threads=True)
-    return names, units, batches
+    columns, units = parquet.columns_of(file.schema_arrow)
+    names = [name for name in columns if wanted is None or name in wanted]
+    batches = file.iter_batches(_ROWS, columns=[columns[name] for name in names], use_threads=True)
+    stated = {name: units[name] for name in names if name in units}
+    return Table(names, stated, batches)
 
 
-def _csv(path: Path, dialect: Dialect, wanted: Collection[str] | None) -> Table:
+def _csv(path: Path, dialect: Dialect, wanted: Collection[str] | None, texts: Collection[str]) -> Table:
     import pyarrow as pa
     from pyarrow import csv
 
-    encoding = encoding_of(path, dialect.encoding)
-    if dialect.thousands:
-        raise UnreadableError("thousands separators are not read in pieces: write the numbers without them")
-    heading = csv_text.heading_of(path, encoding, dialect)
-    layout = table_layout(heading, dialect)
-    names, stated = csv_text.names_and_units(heading, layout, dialect)
-    units = {name: unit for name, unit in zip(names, stated, strict=True) if unit}
-    chosen = [name for name in names if wanted is None or name in wanted]
-    first = [line for line in heading[layout.first_line - 1 :][:_SAMPLED] if not line.startswith(COMMENT)]
-    kinds = {name: _kind([_cell(line, k, dialect) for line in first]) for k, name in enumerate(names)}
+    table = csv_text.opened(path, dialect)
+    chosen = [name for name in table.names if wanted is None or name in wanted]
+    below = table.heading[table.layout.first_line - 1 :]
+    first = [line for line in below if line.strip() and not line.startswith(COMMENT)]
+    rows = [cells_of(line, dialect.delimiter) for line in first[:_SAMPLED]]
     # A delimiter may end each line of samples.
-    ended = bool(first) and all(_is_ended(line.rstrip("\r\n"), len(names), dialect) for line in first)
+    ended = bool(rows) and all(len(row) == len(table.names) + 1 and not row[-1] for row in rows)
+    all_texts = bool(dialect.thousands)  # which Arrow does not read
+    texts = {name for name in chosen if all_texts or name in texts or _is_text(table, name, rows)}
     read = csv.ReadOptions(
-        skip_rows=layout.first_line - 1,
-        column_names=[*names, ""] if ended else names,
+        skip_rows=table.layout.first_line - 1,
+        column_names=[*table.names, ""] if ended else table.names,
         block_size=_BLOCK,
-        encoding=encoding,
+        encoding=table.encoding,
     )
-    parse = csv.ParseOptions(delimiter=dialect.delimiter, invalid_row_handler=_on_other_lines(path, encoding))
+    parse = csv.ParseOptions(
+        delimiter=dialect.delimiter, invalid_row_handler=_on_other_lines(path, table.encoding)
+    )
     convert = csv.ConvertOptions(
         include_columns=chosen,
-        column_types={name: pa.float64() if kinds[name] else pa.string() for name in chosen},
-        null_values=["", "nan", "NaN", "NAN", "null", "NULL", "N/A", "-"],
+        column_types={name: pa.string() if name in texts else pa.float64() for name in chosen},
+        null_values=table.cells.marks,
         decimal_point=dialect.decimal,
     )
-    return chosen, units, _batches(path, read, parse, convert)
+    numbers = [name for name in chosen if name not in texts]
+    units = {name: unit for name, unit in zip(table.names, table.units, strict=True) if unit}
+    return Table(chosen, units, _batches(table, numbers, read, parse, convert), table)
 
 
-def _batches(path: Path, read: Any, *options: Any) -> Iterator[Any]:
-    """Yield the batches of a table; an error names the row, which Arrow knows with one thread alone."""
+def _is_text(table: csv_text.TextTable, name: str, rows: Sequence[Sequence[str]]) -> bool:
+    column = table.names.index(name)
+    return any(table.cells.is_text(row[column]) for row in rows if column < len(row))
+
+
+def _batches(table: csv_text.TextTable, numbers: Sequence[str], *options: Any) -> Iterator[Any]:
+    """Yield the batches of a table, in which the columns of `numbers` must be such throughout."""
     import pyarrow as pa
     from pyarrow import csv
 
     try:
-        yield from csv.open_csv(path, read, *options)
+        yield from csv.open_csv(table.path, *options)
     except pa.ArrowInvalid:
-        read.use_threads = False
-        for _ in csv.open_csv(path, read, *options):
-            pass
+        table.require_complete(numbers)
         raise
 
 
@@ -140,43 +183,3 @@ def _on_other_lines(path: Path, encoding: str) -> Callable[[Any], str]:
         file.seek(max(path.stat().st_size - csv_text.LONGEST_LINE, 0))
         last = file.read().decode(encoding, "replace").rpartition("\n")[2]
     return lambda row: "skip" if row.text.startswith(COMMENT) or row.text == last else "error"
-
-
-def _is_ended(line: str, cells: int, dialect: Dialect) -> bool:
-    return line.endswith(dialect.delimiter) and line.count(dialect.delimiter) == cells
-
-
-def _cell(line: str, column: int, dialect: Dialect) -> str:
-    cells = line.rstrip("\r\n").split(dialect.delimiter)
-    return cells[column].strip().replace(dialect.decimal, ".") if column < len(cells) else ""
-
-
-def _kind(cells: Sequence[str]) -> bool:
-    """Return whether cells are numbers, as far as they are filled."""
-    filled = [cell for cell in cells if cell]
-    try:
-        [float(cell) for cell in filled]
-    except ValueError:
-        return False
-    return True
-
-
-def _samples(name: str, column: Any, dated: set[str]) -> Samples:
-    """Return the samples of a column; `dated` remembers which columns are texts of dates."""
-    import pandas as pd
-    import pyarrow as pa
-
-    if pa.types.is_duration(column.type):
-        return parquet.samples_of_column(column)
-    texts = parquet.holds_texts(column.type)
-    if not texts and not parquet.holds_times(column.type):
-        return np.asarray(column.cast(pa.float64(), safe=False).to_numpy(zero_copy_only=False))
-    first = next((value for value in itertools.islice(column, _SAMPLED) if value.is_valid), None)
-    if texts and name not in dated and (first is None or not csv_text.is_date(first.as_py())):
-        return parquet.samples_of_column(column)
-    dated.add(name)
-    cells = pd.Series(column.to_pandas())
-    stamps = pd.to_datetime(cells, format="ISO8601", errors="coerce", utc=True)
-    if len(unread := cells[stamps.isna() & cells.notna()]):
-        raise UnreadableError(f"{name}: {unread.iloc[0]!r}: write dates as 2026-05-31T12:00:00.000")
-    return np.asarray((stamps - pd.Timestamp(0, tz="UTC")).dt.total_seconds(), dtype=np.float64)

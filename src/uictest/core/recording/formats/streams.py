@@ -16,7 +16,7 @@ import numpy as np
 
 from uictest.core import files
 from uictest.core.recording.formats import mdf, tdms
-from uictest.core.recording.formats.file_formats import UnreadableError, required_module
+from uictest.core.recording.formats.file_formats import UnreadableError, distinct, required_module
 from uictest.core.recording.recording import Contents, Group
 
 AT_ONCE: Final = {"mdf": 16 * 2**20, "tdms": 2**17}
@@ -42,7 +42,10 @@ def mdf_pieces(
             file = path
         opened = stack.enter_context(asammdf.MDF(file, temporary_folder=Path(tempfile.gettempdir())))
         opened.configure(read_fragment_size=at_once)
-        streams = [_mdf_blocks(opened, k, wanted) for k in range(len(opened.groups))]
+        measured = [k for k, group in enumerate(opened.groups) if not mdf.raw_frames(group)]
+        if opened.groups and not measured:
+            raise UnreadableError(mdf.RAW_FRAMES)
+        streams = [_mdf_blocks(opened, k, wanted) for k in measured]
         yield from in_step(streams, leading)
 
 
@@ -57,7 +60,7 @@ def _mdf_blocks(opened: Any, number: int, wanted: Collection[str] | None) -> Blo
     named: dict[str, int] = {}
     for index, channel in enumerate(group.channels):
         if index != master:
-            named[mdf.distinct(str(channel.name), named)] = index
+            named[distinct(str(channel.name), named)] = index
     chosen = [(index, text) for text, index in named.items() if _is_wanted(text, name, wanted)]
     if not chosen or not group.channel_group.cycles_nr:
         return

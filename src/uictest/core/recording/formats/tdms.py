@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from uictest.core.recording.formats.file_formats import check_size, required_module
-from uictest.core.recording.plausibility import STATES, state_kind
+from uictest.core.recording.plausibility import states_of
 from uictest.core.recording.recording import TIME, Contents, Group, Recording, Samples
 
 EXTRA = "tdms"
@@ -66,10 +66,8 @@ def _waveform(recording: Recording) -> dict[str, object]:
 
 
 def _names_of_states(name: str) -> dict[str, object]:
-    kind = state_kind(name)
-    if kind is None or not STATES[kind]:
-        return {}
-    return {"states": ", ".join(f"{number} = {state}" for state, number in STATES[kind].items())}
+    listed = ", ".join(f"{number} = {state}" for state, number in states_of(name).items())
+    return {"states": listed} if listed else {}
 
 
 def _groups(group: Any, begun: Any, skipped: dict[str, str]) -> Iterator[Group]:

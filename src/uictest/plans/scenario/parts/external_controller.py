@@ -142,7 +142,9 @@ class ExternalController(ControllerPart):
         "The parameters that it knows; default: what its file declares. Others are errors.",
         default_factory=dict,
     )
-    free_parameters: bool = field("Whether parameters that nobody has declared are accepted.", default=False)
+    free_parameters: bool = field(
+        "Whether parameters that nobody has declared are accepted.", default=False, strict=True
+    )
 
     @property
     def reference(self) -> str:

@@ -14,6 +14,7 @@ from uictest.plans.scenario.yaml import (
     Inconsistency,
     Model,
     common_unit,
+    count_by_step,
 )
 from uictest.plans.scenario.yaml.quantity_field import field, optional
 
@@ -45,16 +46,20 @@ class Range(Model):
         numbers = [self.first, self.last, *([self.step] if self.step else [])]
         if common_unit(numbers) is None:
             yield Inconsistency(("last",), "the numbers of a range have different units", _ONE_UNIT)
-        elif self.step is not None and not 0 <= self._steps() < MOST_POINTS:
+        elif self.size == 0:
             yield Inconsistency(
                 ("step",), f"steps of {self.step} do not lead from {self.first} to {self.last}"
             )
+        elif self.size > MOST_POINTS:
+            message = f"{self.size} values; at most {MOST_POINTS} are accepted"
+            yield Inconsistency(("step",), message, "choose a larger step")
 
-    def _steps(self) -> float:
-        assert self.step is not None
-        if self.step.number == 0:
-            return -1.0
-        return float((self.last.number - self.first.number) / self.step.number)
+    @property
+    def size(self) -> int:
+        """How many numbers it has, counted without making them."""
+        if self.step is None:
+            return self.count or 0
+        return count_by_step(self.first.number, self.last.number, self.step.number)
 
 
 class Normal(Model):

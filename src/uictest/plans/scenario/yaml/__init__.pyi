@@ -20,7 +20,7 @@ from .model import (
     quantities_in as quantities_in,
     unknown_sources as unknown_sources,
 )
-from .parsing import parse as parse, scalar_value as scalar_value
+from .parsing import DEEPEST as DEEPEST, parse as parse, scalar_value as scalar_value
 from .quantities import (
     DEFAULT_SOURCE as DEFAULT_SOURCE,
     SCENARIO_SOURCE as SCENARIO_SOURCE,
@@ -30,6 +30,7 @@ from .quantities import (
     Quantity as Quantity,
     QuantityError as QuantityError,
     common_unit as common_unit,
+    count_by_step as count_by_step,
     evenly_spaced as evenly_spaced,
     parse_decimal_quantity as parse_decimal_quantity,
     parse_quantity as parse_quantity,

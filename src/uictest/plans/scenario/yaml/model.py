@@ -40,6 +40,13 @@ class Model(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
+    def __copy__(self) -> Self:
+        """Return a copy of the fields alone: cached properties are of the values before an update."""
+        copied = super().__copy__()
+        for name in copied.__dict__.keys() - type(self).model_fields.keys():
+            del copied.__dict__[name]
+        return copied
+
     def inconsistencies(self) -> Iterator[Inconsistency]:
         """Yield values that are impossible together."""
         yield from ()

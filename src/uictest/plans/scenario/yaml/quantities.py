@@ -262,9 +262,15 @@ def evenly_spaced(first: Decimal, last: Decimal, count: int) -> list[Decimal]:
     return [min(max(_DIGITS.plus(number).normalize(), low), high) for number in numbers]
 
 
+def count_by_step(first: Decimal, last: Decimal, step: Decimal) -> int:
+    """Return how many numbers :func:`spaced_by_step` returns; 0 where no step leads to `last`."""
+    steps = (last - first) / step if step else Decimal(-1)
+    return int(steps) + 1 if steps >= 0 else 0
+
+
 def spaced_by_step(first: Decimal, last: Decimal, step: Decimal) -> list[Decimal]:
     """Return the numbers from `first` in steps; `last` is included if a step reaches it."""
-    return [first + k * step for k in range(int((last - first) / step) + 1)]
+    return [first + k * step for k in range(count_by_step(first, last, step))]
 
 
 def common_unit(quantities: Sequence[DecimalQuantity]) -> str | None:

@@ -67,7 +67,10 @@ class QuantityField(NamedTuple):
         source = value.get("source", SCENARIO_SOURCE if "range" in value else None)
         of_range = value.get("range_source", source)
         if not (
-            {"value"} <= set(value) <= _MARKED_KEYS and isinstance(source, str) and isinstance(of_range, str)
+            {"value"} <= set(value) <= _MARKED_KEYS
+            and isinstance(source, str)
+            and isinstance(of_range, str)
+            and not isinstance(value["value"], dict)
         ):
             raise QuantityError(
                 f"expected {described(self.kind)}, found a mapping",
@@ -80,7 +83,7 @@ class QuantityField(NamedTuple):
 
     def _read_range(self, ends: object, value: Quantity, source: str) -> tuple[Quantity, Quantity]:
         """The plausible range of a value: two bounds that hold it, in its unit."""
-        if not isinstance(ends, list | tuple) or len(ends) != 2:
+        if not isinstance(ends, list | tuple) or len(ends) != 2 or any(isinstance(end, dict) for end in ends):
             raise QuantityError("a range has two ends", f"write [{example(self.kind)}, and a larger one]")
         low, high = (self._within(self._read(end)) for end in ends)
         if _symbol(low) != _symbol(value) or _symbol(high) != _symbol(value):
@@ -159,13 +162,15 @@ class QuantityField(NamedTuple):
             },
             "required": ["value"],
             "anyOf": [{"required": ["source"]}, {"required": ["range"]}],
+            "dependencies": {"prior": ["range"]},
             "additionalProperties": False,
         }
         return {"anyOf": [value, marked]}
 
     def _value_schema(self) -> dict[str, Any]:
         if self.kind.bare:
-            return {"type": "integer" if self.kind.name == "count" else "number", **self._numeric_bounds()}
+            types = ["integer" if self.kind.name == "count" else "number", "string"]
+            return {"type": types, "pattern": rf"^\s*{NUMBER_PATTERN}\s*$", **self._numeric_bounds()}
         units = "|".join(re.escape(symbol).replace(r"\ ", r"\s+") for symbol in self.kind.units)
         return {"type": "string", "pattern": rf"^\s*{NUMBER_PATTERN}\s*(?:{units})\s*$"}
 

@@ -246,7 +246,7 @@ def _worded(error: Any, context: dict[str, Any], node: Node) -> tuple[str, str]:
             hint = f'write it in quotes: "{visible(text)}"'
         if kind in ("bool_type", "bool_parsing") and isinstance(node, Scalar):
             hint = _meant(text, ["true", "false"])
-        if kind == "int_type" and text.isdecimal():
+        if kind == "int_type" and text.isdecimal() and node == Scalar(text, text, node.place):
             hint = f"write {text} without quotes"
         shown = f" ({quoted(text)})" if text else ""
         return f"expected {_EXPECTED[kind]}, found {describe(node)}{shown}", hint

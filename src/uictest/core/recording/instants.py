@@ -1,0 +1,82 @@
+"""What a channel is at an instant: the one place that reads samples at other times than their own."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+SLACK: Final = 1e-6
+"""Share of the usual interval by which an instant may miss a sample and still be that sample's; chosen."""
+_ROUNDING: Final = 8
+"""Last binary digits by which it may, too: a time that was computed or written in decimals; chosen."""
+
+
+def usual_interval(time: Array) -> float:
+    """Return the median interval of a time axis, s; 0 for fewer than two samples."""
+    return float(np.median(np.diff(time))) if len(time) > 1 else 0.0
+
+
+def slack(time: Array) -> float:
+    """Return by how much an instant may miss a sample of a time axis, s."""
+    largest = np.abs(time[[0, -1]]).max() if len(time) else 0.0
+    return max(SLACK * usual_interval(time), _ROUNDING * float(np.spacing(largest)))
+
+
+def covers(time: Array, instants: Array) -> NDArray[np.bool_]:
+    """Return which instants lie between the first and the last sample, or on one of these."""
+    reach = slack(time)
+    return np.asarray((instants >= time[0] - reach) & (instants <= time[-1] + reach))
+
+
+def rows_at(time: Array, instants: Array) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """Return the row of the last sample up to each instant, the first if there is none, and which are its."""
+    reach = slack(time)
+    rows = np.clip(np.searchsorted(time, instants + reach, side="right") - 1, 0, None)
+    return rows, np.asarray(np.abs(instants - time[rows]) <= reach)
+
+
+def at_instants(
+    time: Array, samples: Array, instants: Array, *, holds: bool, gaps: NDArray[np.bool_] | None = None
+) -> Array:
+    """Return what a channel is at some instants; NaN before its first sample and after its last.
+
+    `time` (or place) rises. A sample stands until the next if the channel `holds`, as a state does; else a
+    line leads to that. NaN stays NaN, and so does what lies beside it. `gaps`: intervals between neighbouring
+    samples in which the channel is unknown.
+    """
+    last, on_sample = rows_at(time, instants)
+    known = covers(time, instants)
+    if gaps is not None:
+        known &= on_sample | ~gaps[np.minimum(last, len(gaps) - 1)]
+    between = samples[last] if holds else np.interp(instants, time, samples)
+    return np.where(known, np.where(on_sample, samples[last], between), np.nan)
+
+
+def common_instants(first: Array, second: Array) -> Array:
+    """Return where two series are compared, whichever is named first: as far as both reach.
+
+    These are the samples of the coarser one: read where only the finer one has samples, the other would lack
+    what it did not sample. Of two that are equally coarse they are the samples of both.
+    """
+    places = coarser(first, second)
+    if places is None:
+        places = np.union1d(first, second)
+        places = places[np.diff(places, prepend=-np.inf) > min(slack(first), slack(second))]
+    return places[covers(first, places) & covers(second, places)]
+
+
+def coarser(first: Array, second: Array) -> Array | None:
+    """Return the time axis with the larger mean interval; None where both have the same but for rounding."""
+    steps = mean_interval(first), mean_interval(second)
+    if max(steps) <= min(steps) * (1.0 + SLACK):
+        return None
+    return first if steps[0] > steps[1] else second
+
+
+def mean_interval(time: Array) -> float:
+    """Return the mean interval of a time axis, s; 0 for fewer than two samples."""
+    return float(time[-1] - time[0]) / (len(time) - 1) if len(time) > 1 else 0.0

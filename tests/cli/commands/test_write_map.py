@@ -1,0 +1,196 @@
+"""`uictest evaluate FILE --write-map MAP`: one command, then the map reads the file."""
+
+import numpy as np
+import pytest
+import yaml
+
+SPEEDS = np.maximum(80.0 - 3.6 * np.maximum(np.arange(1262) * 0.02 - 2.0, 0.0), 0.0)
+"""km/h every 20 ms: 2 s at 80 km/h, then 1 m/s2 to standstill, 246.9 m."""
+SCENARIO = """schema: uictest/scenario/1
+name: recorded
+initial_speed: 80 km/h
+brake: {command: 100 %, position: R}
+rail: {condition: wet, friction: 0.1}
+criteria: [uictest-stop]
+"""
+
+
+def _clock(k):
+    return f"{12 + k // 180_000}:{k // 3000 % 60:02d}:{k // 50 % 60:02d},{20 * (k % 50):03d}"
+
+
+def _seconds(k):
+    return [f"{k / 50:.2f}".replace(".", ",")]
+
+
+def _rows(first, decimal, separator, more=()):
+    """Return a line for each sample: what `first` gives for its number, five equal speeds, and `more`."""
+    for k, speed in enumerate(SPEEDS):
+        cells = [*first(k), *[f"{speed:.3f}".replace(".", decimal)] * 5, *(each(k) for each in more)]
+        yield separator.join(cells)
+
+
+NAMES = "Geschwindigkeit [km/h];v1 [km/h];v2 [km/h];v3 [km/h];v4 [km/h]"
+FILES = {
+    "semicolon": (
+        [
+            "Prüfzug 7;;;;;",
+            f"Zeit [s];{NAMES}",
+            *_rows(lambda k: [f"{k / 50:.2f}".replace(".", ",")], ",", ";"),
+        ],
+        "cp1252",
+    ),
+    "date and clock": (
+        [f"Datum;Uhrzeit;{NAMES}", *_rows(lambda k: ["3.5.2026", _clock(k)], ",", ";")],
+        "utf-8",
+    ),
+    "clock": ([f"Uhrzeit;{NAMES}", *_rows(lambda k: [_clock(k)], ",", ";")], "utf-8-sig"),
+    "units below": (
+        [
+            "t,v_train,v_axle[0],v_axle[1],v_axle[2],v_axle[3]",
+            "ms,km/h,km/h,km/h,km/h,km/h",
+            *_rows(lambda k: [str(20 * k)], ".", ","),
+        ],
+        "utf-8",
+    ),
+    "no units": (
+        ["t,v_train,v1,v2,v3,v4", *_rows(lambda k: [str(20 * k)], ".", ",")],
+        "utf-16",
+    ),
+    "marks and groups": (
+        [
+            f"Zeit [s];{NAMES};p_BC1 [mbar]",
+            *_rows(
+                _seconds,
+                ",",
+                ";",
+                [lambda k: "OVL" if k == 1100 else f"{min(3800, 10 * k):,}".replace(",", ".")],
+            ),
+        ],
+        "utf-8",
+    ),
+    "LabVIEW": (
+        [
+            "LabVIEW Measurement\t",
+            "Separator\tTab",
+            "***End_of_Header***\t",
+            "Channels\t5",
+            "Delta_X" + 5 * "\t0,020000",
+            "***End_of_Header***\t",
+            "X_Value\t" + NAMES.replace(";", "\t") + "\tComment",
+            *_rows(lambda k: [""], ",", "\t"),
+        ],
+        "utf-8",
+    ),
+}
+
+
+@pytest.fixture
+def place(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scn.yaml").write_text(SCENARIO)
+    return tmp_path
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_map_that_is_written_reads_the_file(call, place, name):
+    lines, encoding = FILES[name]
+    (place / "a.txt").write_bytes("\n".join(lines).encode(encoding))
+    call("evaluate", "a.txt", "--write-map", "lab.yaml", code=0)
+    written = yaml.safe_load((place / "lab.yaml").read_text(encoding="utf-8"))
+    assert set(written["channels"]) >= {"speed", *(f"wheel_speed_{n}" for n in range(1, 5))}
+    answer = call("evaluate", "a.txt", "--map", "lab.yaml", "--scenario", "scn.yaml", "--trigger", "2 s")
+    assert "braking_distance_m=246.91 " in answer.out, (answer.err, written)
+
+
+def test_what_is_guessed_and_what_is_open_is_marked(call, place):
+    lines, encoding = FILES["no units"]
+    (place / "a.txt").write_bytes("\n".join(lines).replace("v1", "Rad 1").encode(encoding))
+    answer = call("evaluate", "a.txt", "--write-map", "lab.yaml", code=0)
+    text = (place / "lab.yaml").read_text(encoding="utf-8")
+    assert 'time: {source: "t", unit: ms}  # guessed: the file does not state the unit' in text
+    assert '  speed: {source: "v_train", unit: km/h}  # guessed' in text
+    assert "# not assigned: wheel_speed_1; needed for" in text
+    assert '# not used: "Rad 1"' in text
+    assert "lab.yaml: 6 guessed" in answer.out
+
+
+def test_a_map_is_never_replaced_and_written_for_one_file(call, place):
+    (place / "a.csv").write_text("t [s],v [km/h]\n0,80\n1,79\n")
+    (place / "lab.yaml").write_text("mine")
+    for arguments, told in (
+        (("a.csv", "--write-map", "lab.yaml"), "lab.yaml: exists"),
+        (("a.csv", "a.csv", "--write-map", "new.yaml"), "name one FILE"),
+        (("a.csv", "--write-map", "new.csv"), "a channel map is a .yaml file"),
+    ):
+        answer = call("evaluate", *arguments, code=4)
+        assert told in answer.err
+    assert (place / "lab.yaml").read_text() == "mine"
+    assert not (place / "new.yaml").exists()
+
+
+def _written(call, place, lines, encoding="utf-8"):
+    (place / "a.txt").write_bytes("\n".join(lines).encode(encoding))
+    call("evaluate", "a.txt", "--write-map", "lab.yaml", code=0)
+    return (place / "lab.yaml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("decimal", "thousands"), [(",", "."), (".", ",")])
+def test_a_sign_in_large_numbers_alone_groups_digits(call, place, decimal, thousands):
+    pressures = [lambda k: f"{min(3000, 10 * k):,}".replace(",", thousands)]
+    rows = [";".join([str(20 * k), *["80"] * 5, pressures[0](k)]) for k in range(400)]
+    text = _written(call, place, [f"Zeit [ms];{NAMES};p_BC1 [mbar]", *rows])
+    assert f'thousands: "{thousands}"  # guessed: it stands in numbers from 1{thousands}000 on alone' in text
+    assert f'decimal: "{decimal}"' in text or decimal == "."
+
+
+@pytest.mark.parametrize(
+    ("names", "marked"),
+    [
+        ("t [s],v_soll [km/h],v1 [km/h]", 'speed: "v_soll"  # guessed: by its unit alone'),
+        ("t [s],v [km/h],Hub [mm]", 'distance: "Hub"  # guessed: by its unit alone'),
+        ("Lock [ms],v [km/h],v1 [km/h]", 'time: "Lock"  # guessed: by its unit alone'),
+        ("t [s],v [km/h],MV1", 'valve_command_1: "MV1"  # guessed: 0 and 1 alone'),
+    ],
+)
+def test_what_a_unit_or_its_values_alone_say_is_a_guess(call, place, names, marked):
+    rows = [f"{0.1 * k + 0.05:.2f},{80 - 0.1 * k:.1f},{k % 2}" for k in range(50)]
+    assert marked in _written(call, place, [names, *rows])
+
+
+def test_five_elements_of_an_array_are_no_wheelsets_and_a_letter_is_a_state(call, place):
+    names = ",".join(["t [s]", "v [km/h]", *(f"v_axle[{k}]" for k in range(5)), "WSP1"])
+    rows = [f"{0.1 * k:.1f},80,1,1,1,1,1,{'V' if k == 20 else 0}" for k in range(50)]
+    text = _written(call, place, [names, *rows])
+    assert "wheel_speed" not in text.partition("# not assigned")[0]
+    assert "missing" not in text
+
+
+def test_other_lines_as_wide_as_the_names_are_named(call, place):
+    lines = [
+        "Kanal 1;Kanal 2",
+        "Zeit;v_Zug",
+        "s;km/h",
+        *(f"{k / 50:.2f};80,5".replace(".", ",") for k in range(50)),
+    ]
+    text = _written(call, place, lines)
+    assert "header_line: 1  # guessed: or 2, which are as wide" in text
+
+
+@pytest.mark.parametrize("samples", [25, 1262])
+def test_segments_of_labview_are_to_be_divided(call, place, samples):
+    lines, encoding = FILES["LabVIEW"]
+    lines = lines[: 7 + samples]
+    (place / "a.lvm").write_bytes("\n".join([*lines, *lines[3:]]).encode(encoding))
+    second = len(lines) + 3
+    assert (
+        f"line {second} ends the header of another segment"
+        in call("evaluate", "a.lvm", "--write-map", "lab.yaml", code=4).err
+    )
+
+
+def test_an_empty_section_of_a_map_is_told_at_its_place(call, place):
+    (place / "a.csv").write_text("t [s],v [km/h]\n0,80\n1,79\n")
+    (place / "lab.yaml").write_text("schema: uictest/channel-map/1\nname: lab\nchannels: {speed: v}\ncsv:\n")
+    answer = call("evaluate", "a.csv", "--map", "lab.yaml", "--scenario", "scn.yaml", code=4)
+    assert "lab.yaml:4:5: csv: expected a mapping" in answer.err
