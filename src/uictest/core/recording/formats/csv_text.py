@@ -32,7 +32,7 @@ LONGEST_LINE = 2**20
 """characters"""
 _HEADING = 1000
 """Most lines before the first sample."""
-_ROWS = 2**16
+_ROWS = 2**12
 """Rows of which the cells are read at once; chosen."""
 _DIGITS = 10
 _DIGITS_OF_TIME = 16
@@ -99,25 +99,40 @@ class TextTable:
         Raises UnreadableError where a line has more values than there are channels, is too long, holds a NUL
         character or an open quotation, UnicodeError where it is not of the encoding.
         """
-        delimiter, channels = self.dialect.delimiter, len(self.names)
-        blank = f'{delimiter} \t\r\n"'
+        channels, last_line = len(self.names), self.layout.first_line - 1
         with self.path.open(encoding=self.encoding) as file:
-            for number, line in _lines(file):
-                if number < self.layout.first_line or line.startswith(COMMENT) or not line.strip(blank):
-                    continue
-                if line.startswith(END_OF_HEADER):
-                    raise UnreadableError(
-                        f"line {number} ends the header of another segment: write each into a file of its own"
-                    )
-                if is_quoted := '"' in line:
-                    reject_open_quotation(number, line)
-                row = cells_of(line, delimiter) if is_quoted else line.rstrip("\r\n").split(delimiter)
+            reader = csv.reader(self._lines(file), delimiter=self.dialect.delimiter)
+            for row in reader:
+                number = last_line + reader.line_num
                 if len(row) > channels and any(cell.strip() for cell in row[channels:]):
                     raise UnreadableError(
                         f"line {number} has {len(row)} cells, {self._heading}:"
                         " name every column, and write numbers with decimal commas in quotation marks"
                     )
-                yield number, row
+                if row:
+                    yield number, row
+
+    def _lines(self, file: TextIO) -> Iterator[str]:
+        """Yield the lines below the heading, blank where they have no samples."""
+        blank = f'{self.dialect.delimiter} \t\r\n"'
+        for number, line in enumerate(iter(partial(file.readline, LONGEST_LINE), ""), start=1):
+            if len(line) >= LONGEST_LINE:
+                raise UnreadableError(f"line {number} has more than {LONGEST_LINE} characters")
+            if "\0" in line:
+                raise UnreadableError(
+                    f"line {number} holds a NUL character: the file is damaged there, or no text"
+                )
+            if number < self.layout.first_line:
+                continue
+            if line.startswith(COMMENT) or not line.strip(blank):
+                yield "\n"
+                continue
+            if line.startswith(END_OF_HEADER):
+                raise UnreadableError(
+                    f"line {number} ends the header of another segment: write each into a file of its own"
+                )
+            reject_open_quotation(number, line)
+            yield line
 
     def require_names(self, widest: int) -> None:
         """Raise UnreadableError where no row is as wide as the heading: its names are shifted."""
@@ -151,19 +166,8 @@ def opened(path: Path, dialect: Dialect) -> TextTable:
 
 def reject_open_quotation(number: int, line: str) -> None:
     """Raise UnreadableError for a line whose quotation marks are no pairs."""
-    if line.count('"') % 2:
+    if '"' in line and line.count('"') % 2:
         raise UnreadableError(f"line {number} has a quotation mark that is not closed")
-
-
-def _lines(file: TextIO) -> Iterator[tuple[int, str]]:
-    for number, line in enumerate(iter(partial(file.readline, LONGEST_LINE), ""), start=1):
-        if len(line) >= LONGEST_LINE:
-            raise UnreadableError(f"line {number} has more than {LONGEST_LINE} characters")
-        if "\0" in line:
-            raise UnreadableError(
-                f"line {number} holds a NUL character: the file is damaged there, or no text"
-            )
-        yield number, line
 
 
 def read(path: Path, dialect: Dialect | None = None) -> Contents:
