@@ -189,6 +189,17 @@ def test_pieces_of_a_file_without_times_go_on_where_the_one_before_ended(tmp_pat
     np.testing.assert_allclose(np.concatenate([piece["speed"].time for piece in pieces]), TIMES)
 
 
+@pytest.mark.parametrize("reads", [read, read_in_pieces])
+def test_the_remarks_of_labview_may_be_left_out(tmp_path, reads):
+    path = table(tmp_path / "a.csv", PLAIN, "Zeit [s];v [km/h];Comment")
+    channel_map = a_map(tmp_path / "map.yaml", SECTION % "")
+    assert len(reads(path, channel_map)["speed"].samples) == len(PLAIN)
+    rows = [(t, "OVL" if k == 150 else v) for k, (t, v) in enumerate(PLAIN)]
+    path = table(tmp_path / "a.csv", rows, "Zeit [s];v [km/h];Comment")
+    with pytest.raises(ValueError, match="line 152, column 2: 'OVL' is no number"):
+        reads(path, channel_map)
+
+
 def test_a_text_late_in_a_log_is_placed(tmp_path, monkeypatch):
     monkeypatch.setattr("uictest.core.recording.formats.pieces._SAMPLED", 10)
     rows = [(t, "OVL" if k == 150 else v) for k, (t, v) in enumerate(PLAIN)]
@@ -201,11 +212,12 @@ def test_a_text_late_in_a_log_is_placed(tmp_path, monkeypatch):
 
 
 def test_names_are_used_as_they_stand_and_brackets_hold_a_unit_only_if_it_is_one(tmp_path):
-    names = "t [s],v_axle[0],v_axle[1],v (roh) [km/h],slide [1],a[1],Druck (C1)"
+    names = "t [s],v_axle[0],v_axle[1],v (roh) [km/h],slide [1],a[1],Druck (C1),Achse / 1"
     path = tmp_path / "a.csv"
-    path.write_text(f"{names}\n0.0,1,2,3,4,5,6\n0.1,1,2,3,4,5,6\n")
+    path.write_text(f"{names}\n0.0,1,2,3,4,5,6,7\n0.1,1,2,3,4,5,6,7\n")
     (group,) = read_here("csv", path, a_map(tmp_path / "map.yaml", "").dialect).groups
-    assert list(group.channels) == ["t", "v_axle[0]", "v_axle[1]", "v (roh)", "slide", "a[1]", "Druck (C1)"]
+    kept = ["v_axle[0]", "v_axle[1]", "v (roh)", "slide", "a[1]", "Druck (C1)", "Achse / 1"]
+    assert list(group.channels) == ["t", *kept]
     assert group.units == {"t": "s", "v (roh)": "km/h", "slide": "1"}
 
 

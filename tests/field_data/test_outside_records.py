@@ -99,6 +99,10 @@ def test_channels_of_a_slower_rate_have_a_time_of_their_own(tmp_path, fast):
     assert distance_of(stop) == pytest.approx(DISTANCE, abs=0.1)
     assert stop.defects == ()
     assert stop.intervals["wheel_speed_1" if fast else "speed"] == pytest.approx(0.1)
+    assert ("every 100 ms" in stop.choices["sampling"], "every 20 ms" in stop.choices["sampling"]) == (
+        True,
+        True,
+    )
 
 
 def test_a_single_missing_sample_is_no_slower_rate(tmp_path):

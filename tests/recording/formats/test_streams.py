@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from uictest.core.recording import Group
+from uictest.core.recording.formats import Dialect, read_pieces, streams
 from uictest.core.recording.formats.file_formats import UnreadableError
 from uictest.core.recording.formats.streams import in_step
 
@@ -55,3 +56,21 @@ def test_groups_without_times_go_alone_only(count):
     else:
         with pytest.raises(UnreadableError, match="no times of its own"):
             list(in_step(groups, ["speed0"]))
+
+
+@pytest.mark.parametrize("kind", ["tdms", "mdf"])
+def test_blocks_know_their_first_row_where_the_file_has_no_times(tmp_path, monkeypatch, kind):
+    samples, path = np.arange(60_000.0), tmp_path / f"a.{kind}"
+    if kind == "tdms":
+        nptdms = pytest.importorskip("nptdms")
+        with nptdms.TdmsWriter(path) as writer:
+            writer.write_segment([nptdms.ChannelObject("g", "v", samples)])
+    else:
+        asammdf = pytest.importorskip("asammdf")
+        with asammdf.MDF() as file:
+            file.append([asammdf.Signal(samples, 0.02 * samples, name="v")])
+            path = file.save(tmp_path / "a.mf4")
+    monkeypatch.setattr(streams, "AT_ONCE", {"tdms": 7_000, "mdf": 100_000})
+    groups = [group for contents in read_pieces(path, Dialect()) for group in contents.groups]
+    assert len(groups) > 1
+    assert [group.first_row for group in groups] == [group.channels["v"][0] for group in groups]

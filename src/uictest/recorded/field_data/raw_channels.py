@@ -65,10 +65,10 @@ def select_channels(
 
     Its times may span `longest`, s, and count from the first where they are dates; infinite: these are a part
     of a file, and dates are Unix time; None: a part whose units are known, all numbers are taken as they are,
-    and a text that is no state is NaN.
+    and an unknown state is NaN.
 
     Raises MapError where a name stands for several channels, a unit is unknown or not the channel's, a text
-    is no state, or a channel has no time axis.
+    is neither a number nor a state, or a channel has no time axis.
     """
     sources = channel_map.sources
     times: dict[int, Array] = {}

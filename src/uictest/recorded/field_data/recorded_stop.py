@@ -144,7 +144,7 @@ def prepare(
     choices = {
         **_choices(preparation, trigger, rest, raster, filtered),
         "filter": _filter_text(preparation, plausible, filtered),
-        "sampling": f"speed every {1e3 * usual_interval(speed.time):.6g} ms",
+        "sampling": _sampling(filtered),
     }
     intervals = {name: stated.get(name, usual_interval(channel.time)) for name, channel in filtered.items()}
     beside = _track_brakes_beside(metadata)
@@ -175,6 +175,13 @@ def _choices(
         "standstill": rest.text if rest else "not in the record",
         "distance": "recorded" if "distance" in channels else "integrated from speed",
     }
+
+
+def _sampling(channels: Channels) -> str:
+    """Return the interval of the train speed, and those of channels with a time of their own."""
+    others = (axis for axis in by_axis(channels.values()) if axis[0].time is not channels["speed"].time)
+    own = [f"{_names(axis)} every {1e3 * usual_interval(axis[0].time):.6g} ms" for axis in others]
+    return "; ".join([f"speed every {1e3 * usual_interval(channels['speed'].time):.6g} ms", *own])
 
 
 def _ordered(channels: Mapping[str, RawChannel]) -> tuple[Channels, list[Defect]]:

@@ -82,8 +82,9 @@ class TextTable:
     def require_complete(self, numbers: Sequence[str]) -> None:
         """Raise UnreadableError with the first line that is too short, or has no number in such a channel."""
         columns, cells = [self.names.index(name) for name in numbers], self.cells
+        least = len(self.names) - (self.names[-1] == REMARK)
         for number, row in self.rows():
-            if len(row) < len(self.names):
+            if len(row) < least:
                 raise UnreadableError(f"line {number} has {len(row)} cells; {self._heading}")
             for k in columns:
                 if cells.is_text(row[k]):

@@ -137,4 +137,5 @@ def _group(form: Mapping[str, Any], folder: Path) -> Group:
         None if form["time"] is None else array(form["time"]),
         {name: array(number) for name, number in form["numbers"].items()},
         form["first_texts"],
+        form["first_row"],
     )

@@ -263,7 +263,7 @@ def _name_and_brackets(heading: str) -> tuple[str, str]:
     """Return what stands before the unit or the brackets at the end of a heading, and these."""
     for word in (" in ", " / "):  # as DIN 461 writes units
         name, _, text = heading.rpartition(word)
-        if name and is_recorded_unit(text.strip()):
+        if name and text.strip() != "1" and is_recorded_unit(text.strip()):
             return name.rstrip(" /") + " ", text
     opening = {"]": "[", ")": "("}.get(heading[-1:], "")
     name, bracket, text = heading[:-1].rpartition(opening) if opening else (heading, "", "")

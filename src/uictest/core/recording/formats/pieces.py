@@ -138,11 +138,15 @@ def _csv(path: Path, dialect: Dialect, wanted: Collection[str] | None, texts: Co
     rows = [cells_of(line, dialect.delimiter) for line in first[:_SAMPLED]]
     # A delimiter may end each line of samples.
     ended = bool(rows) and all(len(row) == len(table.names) + 1 and not row[-1] for row in rows)
+    names = [*table.names, ""] if ended else table.names
+    if names[-1] == csv_text.REMARK and rows and all(len(row) == len(names) - 1 for row in rows):
+        names = names[:-1]
+        chosen = [name for name in chosen if name != csv_text.REMARK]
     all_texts = bool(dialect.thousands)  # which Arrow does not read
     texts = {name for name in chosen if all_texts or name in texts or _is_text(table, name, rows)}
     read = csv.ReadOptions(
         skip_rows=table.layout.first_line - 1,
-        column_names=[*table.names, ""] if ended else table.names,
+        column_names=names,
         block_size=_BLOCK,
         encoding=table.encoding,
     )

@@ -132,6 +132,7 @@ def _group_form(group: Group, folder: Path, numbers: Iterator[int]) -> dict[str,
         "time": None if group.time is None else array_number(np.asarray(group.time, dtype=np.float64)),
         "numbers": {name: array_number(numbers) for name, numbers in group.numbers.items()},
         "first_texts": group.first_texts,
+        "first_row": group.first_row,
     }
 
 

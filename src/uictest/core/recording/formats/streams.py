@@ -64,6 +64,7 @@ def _mdf_blocks(opened: Any, number: int, wanted: Collection[str] | None) -> Blo
     chosen = [(index, text) for text, index in named.items() if _is_wanted(text, name, wanted)]
     if not chosen or not group.channel_group.cycles_nr:
         return
+    first_row = 0
     for fragment in inner._load_data(group):
         read = {
             text: inner.get(group=number, index=index, data=fragment, ignore_invalidation_bits=True)
@@ -76,7 +77,9 @@ def _mdf_blocks(opened: Any, number: int, wanted: Collection[str] | None) -> Blo
         if master is not None:
             time = np.array(inner.get_master(number, data=fragment, one_piece=True), dtype=np.float64)
         if channels:
-            yield Group(name, channels, units, time)
+            block = Group(name, channels, units, time, first_row=first_row)
+            first_row += len(block)
+            yield block
 
 
 def tdms_pieces(
@@ -109,7 +112,8 @@ def _tdms_blocks(
         kept = {each: samples for each, samples in read.items() if samples is not None}
         if kept:
             time = start + interval * rows if interval > 0.0 else None
-            yield Group(name, kept, {each: unit for each, unit in units.items() if each in kept}, time)
+            stated = {each: unit for each, unit in units.items() if each in kept}
+            yield Group(name, kept, stated, time, first_row=first)
 
 
 PIECES: Final = {"mdf": mdf_pieces, "tdms": tdms_pieces}
@@ -171,7 +175,8 @@ def _parts(block: Group, span: float) -> Iterator[Group]:
     times = _rising(block)
     begins = np.flatnonzero(np.diff((times - times[0]) // span)) + 1
     for rows in itertools.pairwise((0, *begins.tolist(), len(times))):
-        yield _changed(block, itemgetter(slice(*rows)))
+        part = _changed(block, itemgetter(slice(*rows)))
+        yield replace(part, first_row=block.first_row + rows[0])
 
 
 class _Follower:
