@@ -14,11 +14,5 @@ RUN --mount=type=bind,from=build,source=/wheels,target=/wheels \
     && install --directory --owner uictest --group uictest /work
 USER 1000
 WORKDIR /work
-# Compiles the rig for the processor that builds the image. Another one compiles it again, and finds it only
-# where UICTEST_CACHE names a volume.
-ENV UICTEST_CACHE=/home/uictest/.cache/uictest
-RUN uictest init /tmp/warm \
-    && uictest run /tmp/warm --set controller=threshold,slip-band --output /tmp/reports --quiet \
-    && rm -r /tmp/warm /tmp/reports
 ENTRYPOINT ["uictest"]
 CMD ["--help"]

@@ -116,8 +116,7 @@ def main() -> None:
     parser.add_argument("--jobs", default="1,2")
     arguments = parser.parse_args()
     sizes, jobs = ([int(text) for text in option.split(",")] for option in (arguments.cases, arguments.jobs))
-    print(machine.description("numba", "llvmlite", "numpy", "pyarrow"), flush=True)
-    timed_sweep(1, 1)  # compiles the rig where it is not yet compiled
+    print(machine.description("numpy", "pyarrow"), flush=True)
     runs = table(sizes, jobs)
     if len(sizes) > 1:
         judgement(runs)

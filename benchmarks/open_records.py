@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 from stops import Stop
 
-from uictest.core.lanes import translate
 from uictest.core.physics import arithmetic
-from uictest.rig.backends.compiled import with_controllers
-from uictest.rig.model.controller import CHOICES, decide
+from uictest.core.translation import translate
+from uictest.rig.model.controller import decide
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
+from uictest.rig.model.records import needs_of
 from uictest.rig.model.start import start
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
-from uictest.rig.model.step import step
+from uictest.rig.model.step import step_brake, step_vehicle
 
 
 class Rig:
@@ -51,19 +51,19 @@ def rolling(stop: Stop) -> Rig:
     car: Any = np.zeros(1, CAR)
     bogies: Any = np.zeros(2, BOGIE)
     wheelsets: Any = np.zeros(4, WHEELSET)
-    with_own = with_controllers(CHOICES, _unchanged, {})
-    translate(start, _unchanged, with_own)(car[0], bogies, wheelsets, parameters, wheelset_parameters)
-    read_sensors(car[0], wheelsets, parameters)
-    translate(start_cycle, _unchanged, with_own)(car[0], wheelsets, parameters, rail)
-    translate(decide, _unchanged, with_own)(car[0], wheelsets, parameters)
+    start(car[0], bogies, wheelsets, parameters, wheelset_parameters)
+    read_sensors(car[0], wheelsets, parameters, needs_of(parameters))
+    start_cycle(car[0], wheelsets, parameters, rail)
+    decide(car[0], wheelsets, parameters)
     command_valves(car[0], wheelsets, parameters)
     return Rig(
         opened(car[0]), [opened(bogie) for bogie in bogies], [opened(wheelset) for wheelset in wheelsets]
     )
 
 
-def _unchanged(function: Callable[..., Any]) -> Any:
-    return function
+def _step(car: Any, bogies: Any, wheelsets: Any, p: Any) -> None:
+    step_brake(car, wheelsets, p)
+    step_vehicle(car, bogies, wheelsets, p)
 
 
 def rounded_twice(a: Any, b: Any, c: Any) -> Any:
@@ -85,5 +85,5 @@ def step_in(select: Any, minimum: Any, maximum: Any, sqrt: Any) -> Callable[...,
         arithmetic.maximum: maximum,
         arithmetic.sqrt: sqrt,
     }
-    translated: Callable[..., None] = translate(step, _unchanged, operations)
+    translated: Callable[..., None] = translate(_step, lambda function: function, operations)
     return translated

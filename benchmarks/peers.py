@@ -1,8 +1,8 @@
 """The rig stepped by other means, side by side: `python benchmarks/peers.py`.
 
-All but solve_ivp run the rig's own base step: C a transcription, the others its source on other numbers.
-C and our own builds run whole stops with sensors, controller and measures; the others only the step, in the
-first seconds of a stop, which favours them.
+All but solve_ivp run the rig's own base step, its source on other numbers. The rig runs whole stops with
+sensors, controller and measures; the others only the step, in the first seconds of a stop, which favours
+them.
 """
 
 import time
@@ -14,19 +14,16 @@ from typing import Any
 
 import machine
 import numpy as np
-from c_library import PLAIN, STRICT, CLanes, CStop
 from numpy.typing import NDArray
 from open_records import opened, rolling, step_in, step_on_floats
 from reduced_model import integrated_seconds
-from stops import Stop, shipped
+from stops import Stop, slide_test
 
-from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.rig.backends.lanes import run_in_lanes
-from uictest.rig.backends.scalar import compiled_stop
+from uictest.rig.backends.stops import compiled_rig
 from uictest.rig.model.rail import FRICTIONS
-from uictest.rig.single_stop import run_to_end
+from uictest.rig.train_stop import run_to_end
 
-CASE = "slide-80[compensation=full]"
 STOPS = 64
 """Stops run by those that run many."""
 TURNS = 5
@@ -57,22 +54,13 @@ def different_stops(stop: Stop) -> tuple[Any, Any, NDArray[np.float64]]:
     return parameters, np.tile(stop.wheelset_parameters, (STOPS, 1)), rails
 
 
-def one_by_one(stop_of: Callable[..., Any], stop: Stop) -> float:
-    """Run a stop on a scalar rig."""
-    return float(run_to_end(stop_of, stop).car.steps * _WHEELSETS)
+def one_by_one(stop: Stop) -> float:
+    """Run a stop on the rig for single stops."""
+    return float(run_to_end(compiled_rig(), stop).car.steps * _WHEELSETS)
 
 
-def c_lanes(lanes: CLanes, stop: Stop) -> float:
-    """Run stops in C in lanes."""
-    parameters, wheelset_parameters, rails = different_stops(stop)
-    measures, wheelset_measures = np.zeros(STOPS, STOP_MEASURES), np.zeros(STOPS * 4, WHEELSET_MEASURES)
-    rails = np.ascontiguousarray(rails[:, :, 0])
-    lanes(parameters, wheelset_parameters, rails, measures, wheelset_measures)
-    return float(measures["end_time"].sum() / stop.parameters.step * _WHEELSETS)
-
-
-def ours_in_lanes(stop: Stop) -> float:
-    """Run stops on the rig compiled in lanes."""
+def in_lanes(stop: Stop) -> float:
+    """Run stops on the rig in lanes."""
     measures = run_in_lanes(*different_stops(stop)).measures
     return float(measures["end_time"].sum() / stop.parameters.step * _WHEELSETS)
 
@@ -156,15 +144,8 @@ class JaxColumns:
 
 def peers(stop: Stop) -> Iterator[Peer]:
     """Yield the peers, the one that all are compared with first."""
-    in_c, strict_in_c, ours = CStop(PLAIN), CStop(STRICT), compiled_stop()
-    eight, sixteen, strict_eight = CLanes(8), CLanes(16), CLanes(8, strict=True)
-    yield "C, scalar, gcc -O3 -march=native", lambda: one_by_one(in_c, stop)
-    yield "C, scalar, without contraction", lambda: one_by_one(strict_in_c, stop)
-    yield "uictest, scalar, strict", lambda: one_by_one(ours, stop)
-    yield "uictest, lanes, strict", lambda: ours_in_lanes(stop)
-    yield "C, 8 lanes, strict", lambda: c_lanes(strict_eight, stop)
-    yield "C, 8 lanes, -ffast-math", lambda: c_lanes(eight, stop)
-    yield "C, 16 lanes, -ffast-math", lambda: c_lanes(sixteen, stop)
+    yield "uictest, scalar", lambda: one_by_one(stop)
+    yield "uictest, lanes", lambda: in_lanes(stop)
     yield "numpy over 256 runs", lambda: numpy_columns(stop, 256, 50)
     yield "numpy over 4096 runs", lambda: numpy_columns(stop, 4096, 10)
     if find_spec("jax"):
@@ -181,7 +162,7 @@ def peers(stop: Stop) -> Iterator[Peer]:
 
 def main() -> None:
     """Run all peers in turns and print a table."""
-    everyone = list(peers(shipped()[CASE]))
+    everyone = list(peers(slide_test()))
     times: dict[str, list[float]] = {name: [] for name, _ in everyone}
     for _, work in everyone:
         work()
@@ -191,11 +172,11 @@ def main() -> None:
             wheelset_steps = work()
             times[name].append((time.process_time() - begin) / wheelset_steps)
     reference = times[everyone[0][0]]
-    print(machine.description("numba", "numpy", "scipy", "control", "jax"))
-    print(f"\n{'processor time per wheelset and 0.5 ms':40} {'ns':>12} {'times C, scalar':>16}")
+    print(machine.description("numpy", "scipy", "control", "jax"))
+    print(f"\n{'processor time per wheelset and 0.5 ms':40} {'ns':>12} {'times scalar':>13}")
     for name, own in times.items():
         ratio = median(a / b for a, b in zip(own, reference, strict=True))
-        print(f"{name:40} {1e9 * median(own):12.1f} {ratio:16.3g}")
+        print(f"{name:40} {1e9 * median(own):12.1f} {ratio:13.3g}")
 
 
 if __name__ == "__main__":

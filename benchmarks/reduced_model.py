@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from open_records import opened, rounded_twice
 from stops import Stop
 
-from uictest.core.lanes import translate
 from uictest.core.physics import arithmetic
 from uictest.core.physics.air import air_changes, coldness, enthalpy, mass_flow
 from uictest.core.physics.caliper import line
 from uictest.core.physics.disc_brake import torque
 from uictest.core.physics.polach import creep_force
 from uictest.core.physics.vehicle import SLOWEST_CREEP
+from uictest.core.translation import translate
 from uictest.rig.model.rail import FRICTIONS
 
 _CYLINDER_LAG = 0.02

@@ -18,7 +18,7 @@ from stops import SCENARIOS
 from timing import seconds
 
 import uictest
-from uictest.rig import SteppedStop, assemble
+from uictest.rig import SteppedTrain, alone, assemble
 
 STOP = SCENARIOS / "slip-120.yaml"
 FILLING = [0, 0, 0, 0]
@@ -31,7 +31,7 @@ def machine_code() -> Stop:
     case = uictest.Rig(STOP).case
 
     def run() -> int:
-        stop, cycles = SteppedStop(assemble(case)), 0
+        stop, cycles = SteppedTrain(alone(assemble(case))), 0
         while not stop.has_ended:
             stop.step()
             cycles += 1
@@ -58,10 +58,10 @@ def fmu(folder: str) -> Stop:
     import fmpy
     from fmpy.fmi2 import FMU2Slave
 
-    from uictest.api.fmu import build_fmu, usable_compiler
+    from uictest.api.fmu import build_fmu
 
     path = Path(folder, "rig.fmu")
-    path.write_bytes(build_fmu(uictest.Rig(STOP).case, 2, usable_compiler()))
+    path.write_bytes(build_fmu(uictest.Rig(STOP).case, 2))
     described: Any = fmpy.read_model_description(str(path))
     number = {each.name: each.valueReference for each in described.modelVariables}
     magnets = [number[f"{name}_{i}"] for name in ("hold", "vent") for i in (1, 2, 3, 4)]
@@ -92,7 +92,7 @@ def fmu(folder: str) -> Stop:
 
 def main(turns: int) -> None:
     """Time all candidates in turns and print the median per cycle."""
-    print(machine.description("numba", "numpy"))
+    print(machine.description("numpy"))
     with tempfile.TemporaryDirectory() as folder:
         candidates: dict[str, Stop] = {"machine code": machine_code(), "uictest.Rig": rig()}
         with contextlib.suppress(ImportError):

@@ -16,7 +16,8 @@ from timing import side_by_side
 
 from uictest import rig
 from uictest.plans.scenario import Case, load
-from uictest.rig.single_stop import run_to_end
+from uictest.rig.backends.stops import compiled_rig
+from uictest.rig.train_stop import run_to_end
 
 SCENARIO = Path(__file__).parent.parent / "scenarios" / "cleaned-rail-120.yaml"
 DISTANCE = 26.4
@@ -28,7 +29,7 @@ TRAINS = 16
 def scalar(case: Case, cars: int, turns: int) -> None:
     """Time one train and its cars as single ones, and print the ratios."""
     cases, coupling = [case] * cars, rig.Coupling(DISTANCE)
-    run = rig.compiled_stop()
+    run = compiled_rig()
 
     def train() -> float:
         return sum(float(car.measures.end_time) for car in rig.run_coupled(cases, coupling).cars)
@@ -69,7 +70,7 @@ def main() -> None:
     parser.add_argument("--turns", type=int, default=15)
     arguments = parser.parse_args()
     (case, *_) = load([SCENARIO])
-    print(machine.description("numba", "llvmlite", "numpy"))
+    print(machine.description("numpy"))
     print(f"{arguments.cars} coupled cars over as many single ones")
     scalar(case, arguments.cars, arguments.turns)
     seeded = [load([SCENARIO], [f"seed={seed}"])[0] for seed in range(TRAINS)]

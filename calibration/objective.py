@@ -10,9 +10,10 @@ from parameters import Fields, fields, values
 
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.scalar import compiled_stop
+from uictest.rig.backends.stops import compiled_rig
 from uictest.rig.model.rail import FRICTIONS
-from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
+from uictest.rig.single_stop import FinishedStop, StopInputs
+from uictest.rig.train_stop import run_to_end
 
 SCENARIOS = Path(__file__).parent.parent / "scenarios"
 SETTINGS: dict[str, Fields] = {
@@ -40,7 +41,7 @@ class Stop:
         if friction is not None:
             rail[FRICTIONS] = friction
         changed_inputs = self.inputs._replace(parameters=record, wheelset_parameters=of_wheelsets, rail=rail)
-        return run_to_end(compiled_stop(), changed_inputs)
+        return run_to_end(compiled_rig(), changed_inputs)
 
 
 def stop(file: str) -> Stop:

@@ -4,9 +4,9 @@
     python scripts/mutate.py physics sweeps --count 10 --whole
     python scripts/mutate.py --place src/uictest/core/physics/air.py:30:20:constant
 
-Works in a temporary copy of the checkout, with a cache of compiled code of its own. Each place is tried with
-the tests of its module, of its room and of the rooms that use it, until one fails. A survivor needs a test
-that fails, or a reason why the change makes no difference.
+Works in a temporary copy of the checkout, which builds a kernel of its own when a change is one of the model.
+Each place is tried with the tests of its module, of its room and of the rooms that use it, until one fails. A
+survivor needs a test that fails, or a reason why the change makes no difference.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _TESTS = {
     "core": (
         *(
             "physics",
-            "lanes",
+            "kernel",
             "measures",
             "series_measures",
             "recording",
@@ -72,7 +72,7 @@ _FOLDERS = {
     "running/chunked": "sweeps/running",
 }
 """Folder of a room -> that of its tests, where it is not called as the folder."""
-_ONE_SOURCE = ("test_compiled.py", "test_lanes.py", "test_native.py")
+_ONE_SOURCE = ("test_compiled.py", "test_lanes.py")
 """Tests that hold processors against each other: they run one source, so a change of it shows in none."""
 _OTHER_OPERATOR: dict[type[ast.AST], type[ast.AST]] = {
     ast.Add: ast.Sub,
@@ -258,7 +258,8 @@ class Copy:
             capture_output=True,
             check=True,
         )
-        for name in filter(None, listed.stdout.decode().split("\0")):
+        built = [path.relative_to(REPOSITORY).as_posix() for path in PACKAGE.glob("rig/kernel/rig-*")]
+        for name in filter(None, [*listed.stdout.decode().split("\0"), *built]):
             if (REPOSITORY / name).is_file():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(REPOSITORY / name, root / name)

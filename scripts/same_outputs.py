@@ -47,8 +47,6 @@ _LONGEST: Final = 900  # s for one command
 _SHOWN: Final = 20  # lines of a difference
 _WIDTH: Final = 160  # characters of a line of it
 _BUILT: Final = shutil.ignore_patterns("*.so", "*.fmu", "__pycache__")
-_WARM_UP: Final = "uictest run scenarios -k dry; uictest sweep scenarios/slide-80-friction-command.sweep.yaml"
-"""Compiles what is compiled once per installation."""
 Groups = Mapping[str, Mapping[str, Any]]
 
 
@@ -58,7 +56,6 @@ def put_out(tree: Path, groups: Groups, folders: Mapping[str, Path], scratch: Pa
     if not missing:
         return
     variables = _variables(tree, scratch)
-    _outputs_of({"commands": _WARM_UP}, tree, variables, scratch)
     for name in missing:
         began = _processor_time()
         outputs = _outputs_of(groups[name], tree, variables, scratch)

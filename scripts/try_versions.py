@@ -1,11 +1,9 @@
 """Test the package with other versions of what it needs, in an environment of its own.
 
-    python scripts/try_versions.py oldest       # the lowest versions that pyproject.toml allows
-    python scripts/try_versions.py newest       # the newest of each
-    python scripts/try_versions.py next-numba   # the minor version of numba after the one that is allowed
+    python scripts/try_versions.py oldest   # the lowest versions that pyproject.toml allows
+    python scripts/try_versions.py newest   # the newest of each
 
 It answers what `uictest selftest` knows and passes some tests; arguments after `--` go to pytest.
-`next-numba` may fail: the lanes use numba's internals. Exit code 5: no such numba has been released.
 """
 
 import argparse
@@ -25,27 +23,29 @@ EXTRAS = ("figures", "mdf", "tdms", "mat", "fmu", "dask")
 TOOLS = ("hypothesis", "jsonschema", "junitparser", "openpyxl", "pytest")
 """What the tests below need besides, in any version."""
 TESTS = (
-    *("tests/lanes", "tests/scenario", "tests/recording", "tests/statistics", "tests/identification"),
-    *("tests/evaluation", "tests/rig/backends/test_native.py", "tests/rig/backends/test_lanes.py"),
+    *(
+        "tests/kernel/test_library.py",
+        "tests/scenario",
+        "tests/recording",
+        "tests/statistics",
+        "tests/identification",
+    ),
+    *("tests/evaluation", "tests/rig/backends/test_compiled.py", "tests/rig/backends/test_lanes.py"),
     *("tests/report/formats", "tests/sweeps/summaries", "tests/cli/commands/test_run.py", "tests/stepping"),
 )
 OTHER_TEXT = "tests/scenario/test_json_schema.py::test_the_committed_schema_is_that_of_the_models"
 """Earlier versions of pydantic write the same JSON Schema in other words."""
-NOT_RELEASED = 5
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Make the environment, test in it, and return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("versions", choices=("oldest", "newest", "next-numba"))
+    parser.add_argument("versions", choices=("oldest", "newest"))
     parser.add_argument("tests", nargs="*", default=TESTS, metavar="-- TEST")
     chosen = parser.parse_args(arguments)
     with tempfile.TemporaryDirectory(prefix="uictest-versions-") as folder:
         python = installed(chosen.versions, Path(folder))
-        if python is None:
-            print(f"numba {next_numba()} is not released")
-            return NOT_RELEASED
-        # Nothing compiled with other versions is found, and nothing is left for them.
+        # Nothing that was identified with other versions is found, and nothing is left for them.
         environment = {**os.environ, "UICTEST_CACHE": str(Path(folder, "cache"))}
         run = [
             str(python),
@@ -66,8 +66,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def installed(versions: str, folder: Path) -> Path | None:
-    """Return the interpreter of a new environment; None where the next numba is not released."""
+def installed(versions: str, folder: Path) -> Path:
+    """Return the interpreter of a new environment."""
     venv.create(folder / "environment", with_pip=False)
     python = folder / "environment" / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
     pip = [sys.executable, "-m", "pip", "--python", str(python), "install", "--quiet"]
@@ -75,11 +75,6 @@ def installed(versions: str, folder: Path) -> Path | None:
     constraints.write_text("\n".join(lowest()) if versions == "oldest" else "", encoding="utf-8")
     package = f"{REPOSITORY}[{','.join(EXTRAS)}]"
     subprocess.run([*pip, "--constraint", str(constraints), "--editable", package, *TOOLS], check=True)
-    if versions == "next-numba":
-        # Against our own bound: pip says so and installs it.
-        done = subprocess.run([*pip, "--pre", f"numba=={next_numba()}.*"], check=False)
-        if done.returncode != 0:
-            return None
     return python
 
 
@@ -96,12 +91,6 @@ def lowest() -> list[str]:
         each.name: next(one for one in each.specifier if one.operator == ">=") for each in requirements()
     }
     return [f"{name}=={bound.version}" for name, bound in bounds.items()]
-
-
-def next_numba() -> str:
-    """Return the first minor version of numba that is not allowed, such as 0.69."""
-    [numba] = [each for each in requirements() if each.name == "numba"]
-    return next(one.version for one in numba.specifier if one.operator == "<")
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from studies.comparison import claims, document, lines, misses, study_table, tal
 from studies.stop_runner import StopRunner
 from studies.study import STUDIES, Study, StudyResult, run_study
 from studies.writing import write_comparison, write_figures, write_pages, write_tables
-from uictest import report, rig
+from uictest import report
 
 HOLDS, MISSES, INTERRUPTED, ERROR, USAGE = range(5)
 """Exit codes, those of `uictest`: a crash never exits with 1."""
@@ -124,18 +124,12 @@ def _reproduce(selected: Sequence[Study], options: argparse.Namespace, arguments
 
 def _run(selected: Sequence[Study], options: argparse.Namespace) -> list[StudyResult]:
     """Run the studies one after the other, and write the tables of each as soon as it has ended."""
-
-    def announce(title: str, done: float) -> None:
-        if done == 0.0 and not options.quiet:
-            _message(f"compiling {title}, once per installation...")
-
     stop_runner = StopRunner(options.jobs)
     results: list[StudyResult] = []
     for study in selected:
         if not options.quiet:
             _message(f"{study.name}...")
-        with rig.compilation_watched(announce):
-            results.append(run_study(study, stop_runner))
+        results.append(run_study(study, stop_runner))
         write_tables(options.output, results[-1])
     write_comparison(options.output, results)
     return results

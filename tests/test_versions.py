@@ -36,16 +36,7 @@ def test_the_constraints_hold_a_version_of_every_package_that_is_allowed():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "versions",
-    [
-        "oldest",
-        "newest",
-        pytest.param(
-            "next-numba", marks=pytest.mark.xfail(reason="lanes use numba's internals", strict=False)
-        ),
-    ],
-)
+@pytest.mark.parametrize("versions", ["oldest", "newest"])
 def test_the_package_works_with_other_versions(versions):
     """Downloads every package; takes some ten minutes."""
     command = [sys.executable, REPOSITORY / "scripts" / "try_versions.py", versions]

@@ -28,10 +28,9 @@ def adhesion_of(rail: Any, speed: float, load: float, friction: float) -> Adhesi
     ratio = load / float(rail.contact.reference_wheel_load)
     stiffness = contact_stiffness(float(rail.contact.creep_stiffness), ratio)
     law, own, recovered = cleaning.law, cleaning.law_numbers, float(cleaning.recovered_friction)
-    counting = tuple(own[k] for k in law.passed(law.clean_part))
 
     def adhesion(creepage: float, share: float) -> float:
-        part = law.clean_part(share, *counting)
+        part = law.clean_part(share, own)
         curve = [a + part * (b - a) for a, b in zip(found, clean, strict=True)]
         now = cleaned_friction(friction, part, recovered)
         force, _ = creep_force(creepage * speed, speed, load, stiffness, now, *curve)

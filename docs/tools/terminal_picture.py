@@ -24,7 +24,6 @@ _TITLE = "A terminal: check scenarios, run three of them, repeat one under ten s
 _COLUMNS = 100
 _PAUSE = 1.5  # s to read what a command printed
 _TYPING = 0.8  # s between a command and its start
-_PASSING = ("simulating ", "compiling ", "uictest: compiling ")
 _CONTROL = re.compile(r"\x1b\[\?\d+[hl]|\x1b\[\d*A")
 _FORMAT = """\
 <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" role="img" aria-labelledby="title">
@@ -61,7 +60,6 @@ class Shown:
 
 def draw(picture: Path, folder: Path) -> None:
     """Record the commands in a folder with the shipped scenarios, and write the picture."""
-    recorded(folder)  # so that nothing is left to compile
     picture.write_text(drawn(recorded(folder)), "utf-8")
 
 
@@ -93,9 +91,9 @@ def _recorded(command: str, folder: Path) -> Shown:
 
 
 def _standing(text: str) -> list[str]:
-    """Return the lines that were not erased again, as those of a progress bar are, nor tell of compiling."""
+    """Return the lines that were not erased again, as those of a progress bar are."""
     lines = [_CONTROL.sub("", line).split("\x1b[2K")[-1] for line in text.splitlines()]
-    return [line for line in lines if not line.startswith(_PASSING)]
+    return [line for line in lines if not line.startswith("simulating ")]
 
 
 def _print(console: Console, line: str, delays: list[float], now: float) -> None:

@@ -63,9 +63,7 @@ class FieldRig:
     def in_lanes(self, cases: Sequence[Case]) -> list[rig.SimulatedStop]:
         """Return the stop of every case; they run side by side in the lanes of a register."""
         batches = [cases[start : start + _BATCH] for start in range(0, len(cases), _BATCH)]
-        # The first compiles what the threads then share.
-        stops = [*map(_side_by_side, batches[:1]), *self._runner.map(_side_by_side, batches[1:])]
-        return [stop for batch in stops for stop in batch]
+        return [stop for batch in self._runner.map(_side_by_side, batches) for stop in batch]
 
     def recording(self, assumptions: Assumptions) -> Recording:
         """Return the recording of a stop, from the brake command on."""

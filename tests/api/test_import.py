@@ -7,7 +7,7 @@ import pytest
 
 import uictest
 
-HEAVY = ("numpy", "numba", "pandas", "pyarrow", "pydantic", "plotly", "scipy", "typer", "uictest.rig")
+HEAVY = ("numpy", "pandas", "pyarrow", "pydantic", "plotly", "scipy", "typer", "uictest.rig")
 
 
 def test_importing_loads_nothing_heavy():

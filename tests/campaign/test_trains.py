@@ -1,7 +1,5 @@
 """Trains in batches: run once, whatever is asked of them, and a car alone where there is one."""
 
-import subprocess
-import sys
 from dataclasses import replace
 from itertools import chain
 
@@ -11,7 +9,7 @@ from uictest import rig
 from uictest.judging.evaluation import json_form, result_document, to_json
 from uictest.plans import scenario
 from uictest.running import campaign
-from uictest.running.campaign import RecordingRequest, RunSettings, run_cases
+from uictest.running.campaign import RecordingRequest, RunSettings, run_cases, train_blocks
 
 STOP = """
 schema: uictest/scenario/1
@@ -82,15 +80,15 @@ def test_a_train_is_simulated_once_for_all_of_its_cars(cases, monkeypatch):
     assert simulated[2:] == [[case.id for case in loaded]]
 
 
-def in_lanes(monkeypatch, *, compiled):
-    """Let trains run in lanes, or one by one, and return the trains of each queue."""
+@pytest.fixture
+def queues(monkeypatch):
+    """How many trains ran in each queue of lanes."""
     queues, queued = [], rig.simulate_trains
 
     def noted(trains):
         queues.append(len(trains))
         return queued(trains)
 
-    monkeypatch.setattr(rig, "train_lanes_are_compiled", lambda: compiled)
     monkeypatch.setattr(rig, "simulate_trains", noted)
     return queues
 
@@ -102,43 +100,21 @@ REPEATED = f"{TRAIN}\nrepeat: 6\nbrake: {{transmission: {{pipe: 250 m/s}}}}"
     ("cases_to_record", "jobs", "expected"), [("none", 1, [13]), ("none", 2, [6, 7]), ("failed", 1, [5, 6])]
 )
 def test_trains_in_lanes_give_the_results_of_trains_one_by_one(
-    cases, monkeypatch, cases_to_record, jobs, expected
+    cases, queues, monkeypatch, cases_to_record, jobs, expected
 ):
     loaded = [*cases(REPEATED), *cases("train: [{count: 2}]", "pair"), *cases(REPEATED, "again")]
     recording = RecordingRequest(cases_to_record, every=0.01)
-    queues = in_lanes(monkeypatch, compiled=False)
-    alone = run(loaded, 1, recording)
-    assert not queues
-    monkeypatch.setattr(rig, "train_lanes_are_compiled", lambda: True)
-    assert run(loaded, jobs, recording) == alone
+    in_lanes = run(loaded, jobs, recording)
+    assert sorted(queues) == expected
+    monkeypatch.setattr(train_blocks, "_MOST_TOGETHER", 1)
+    assert run(loaded, 1, recording) == in_lanes
     assert sorted(queues) == expected
 
 
-def test_lanes_are_compiled_where_enough_cars_run(cases, monkeypatch):
-    loaded = cases("train: [{count: 2}]\nrepeat: 300")
-    in_lanes(monkeypatch, compiled=False)
-    compiled = []
-    monkeypatch.setattr(rig, "load_train_lanes", lambda: compiled.append(True))
-    request = RecordingRequest("none")
-    campaign.compile_for([case.with_values(repeat=255) for case in loaded], request)
-    assert not compiled
-    campaign.compile_for(loaded, request)
-    assert compiled
-    compiled.clear()
-    campaign.compile_for(loaded, RecordingRequest("all", band_stops=300))
-    assert not compiled
-
-
-def test_recordings_of_trains_pass_to_the_measures_in_machine_code(cases):
-    code = (
-        "import sys; from pathlib import Path; from uictest import rig; from uictest.plans import scenario;"
-        "from uictest.rig.backends.machine_code import loaded_beside;"
-        "from uictest.rig.backends.scalar import NOTE, RUN;"
-        "rig.compile_for(scenario.load([Path(sys.argv[1])]));"
-        "sys.exit(loaded_beside(RUN, NOTE) is None)"
-    )
-    (case, *_) = cases(TRAIN)
-    assert subprocess.run([sys.executable, "-c", code, str(case.path)], check=False).returncode == 0
+@pytest.mark.parametrize(("trains", "jobs", "expected"), [(1, 1, []), (2, 1, [2]), (2, 2, []), (3, 2, [2])])
+def test_trains_run_in_lanes_where_a_thread_has_more_than_one(cases, queues, trains, jobs, expected):
+    run(cases(f"train: [{{count: 2}}]\nrepeat: {trains}"), jobs, RecordingRequest("none"))
+    assert queues == expected
 
 
 def test_a_train_that_fails_leaves_those_beside_it(cases, monkeypatch):
@@ -153,7 +129,6 @@ def test_a_train_that_fails_leaves_those_beside_it(cases, monkeypatch):
 
         return simulated
 
-    in_lanes(monkeypatch, compiled=True)
     monkeypatch.setattr(rig, "simulate_trains", refusing(queued, chain.from_iterable))
     monkeypatch.setattr(rig, "simulate_cars", refusing(coupled, iter))
     for result in run_cases(loaded, RunSettings(recording=RecordingRequest("none"))).whole():

@@ -22,7 +22,8 @@ def made_of():
     settings = tomllib.loads((REPOSITORY / "pyproject.toml").read_text("utf-8"))
     wheel = settings["tool"]["hatch"]["build"]["targets"]["wheel"]
     packed = {Path(name).parts[0] for name in (*wheel["packages"], *wheel["force-include"])}
-    return packed | {"pyproject.toml", settings["project"]["readme"], *settings["project"]["license-files"]}
+    stated = {"pyproject.toml", settings["project"]["readme"], *settings["project"]["license-files"]}
+    return packed | stated | {"hatch_build.py", "kernel"}  # the hook, and what it calls
 
 
 @pytest.fixture

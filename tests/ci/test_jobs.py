@@ -8,8 +8,6 @@ from xml.etree import ElementTree
 
 import pytest
 
-import uictest
-
 from .conftest import HANGING, REPOSITORY, SCENARIO, TOOLS, action, gitlab_component
 
 _SCENARIOS = {0: "", 1: "expect: fail\n", 4: "brake: {command: 200 %}\n"}
@@ -46,51 +44,45 @@ def test_the_github_action_hands_on_the_exit_code(job, code):
     assert (job / "out" / "latest").exists() == (code != 4)
 
 
-def cache_step():
+def step_named(name):
+    [step] = [step for step in action()["runs"]["steps"] if step.get("name") == name]
+    return step["run"]
+
+
+def digest(sources, job):
+    """Return what the action calls the state of its sources."""
+    files = {"GITHUB_ACTION_PATH": str(sources), "GITHUB_OUTPUT": str(job / "digest")}
+    (job / "digest").unlink(missing_ok=True)
+    assert bash(step_named("Name the sources"), **files).returncode == 0
+    return (job / "digest").read_text("utf-8")
+
+
+def test_another_state_of_the_sources_has_another_wheel(job):
+    sources = job / "sources"
+    for name in ("src/a.py", "kernel/b.py", "scenarios/c.yaml", "pyproject.toml", "hatch_build.py"):
+        (sources / name).parent.mkdir(parents=True, exist_ok=True)
+        (sources / name).write_text("1", "utf-8")
+    found = {digest(sources, job)}
+    (sources / "src" / "__pycache__").mkdir()
+    (sources / "src" / "__pycache__" / "a.pyc").write_text("1", "utf-8")
+    assert {digest(sources, job)} == found
+    for path in sorted(sources.rglob("*.*")):
+        path.write_text("2", "utf-8")
+        found.add(digest(sources, job))
+    assert len(found) == 6
+
+
+def test_the_github_action_builds_the_wheel_that_it_keeps_once(job):
     [cache] = [step["with"] for step in action()["runs"]["steps"] if "cache@" in step.get("uses", "")]
-    return dict(cache)
-
-
-def test_the_github_action_keeps_the_folder_in_which_the_program_puts_compiled_code(job):
-    [installed] = [step for step in action()["runs"]["steps"] if step.get("id") == "installed"]
-    files = {name: str(job / name) for name in ("GITHUB_OUTPUT", "GITHUB_ENV")}
-    assert bash(installed["run"], HOME="/home/runner", **files).returncode == 0
-    assert (job / "GITHUB_OUTPUT").read_text("utf-8") == f"version={uictest.__version__}\n"
-    assert (job / "GITHUB_ENV").read_text("utf-8") == "UICTEST_CACHE=/home/runner/.cache/uictest\n"
-    assert cache_step()["path"] == "~/.cache/uictest"
-
-
-def test_a_job_restores_the_newest_code_of_its_kind_and_keeps_its_own():
-    first = {
-        "runner.os": "Linux",
-        "runner.arch": "X64",
-        "inputs.python-version": "3.12",
-        "steps.installed.outputs.version": "0.3.0.dev0",
-        "github.run_id": "17",
-        "github.run_attempt": "1",
-        "github.job": "rig",
-    }
-    key, restored = keys(first)
-    assert key.startswith(restored)
-    for name, other in (("run_id", "18"), ("run_attempt", "2"), ("job", "wsp")):
-        later, restored_later = keys({**first, f"github.{name}": other})
-        assert (later == key, restored_later) == (False, restored)
-    for name, other in (
-        ("runner.os", "Windows"),
-        ("runner.arch", "ARM64"),
-        ("inputs.python-version", "3.1"),
-        ("steps.installed.outputs.version", "0.3.0"),
-    ):
-        assert not key.startswith(keys({**first, name: other})[1])
-
-
-def keys(values):
-    """Return the key under which a job keeps the cache, and the beginning of those that it restores."""
-    filled = [
-        re.sub(r"\$\{\{ (\S+) \}\}", lambda name: values[name[1]], cache_step()[key])
-        for key in ("key", "restore-keys")
-    ]
-    return tuple(filled)
+    assert all(name in cache["key"] for name in ("runner.os", "runner.arch", "steps.sources.outputs.digest"))
+    said = job / "python.txt"
+    python = job / "bin" / "python"
+    made = f"mkdir -p {cache['path']}; : > {cache['path']}/uictest.whl"
+    python.write_text(f'#!/bin/sh\necho "$3" >> {said}\n{made}\n', "utf-8")
+    python.chmod(0o755)
+    for _ in range(2):
+        assert bash(step_named("Install uictest"), GITHUB_ACTION_PATH="/there").returncode == 0
+    assert said.read_text("utf-8").split() == ["wheel", "install", "install"]
 
 
 @pytest.mark.parametrize("folders", ["one two", "one\ntwo\n"], ids=["a line", "lines"])

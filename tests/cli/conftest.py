@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest import rig
 from uictest.analysis.summaries import worst
 from uictest.cli.entry import execute
 from uictest.core.measures import STOP_COLUMNS
@@ -180,5 +179,4 @@ def made_up(monkeypatch):
         return StopRun(stop, CaseRun(result))
 
     monkeypatch.setattr(train_blocks, "run_stop", examine)
-    monkeypatch.setattr(rig, "compiled_stop", lambda: None)
     return examined

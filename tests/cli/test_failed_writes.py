@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uictest.api import fmu
 from uictest.core.recording import Recording, parquet_bytes
 
 from .conftest import STATED, rolling_train
@@ -70,7 +69,6 @@ def made(call, scenario, made_up, monkeypatch):
     Path("my.validation.yaml").write_text(text)
     call("run", "-o", "earlier", "--report", "csv", code=0)
     made_up.clear()
-    monkeypatch.setattr(fmu, "usable_compiler", lambda: "cc")
     Path("file").touch()
     Path("circle").symlink_to("circle")
     return made_up

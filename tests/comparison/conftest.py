@@ -24,7 +24,7 @@ def make_run():
     def make(name="run", case_id="dry-120", outcome="pass", verdict="pass", **figures):
         own = {"id": case_id, "outcome": outcome, "criteria": (make_verdict(status=verdict),)}
         result = dataclasses.replace(STOP, **own, measures=FIGURES | figures, wheelsets=WHEELSETS)
-        manifest = RunManifest(seed=0, versions={"numba": "0.68.1"}, inputs={"dry.yaml": "a" * 64})
+        manifest = RunManifest(seed=0, versions={"numpy": "2.3.1"}, inputs={"dry.yaml": "a" * 64})
         return RunContent(name, [result], manifest)
 
     return make

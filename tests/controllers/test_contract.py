@@ -92,5 +92,5 @@ def test_a_controller_cannot_take_a_field_of_the_rig():
     class Greedy(TrainMemory):
         position: float
 
-    with pytest.raises(TypeError, match="position is declared elsewhere"):
+    with pytest.raises(TypeError, match="'position' is a field of the rig"):
         layout_of(Car, Greedy)

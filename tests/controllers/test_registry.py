@@ -10,8 +10,9 @@ from uictest.core.physics import VENT
 from uictest.plans.scenario import ScenarioErrors, load
 from uictest.plans.scenario.parts.controller import CONTROLLER_MODELS, _model
 from uictest.rig import assemble
-from uictest.rig.backends.plain import plain_stop
-from uictest.rig.single_stop import run_to_end
+from uictest.rig.model import controller as choice
+from uictest.rig.model.train import run_train
+from uictest.rig.train_stop import run_to_end
 
 MODULE = '''
 from uictest.controllers import ControlledWheelset, Controller, ControllerParameters, TrainMemory
@@ -54,9 +55,10 @@ def test_a_module_in_the_folder_is_a_controller(tmp_path, monkeypatch):
         "lower_slide",
     } <= model.model_fields.keys()
     inputs = assemble(load([tmp_path / "stop.yaml"])[0])
-    inputs.parameters.cycles = 1
+    inputs.parameters.cycles, inputs.parameters.controller = 1, len(choice.CHOICES)
+    monkeypatch.setattr(choice, "CHOICES", (*choice.CHOICES, controller))
     with np.errstate(invalid="ignore"):  # no air is drawn within one cycle
-        finished = run_to_end(plain_stop([controller]), inputs)
+        finished = run_to_end(run_train, inputs)
     assert finished.wheelsets.valve_command.tolist() == [VENT] * 4
 
 

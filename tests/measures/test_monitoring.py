@@ -14,7 +14,7 @@ from uictest.plans.faults import FAULT_KINDS
 from uictest.plans.scenario import load
 from uictest.recorded.field_data import Preparation, RawChannel, prepare
 from uictest.recorded.field_data.judgement import judge_recording
-from uictest.rig import simulate
+from uictest.rig import pass_samples, simulate
 
 LEVELS = get_args(Report)
 
@@ -97,8 +97,7 @@ def test_a_recording_is_observed_as_its_samples_say(seed):
     required = begun * (np.arange(len(begun)) >= 900)[:, None]
     faults = begun.max(axis=1), begun, begun, required
     replay = Replay(samples_of(channels, faults=faults), SimpleNamespace(**DEFINITION), 3.8e5)
-    for _ in replay.pass_samples():
-        pass
+    pass_samples(replay)
     for n, wheelset in enumerate(replay.wheelsets, start=1):
         own = begun[:, n - 1] > 0.0, required[:, n - 1] > 0.0
         for name, value in expected(channels, n, *own).items():
@@ -113,8 +112,7 @@ def test_a_report_of_a_locked_wheelset_is_not_false(wheel_speed, false):
     channels["diagnosis"] = np.where(np.arange(rows) > 20, 2.0, 0.0)
     channels |= {f"wheel_speed_{n}": np.full(rows, wheel_speed) for n in (1, 2, 3, 4)}
     replay = Replay(samples_of(channels), SimpleNamespace(**DEFINITION), 3.8e5)
-    for _ in replay.pass_samples():
-        pass
+    pass_samples(replay)
     assert [wheelset.falsely_reported for wheelset in replay.wheelsets] == [0.0, false, 0.0, 0.0]
 
 

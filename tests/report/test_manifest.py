@@ -11,7 +11,7 @@ def test_it_names_versions_of_what_decides_the_numbers_and_no_folder_of_the_mach
     assert " ".join(content.command) == "uictest run scenarios -k dry -o .../out --output=.../out"
     assert content.inputs == {"a.yaml": "00", "library:x": "11"}
     assert (content.seed, content.cases) == (7, 3)
-    assert {"uictest", "python", "numpy", "numba"} <= content.versions.keys()
+    assert {"uictest", "python", "numpy", "pydantic"} <= content.versions.keys()
     assert all(content.versions.values())
 
 

@@ -11,19 +11,17 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from uictest.controllers import CONTROLLERS, DEFAULT
-from uictest.core.lanes import translate
+from uictest.controllers import CONTROLLERS
 from uictest.core.record import layout_of
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.scalar import compiled_stop
-from uictest.rig.model.controller import begin
+from uictest.rig.backends.stops import compiled_rig
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.start import start
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import CAR_CHANNELS, WHEELSET_CHANNELS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS, WheelsetParameters
-from uictest.rig.single_stop import run_to_end
+from uictest.rig.train_stop import run_to_end
 
 Array = NDArray[np.float64]
 
@@ -62,7 +60,7 @@ class Rig:
     def _stop(self, *overrides, every=0, **fields):
         """Run a stop on the compiled rig; ``every`` is the number of steps between two samples."""
         inputs = self.inputs(*overrides, **fields)
-        return run_to_end(compiled_stop(), inputs, every)
+        return run_to_end(compiled_rig(), inputs, every)
 
     def columns(self, *overrides, every=20, **fields):
         """Trace of a stop by channel; a wheelset's channel has a column for each of the four."""
@@ -79,8 +77,7 @@ class Bench:
         self.car = self._blank(CAR)
         self.bogies = [self._blank(BOGIE) for _ in range(2)]
         self.wheelsets = [self._blank(WHEELSET) for _ in range(4)]
-        begin_stop = translate(start, lambda function: function, {begin: CONTROLLERS[DEFAULT].begin})
-        begin_stop(self.car, self.bogies, self.wheelsets, self.p, [self.p] * 4)
+        start(self.car, self.bogies, self.wheelsets, self.p, [self.p] * 4)
 
     @staticmethod
     def _blank(layout):

@@ -1,23 +1,17 @@
 """Several cars, coupled, on one rail."""
 
-from functools import partial
-
 import numpy as np
 import pytest
 
-from uictest.core.lanes import translate
 from uictest.rig import train_inputs
-from uictest.rig.backends.compiled import with_controllers
-from uictest.rig.backends.scalar import compiled_stop
+from uictest.rig.backends.stops import compiled_rig
 from uictest.rig.coupled_cars import run_coupled
-from uictest.rig.model.controller import CHOICES
 from uictest.rig.model.couplers import coupler_energy
 from uictest.rig.model.train import run_train
-from uictest.rig.single_stop import run_to_end
 from uictest.rig.train_inputs import Coupling, assemble_train
-from uictest.rig.train_stop import run_train_to_end
+from uictest.rig.train_stop import run_to_end, run_train_to_end
 
-from .plain_numbers import on_numbers
+from .plain_numbers import run_on_numbers
 
 COUPLED = Coupling(distance=26.4)
 LOOSE = Coupling(distance=26.4, stiffness=0.0, damping=0.0)
@@ -45,7 +39,7 @@ def test_cars_that_nothing_couples_stop_as_each_alone(rig):
     for j, overrides in enumerate([WET, (*WET, "brake.command=60 %"), WET]):
         inputs = rig.inputs(*overrides)
         inputs.parameters["noise_key"] = train.parameters[j]["noise_key"]
-        assert bits(train.cars[j]) == bits(run_to_end(compiled_stop(), inputs))
+        assert bits(train.cars[j]) == bits(run_to_end(compiled_rig(), inputs))
 
 
 def test_two_equal_cars_with_equal_noise_stop_as_one_and_do_not_pull(rig, monkeypatch):
@@ -96,7 +90,7 @@ def test_a_command_along_a_pipe_reaches_every_car_later(rig):
     np.testing.assert_allclose(np.diff(begins), 0.1, atol=1e-9)
     for j, car in enumerate(train.cars):
         dead_time, key = (train.parameters[j][name] for name in ("dead_time", "noise_key"))
-        alone = run_to_end(compiled_stop(), rig.inputs(*slow, dead_time=dead_time, noise_key=key))
+        alone = run_to_end(compiled_rig(), rig.inputs(*slow, dead_time=dead_time, noise_key=key))
         assert bits(car) == bits(alone)
 
 
@@ -118,8 +112,7 @@ def test_every_car_runs_on_the_rail_that_those_before_it_have_cleaned(rig):
 
 def test_plain_code_gives_the_bits_of_compiled_code(rig):
     cases = [rig.case(*CLEANED, *SHORT), rig.case(*CLEANED, *SHORT, "brake.command=80 %")]
-    plain = translate(run_train, lambda function: function, with_controllers(CHOICES, lambda each: each, {}))
-    stepped = run_train_to_end(partial(on_numbers, plain), assemble_train(cases, COUPLED))
+    stepped = run_train_to_end(run_on_numbers(run_train), assemble_train(cases, COUPLED))
     for one, other in zip(run_coupled(cases, COUPLED).cars, stepped.cars, strict=True):
         assert bits(one) == bits(other)
 

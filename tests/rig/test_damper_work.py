@@ -8,7 +8,7 @@ from collections import Counter
 
 import numpy as np
 
-from uictest.rig.backends.stepped_train import SteppedTrain
+from uictest.rig.backends.stepped import SteppedTrain
 from uictest.rig.model.balance import energy_residual
 from uictest.rig.train_inputs import Coupling, assemble_train
 

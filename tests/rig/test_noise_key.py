@@ -1,9 +1,14 @@
 """What decides the sensors' noise, and what must not."""
 
+import math
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from uictest.rig import assemble, noise_keys
+from uictest.rig import assemble, noise_key_text, noise_keys
+
+SCENARIOS = Path(__file__).parents[2] / "scenarios"
 
 
 def key(rig, *overrides):
@@ -74,3 +79,44 @@ def test_many_stops_have_the_keys_that_each_has_alone(rig):
     wheelsets = np.array([stop.wheelset_parameters for stop in stops])
     found = noise_keys(records, wheelsets, np.array(rails))
     assert found.tolist() == [int(stop.parameters.noise_key) for stop in stops]
+
+
+C_FUNCTIONS = ("exp", "expm1", "log", "log1p", "log10", "pow", "sin", "cos", "tan", "atan", "tanh", "hypot")
+MOTORS = "brake.dynamic={force: 60 kN, power: 1.6 MW, wheelsets: [1, 4]}"
+
+
+def one_bit_off(function):
+    return lambda *numbers: math.nextafter(function(*numbers), math.inf)
+
+
+KEYS = {
+    "dry-120": "e7339369",
+    "slip-120": "ef267742",
+    "cleaned-rail-120": "096911f6",
+    "friction-step-120": "4a62c534",
+    "radius-80[configured_radius=0.4214m]": "70a1f28b",
+}
+"""Of some shipped cases, on any machine: with another one all noise of a stop is another."""
+
+
+@pytest.fixture(scope="module")
+def shipped():
+    """The shipped cases, and one whose motors take a function of the C library."""
+    from uictest.plans.scenario import load
+
+    [motored] = load([SCENARIOS / "dry-120.yaml"], [MOTORS])
+    return {case.id: case for case in load([SCENARIOS]) if case.train is None} | {"motors": motored}
+
+
+def test_the_keys_of_shipped_cases(shipped):
+    assert {name: noise_key_text(assemble(shipped[name]).parameters) for name in KEYS} == KEYS
+
+
+def test_no_key_depends_on_the_last_bit_of_a_function_of_the_c_library(shipped, monkeypatch):
+    """The values behind a key are read exactly, added, multiplied and divided: IEEE 754 defines the bits."""
+    before = {name: assemble(case).parameters for name, case in shipped.items()}
+    for function in C_FUNCTIONS:
+        monkeypatch.setattr(math, function, one_bit_off(getattr(math, function)))
+    after = {name: assemble(case).parameters for name, case in shipped.items()}
+    assert [after[name].noise_key for name in shipped] == [before[name].noise_key for name in shipped]
+    assert after["motors"].motor_response != before["motors"].motor_response

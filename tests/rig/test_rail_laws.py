@@ -131,7 +131,7 @@ def test_a_film_stays_slippery_where_half_of_it_is_gone(rig):
 @pytest.mark.parametrize("law", list(LAWS))
 def test_a_law_goes_from_the_rail_as_found_to_the_clean_one_and_never_back(law):
     numbers = [25.0] * len(LAWS[law].numbers)
-    parts = [LAWS[law].clean_part(share, *numbers) for share in np.linspace(0.0, 1.0, 101)]
+    parts = [LAWS[law].clean_part(share, numbers) for share in np.linspace(0.0, 1.0, 101)]
     assert parts[0] == 0.0
     assert parts[-1] == 1.0
     assert np.all(np.diff(parts) > 0.0)
@@ -143,13 +143,12 @@ def test_two_laws_are_refused_and_a_new_law_is_one_module(tmp_path):
     """The module is found, its numbers are keys with unit and range, and the model calls its equations."""
     (tmp_path / "squared.py").write_text(
         textwrap.dedent("""
-        from uictest.core.physics import cleaned_share
-        from uictest.core.rail_laws.law import LawNumber, RailLaw
+        from uictest.core.rail_laws.law import LawNumber, RailLaw, cleaned_by_energy
 
-        def clean_part(share, length):
-            return share * share * length
+        def clean_part(share, numbers):
+            return share * share * numbers[0]
 
-        LAW = RailLaw("squared", "Squared.", cleaned_share, clean_part,
+        LAW = RailLaw("squared", "Squared.", cleaned_by_energy, clean_part,
                       {"length": LawNumber("length", "A length.", "1 mm", "1 m", lambda value: 2.0 * value)})
         """)
     )

@@ -5,8 +5,6 @@ import pytest
 
 from uictest.plans.scenario import load
 from uictest.rig import simulate
-from uictest.rig.backends.machine_code import is_kept
-from uictest.rig.backends.scalar import RUN
 
 
 @pytest.fixture(name="stops", scope="module")
@@ -64,10 +62,6 @@ def test_recording_has_every_channel_of_train_and_wheelsets(scenarios):
 
 def test_no_recording_unless_asked(stops):
     assert all(stop.recording is None for stop in stops.values())
-
-
-def test_rig_is_compiled_once_it_ran(stops):
-    assert is_kept(RUN)
 
 
 def test_diagnosis_is_recorded_only_of_a_controller_from_outside(rig, tmp_path):

@@ -7,8 +7,7 @@ from scipy.integrate import quad
 from uictest.core.measures.catalogue.deceleration import initial_adhesion
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.lanes import run_in_lanes
-from uictest.rig.backends.train_lanes import run_trains_in_lanes
+from uictest.rig.backends.lanes import run_in_lanes, run_trains_in_lanes
 from uictest.rig.coupled_cars import run_coupled
 from uictest.rig.external.in_process import run_in_process
 from uictest.rig.train_inputs import Coupling, assemble_train

@@ -9,8 +9,9 @@ from uictest.plans.scenario import WHEELSET_NUMBERS, wheelset_value
 from uictest.plans.scenario.parts.wheelsets import REGULAR
 from uictest.rig.assembly import assemble
 from uictest.rig.model.cycle import command_valves
-from uictest.rig.model.step import step
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS, WheelsetParameters
+
+from .plain_numbers import step
 
 DRY = ("rail.condition=dry", "vehicle=intercity-180")
 WET = ("rail.condition=wet", "rail.friction=0.09", "initial_speed=60 km/h")

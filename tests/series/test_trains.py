@@ -109,19 +109,18 @@ def test_every_stop_says_once_which_car_is_judged(of_trains):
 
 
 def test_every_train_is_simulated_once_for_the_series_of_all_cars(of_trains, monkeypatch):
-    simulated, whole = [], rig.simulate_cars
+    simulated, queued = [], rig.simulate_trains
 
-    def noted(cars, every=None, run=None):
-        simulated.append([case.id for case in cars])
-        return whole(cars, every, run)
+    def noted(trains):
+        simulated.extend([case.id for case in cars] for cars in trains)
+        return queued(trains)
 
     def run(cases):
         return run_cases(cases, RunSettings(recording=RecordingRequest("none")))
 
     planned = of_trains(TRAIN, "cars: all\n")
     alone = [judged(each) for each in planned]
-    monkeypatch.setattr(rig, "train_lanes_are_compiled", lambda: False)
-    monkeypatch.setattr(rig, "simulate_cars", noted)
+    monkeypatch.setattr(rig, "simulate_trains", noted)
     shown = []
     results = run_series(planned, run, maxfail=None, show=shown.append).whole()
     names = ("dry", "wet", "bypassed.wet")

@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 from numbers import Real
 from operator import index
 from pathlib import Path
-from typing import Any, Final, Generic, TypeVar
+from typing import Any, Final
 
 from uictest.controllers import CONTRACTS, NO_REDUCTION, NO_REFERENCE, ControllerError, Outputs, write_outputs
 from uictest.core.recording import Recording
 from uictest.judging import evaluation
 from uictest.plans import library, scenario
-from uictest.rig import FinishedStop, SteppedStop, SteppedTrain, check_requests, recording_of_stop
+from uictest.rig import FinishedStop, SteppedTrain, check_requests, recording_of_stop
 
 FourValues = tuple[float, float, float, float]
 
@@ -71,10 +71,9 @@ def _four(modules: Any, name: str) -> FourValues:
 
 
 _LARGEST_SEED: Final = 2**32 - 1
-_Stop = TypeVar("_Stop", SteppedStop, SteppedTrain)
 
 
-class SteppedRig(Generic[_Stop]):
+class SteppedRig:
     """What the rig of a car and that of a train have in common."""
 
     def __init__(self, record: float | None, contract: int) -> None:
@@ -85,7 +84,7 @@ class SteppedRig(Generic[_Stop]):
             raise ValueError(f"record is {record!r}, expected samples per second or None")
         self._record = record
         self._contract = contract
-        self._stop: _Stop | None = None
+        self._stop: SteppedTrain | None = None
         self._seed: int | None = None
 
     @property
@@ -111,18 +110,18 @@ class SteppedRig(Generic[_Stop]):
         step = float(parameters["step"].flat[0])
         return 0 if self._record is None else max(round(1.0 / (self._record * step)), 1)
 
-    def _begun(self) -> _Stop:
+    def _begun(self) -> SteppedTrain:
         if self._stop is None:
             raise RuntimeError("no stop has begun: call reset() first")
         return self._stop
 
-    def _running(self) -> _Stop:
+    def _running(self) -> SteppedTrain:
         stop = self._begun()
         if stop.has_ended:
             raise RuntimeError(f"the stop has ended after {stop.time:g} s: call reset()")
         return stop
 
-    def _ended(self) -> _Stop:
+    def _ended(self) -> SteppedTrain:
         stop = self._begun()
         if not stop.has_ended:
             raise RuntimeError(f"the stop has not ended after {stop.time:g} s: call step()")
@@ -146,7 +145,7 @@ class SteppedRig(Generic[_Stop]):
         found = recording_of_stop(case, replace(finished, contract=self._contract), from_outside=True)
         return replace(found, metadata={**found.metadata, **self._given_seed})
 
-    def _recorded(self) -> _Stop:
+    def _recorded(self) -> SteppedTrain:
         if self._record is None:
             raise RuntimeError("nothing was recorded: create the rig with record=100 (samples per second)")
         return self._ended()

@@ -20,14 +20,14 @@ from uictest.controllers import Inputs, Outputs, read_inputs
 from uictest.core.recording import Recording
 from uictest.judging import evaluation
 from uictest.plans import scenario
-from uictest.rig import SteppedStop, assemble, bench, noise_key_text
+from uictest.rig import SteppedTrain, alone, assemble, bench, noise_key_text
 from uictest.running import campaign
 
 Magnets = Sequence[bool | int]
 _NOT_ENERGISED: Final = (0, 0, 0, 0)
 
 
-class Rig(SteppedRig[SteppedStop]):
+class Rig(SteppedRig):
     """The rig of one case, stepped from outside, one controller cycle at a time.
 
         rig = uictest.Rig("slip.yaml")
@@ -85,12 +85,13 @@ class Rig(SteppedRig[SteppedStop]):
             seed: of sensor noise and random rails, 0 to 2^32 - 1; None: that of the scenario. The same seed
                 gives the same stop, to the bit.
 
-        Raises ValueError for another seed. The first call on a machine compiles the rig (about 15 s).
+        Raises ValueError for another seed.
         """
         self._inputs = inputs = assemble(self.case)
         self._noise_key = noise_key_text(inputs.parameters)
-        self._stop = SteppedStop(inputs, self._begin(inputs.parameters, seed))
-        return read_inputs(self._stop.inputs)
+        every = self._begin(inputs.parameters, seed)
+        self._stop = SteppedTrain(alone(inputs), every)
+        return read_inputs(self._stop.inputs[0])
 
     def step(
         self,
@@ -124,10 +125,10 @@ class Rig(SteppedRig[SteppedStop]):
         stop = self._running()
         requested = dynamic_reduction, sand_request, track_brake_request
         outputs = outputs or Outputs(hold, vent, reference_speed, diagnosis, *requested)
-        write_commands(stop.outputs, outputs, self._contract)
+        write_commands(stop.outputs[0], outputs, self._contract)
         stop.step()
-        reject_failure(stop.exchange)
-        return read_inputs(stop.inputs)
+        reject_failure(stop.memory["exchange"][0])
+        return read_inputs(stop.inputs[0])
 
     @property
     def state(self) -> RigState:
@@ -136,7 +137,7 @@ class Rig(SteppedRig[SteppedStop]):
 
     def result(self) -> evaluation.CaseResult:
         """Return the judged result of the stop, as `uictest run` judges it; RuntimeError before its end."""
-        finished = self._ended().finished()
+        [finished] = self._ended().finished()
         measures = rig.measures_with_reference(finished.measures, self._inputs)
         result = evaluation.evaluate_simulated(self.case, measures, finished.wheelset_measures)
         [whole] = campaign.with_rails([self._seeded(self.case)], [self._stated(result, self._noise_key)])
@@ -144,4 +145,4 @@ class Rig(SteppedRig[SteppedStop]):
 
     def recording(self) -> Recording:
         """Return the recording of the stop; RuntimeError before its end or without `record`."""
-        return self._recording(self.case, self._recorded().finished())
+        return self._recording(self.case, self._recorded().finished()[0])

@@ -26,7 +26,7 @@ from uictest.rig import (
 from uictest.running import campaign
 
 
-class TrainRig(SteppedRig[SteppedTrain]):
+class TrainRig(SteppedRig):
     """The rigs of all cars of a train, stepped from outside, one controller cycle at a time.
 
         rig = uictest.TrainRig("train-120")
@@ -73,10 +73,7 @@ class TrainRig(SteppedRig[SteppedTrain]):
         return float(self.cases[0].scenario.controller.cycle_time)
 
     def reset(self, seed: int | None = None) -> tuple[Inputs, ...]:
-        """Begin a stop and return what the sensors of each car show at the brake command.
-
-        As :meth:`uictest.Rig.reset`; the first call on a machine compiles the rig for trains (about 20 s).
-        """
+        """Begin a stop and return what the sensors of each car show; as :meth:`uictest.Rig.reset`."""
         cars = self.cases[0].cars
         train = assemble_train(cars, coupling_of(cars[0].scenario))
         self._noise_keys = tuple(noise_key_text(each) for each in train.parameters)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -39,9 +41,10 @@ def reject_target(output: Path, *, force: bool) -> None:
         raise runs.InvalidInputError(f"already there: {output}; --force replaces it")
 
 
-def compiler() -> str:
-    """Return the C compiler; what the machine lacks is reported before anything is compiled."""
+@contextmanager
+def building() -> Iterator[None]:
+    """Report what this machine or this package lacks to write an FMU."""
     try:
-        return fmu.usable_compiler()
+        yield
     except fmu.CannotBuildError as error:
         raise runs.InvalidInputError(f"{error}") from error

@@ -1,4 +1,4 @@
-"""Progress of stops and of a compilation on stderr: a bar on a terminal, lines elsewhere."""
+"""Progress of stops on stderr: a bar on a terminal, lines elsewhere."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ import threading
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from time import monotonic
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
-from uictest import rig, runs
+from uictest import runs
 from uictest.cli.output import coloured, interactive, message
 
 if TYPE_CHECKING:
@@ -142,74 +142,8 @@ class _SweepHeartbeat:
         return f"uictest: {finished} of {self._total} cases, {rate:.0f} cases/s, {remaining:.0f} s left"
 
 
-_EVERY: Final = 5.0
-"""s between two lines where there is no terminal."""
-
-
-@contextlib.contextmanager
-def compilation_shown(*, quiet: bool = False) -> Iterator[None]:
-    """Show on stderr what is compiled meanwhile, how much of it is done and how long it may still take.
-
-    Where the cache holds the code nothing is compiled, and nothing shown; nor if `quiet`.
-    """
-    with contextlib.ExitStack() as shown:
-        if quiet:
-            watcher: rig.Watcher = _ignore
-        else:
-            watcher = _Bar(shown) if interactive(sys.stderr) else _Lines()
-        shown.enter_context(rig.compilation_watched(watcher))
-        yield
-
-
-def _ignore(title: str, done: float) -> None:
-    pass
-
-
-class _Bar:
-    """One bar for each compilation; those that have ended disappear with `shown`."""
-
-    def __init__(self, shown: contextlib.ExitStack) -> None:
-        self._shown = shown
-
-    def __call__(self, title: str, done: float) -> None:
-        if done == 0.0:
-            self._begin(title)
-        self._bars.update(self._bar, completed=done)
-
-    def _begin(self, title: str) -> None:
-        from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
-
-        message(_announcement(title))
-        columns = (TextColumn("compiling"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
-        bars = Progress(*columns, console=error_console(), transient=True)
-        self._bars = self._shown.enter_context(bars)
-        self._bar = self._bars.add_task("compiling", total=1.0)
-
-
-class _Lines:
-    """A line when a compilation begins, one every few seconds, and one when it has ended."""
-
-    _begun = _told = 0.0
-
-    def __call__(self, title: str, done: float) -> None:
-        now = monotonic()
-        elapsed = now - self._begun
-        if done == 0.0:
-            self._begun = self._told = now
-            message(_announcement(title))
-        elif done == 1.0:
-            message(f"uictest: compiled in {elapsed:.0f} s")
-        elif now - self._told >= _EVERY:
-            self._told = now
-            message(f"uictest: {done:.0%} compiled, about {elapsed * (1 - done) / done:.0f} s left")
-
-
-def _announcement(title: str) -> str:
-    return f"uictest: compiling {title}, once per installation..."
-
-
 class TerminalObserver(runs.Observer):
-    """Shows on stderr what is compiled and how far a simulation is; nothing if `quiet`."""
+    """Shows on stderr how far a simulation is; nothing if `quiet`."""
 
     def __init__(self, *, quiet: bool = False) -> None:
         self.quiet = quiet
@@ -220,10 +154,6 @@ class TerminalObserver(runs.Observer):
             message(
                 "uictest: --in-process: controllers from outside are not isolated, a crash ends everything"
             )
-
-    def compiling(self) -> AbstractContextManager[None]:
-        """Show the compilation of the rig."""
-        return compilation_shown(quiet=self.quiet)
 
     def simulating(
         self, count: int, finished: int = 0, unit: str = "cases"

@@ -4,11 +4,11 @@
 
 LIFELINE is a pipe that the parent holds open. When its end is gone, the guard of the child ends it and every
 process that it has started, and removes FOLDER, which has temporary files. The guard is a process of its own:
-a thread of the child would wait for an interpreter that foreign code may never release.
+a thread of the child would wait for an interpreter that foreign code may never release. Windows has no guard:
+there its parent alone ends a child.
 """
 
 import os
-import resource
 import runpy
 import shutil
 import signal
@@ -19,6 +19,12 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
+try:
+    import resource
+except ImportError:  # Windows
+    resource = None  # type: ignore[assignment]
+
+HAS_GUARD: Final = hasattr(os, "fork")
 _ENDED: Final = b"."
 """What a parent writes that ends its child itself, and goes on using the folder."""
 
@@ -43,27 +49,27 @@ class GuardedProcess(subprocess.Popen[bytes]):
         pass_fds: Sequence[int] = (),
         **options: Any,
     ) -> None:
-        end, self._lifeline = os.pipe()
+        command, end, self._lifeline = ["-m", module, *arguments], -1, -1
+        if HAS_GUARD:
+            end, self._lifeline = os.pipe()
+            command = ["-m", __name__, str(end), str(folder), module, *arguments]
+            # Signals of the terminal are for this process, which ends the child and what it has started.
+            options |= {"pass_fds": (*pass_fds, end), "start_new_session": True}
+        environment = {**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))}
         try:
-            super().__init__(
-                [sys.executable, *flags, "-m", __name__, str(end), str(folder), module, *arguments],
-                pass_fds=(*pass_fds, end),
-                # Signals of the terminal are for this process, which ends the child and what it has started.
-                start_new_session=True,
-                env={**os.environ, "TMPDIR": str(folder)},
-                **options,
-            )
+            super().__init__([sys.executable, *flags, *command], env=environment, **options)
         except BaseException:
             self._close_lifeline()
             raise
         finally:
-            os.close(end)
+            if HAS_GUARD:
+                os.close(end)
 
     def end(self) -> None:
         """End it and whatever it has started."""
         if self.returncode is None:  # its number is no other's before it is collected
             with suppress(ProcessLookupError):
-                os.killpg(self.pid, signal.SIGKILL)
+                os.killpg(self.pid, signal.SIGKILL) if HAS_GUARD else self.kill()
         self.wait()
         self._close_lifeline()
 
@@ -92,6 +98,8 @@ def reading_process(module: str, arguments: Sequence[str], folder: Path) -> Guar
 
 def bound_resources(memory: int, seconds: float | None) -> None:
     """Limit the address space of this process, bytes, and its processor time where the system can."""
+    if resource is None:
+        return
     with suppress(ValueError, OSError):  # elsewhere the time limit of who waits for it must do
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

@@ -50,18 +50,16 @@ def scenario_values(record: type[Record]) -> dict[str, ScenarioValue]:
     return {name: value for name, value in declared.items() if isinstance(value, ScenarioValue)}
 
 
-def field_copier(record: type[Record]) -> Callable[[Any, Any], None]:
-    """Return a function that sets the fields of a record in its first argument to those of its second.
+class FieldCopier:
+    """Sets the fields of a record in its first argument to those of its second; the kernel has one, too."""
 
-    Its source names every field, since compiled code has no loop over names.
-    """
-    lines = (f"    target.{name} = source.{name}\n" for name in fields_of(record))
-    source = f"def copy_fields(target, source):\n{''.join(lines)}"
-    namespace: dict[str, Any] = {"__name__": __name__}
-    # In the name of this file, whose content decides whether compiled code is still that of its source.
-    exec(compile(source, __file__, "exec"), namespace)
-    copy: Callable[[Any, Any], None] = namespace["copy_fields"]
-    return copy
+    def __init__(self, record: type[Record]) -> None:
+        self.record, self.fields = record, tuple(fields_of(record))
+
+    def __call__(self, target: Any, source: Any) -> None:
+        """Copy the fields."""
+        for name in self.fields:
+            setattr(target, name, getattr(source, name))
 
 
 def channel(unit: str) -> Any:
@@ -104,7 +102,8 @@ def layout_of(record: type[Record], *additions: type[Record]) -> Any:
             field = (name, *_kind(name, annotation))
             if own.get(name, owners[name]) is not owners[name] or fields.get(name, field) != field:
                 raise TypeError(
-                    f"{addition.__module__}.{addition.__qualname__}: {name} is declared elsewhere"
+                    f"{addition.__module__}.{addition.__qualname__}: {name!r} is a field of the rig "
+                    "or of another module already; give this one another name"
                 )
             fields[name] = field
     return np.dtype((np.record, list(fields.values())))

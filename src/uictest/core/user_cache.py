@@ -1,4 +1,4 @@
-"""The user's cache: compiled code, compiled templates and packed scripts, kept for later runs.
+"""The user's cache: identified compensations, compiled templates and packed scripts, kept for later runs.
 
 Cached content is executed or becomes part of a page. It is therefore read from and written to folders that
 only this user can write or replace, and a file is used only if it is intact and was made from the same
@@ -21,8 +21,6 @@ from pathlib import Path
 from uictest.core import files
 
 _DIGEST_SIZE = hashlib.sha256().digest_size
-# A FIFO must not block the reader until somebody writes; Windows has neither it nor links that need care.
-_READ_ONLY = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)
 _BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 _SYSTEM = 0
 """User id of the system's administrator."""
@@ -54,7 +52,7 @@ def write(kind: str, inputs: bytes, content: bytes) -> None:
         else:
             return
     _warn(
-        "nothing is cached, so each run compiles again; set UICTEST_CACHE to a folder that only you can write"
+        "nothing is cached, so each run computes anew; set UICTEST_CACHE to a folder that only you can write"
     )
 
 
@@ -84,42 +82,16 @@ def _digest(inputs: bytes, content: bytes) -> bytes:
 
 def _bytes_of(path: Path) -> bytes:
     """Return the bytes of a regular file that only this user can write. Raises OSError."""
-    with os.fdopen(os.open(path, _READ_ONLY | getattr(os, "O_BINARY", 0)), "rb") as file:
-        status = os.fstat(file.fileno())
-        if not (stat.S_ISREG(status.st_mode) and is_trusted(status)):
-            raise PermissionError(f"{path} is not a file of this user alone")
-        return file.read()
+    status = path.lstat()
+    if not (stat.S_ISREG(status.st_mode) and is_trusted(status)):
+        raise PermissionError(f"{path} is not a file of this user alone")
+    return path.read_bytes()
 
 
 @cache
 def _warn(text: str) -> None:
     """Write a warning to stderr, once per text."""
     logging.getLogger(__name__).warning("uictest: %s", text)
-
-
-PATIENCE = 300.0
-"""Longest wait, s; chosen: some ten times what a slow machine takes to compile one entry of the rig."""
-
-
-@contextlib.contextmanager
-def turn(kind: str, inputs: bytes) -> Iterator[None]:
-    """Wait until no other process makes the content of these inputs, and let others wait until the end.
-
-    Whoever has waited should :func:`read` again. A process that ends, however it ends, lets the next one in.
-    Nobody waits where no folder can be written, and on network shares without locks; nor longer
-    than :data:`PATIENCE`, for a process that was stopped.
-
-    Args:
-        kind: kind of content, as for :func:`read`.
-        inputs: everything that the content is made of, as for :func:`read`.
-    """
-    with contextlib.ExitStack() as held:
-        for folder in safe_folders(make=True):
-            name = f"{name_of(kind, inputs)}.lock"
-            with contextlib.suppress(OSError, files.FolderInUseError):
-                held.enter_context(files.FolderLock(folder, name=name, patience=PATIENCE))
-                break
-        yield
 
 
 def roots() -> Iterator[Path]:

@@ -20,7 +20,7 @@ from uictest.report.part_wording import part_sentence
 
 CASES_IN_PYTHON: Final = "(cases loaded in Python)"
 """In a command, behind `run`: a program gave the cases, and no files of their own name them."""
-_PACKAGES = ("uictest", "numpy", "numba", "pydantic", "pyyaml")
+_PACKAGES = ("uictest", "numpy", "pydantic", "pyyaml")
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,34 +6,20 @@ from .assembly import (
     controller_config as controller_config,
     friction_laws as friction_laws,
 )
-from .backends.controller_code import (
-    ControllerCode as ControllerCode,
-    controller_code as controller_code,
-    controller_memory as controller_memory,
-)
-from .backends.machine_code import (
-    Target as Target,
-    Watcher as Watcher,
-    compilation_watched as compilation_watched,
+from .backends.lanes import (
+    TrainMeasures as TrainMeasures,
+    run_trains_in_lanes as run_trains_in_lanes,
 )
 from .backends.replayed import noted_numbers as noted_numbers, pass_samples as pass_samples
-from .backends.scalar import (
-    STEP as STEP,
-    compiled_stop as compiled_stop,
-)
 from .backends.stepped import (
-    STOP_MEMORY as STOP_MEMORY,
-    SteppedStop as SteppedStop,
-    stepping_code as stepping_code,
+    SteppedTrain as SteppedTrain,
+    train_memory as train_memory,
 )
-from .backends.stepped_train import SteppedTrain as SteppedTrain
-from .backends.train_lanes import (
-    TrainMeasures as TrainMeasures,
-    load_train_lanes as load_train_lanes,
-    run_trains_in_lanes as run_trains_in_lanes,
-    train_lanes_are_compiled as train_lanes_are_compiled,
+from .backends.stops import STEP as STEP, compiled_rig as compiled_rig
+from .controller_alone import (
+    ALONE as ALONE,
+    CONTROLLER_MEMORY as CONTROLLER_MEMORY,
 )
-from .backends.trains import compiled_train as compiled_train
 from .coupled_cars import (
     CouplerPeaks as CouplerPeaks,
     peaks_beside as peaks_beside,
@@ -44,7 +30,6 @@ from .derived_wheelset_parameters import WHEELSET_ASSIGNMENTS as WHEELSET_ASSIGN
 from .external.block import (
     BlockInputs as BlockInputs,
     BlockRun as BlockRun,
-    load_block as load_block,
     run_block as run_block,
 )
 from .external.drives import (
@@ -66,7 +51,16 @@ from .external.workers import (
     in_real_time as in_real_time,
 )
 from .highest_creep import highest_creep_forces as highest_creep_forces
-from .model.trace import CAR_CHANNELS as CAR_CHANNELS, WHEELSET_CHANNELS as WHEELSET_CHANNELS
+from .kernel.arguments import placed as placed
+from .kernel.built import Built as Built, KernelError as KernelError, source_digest as source_digest
+from .kernel.library import processor as processor, register_width as register_width
+from .model.controller import CHOICES as CHOICES
+from .model.records import TrainRecords as TrainRecords
+from .model.trace import (
+    CAR_CHANNELS as CAR_CHANNELS,
+    WHEELSET_CHANNELS as WHEELSET_CHANNELS,
+    Trace as Trace,
+)
 from .recorded_rail import RecordedRail as RecordedRail
 from .reference_distance import (
     measures_with_reference as measures_with_reference,
@@ -75,7 +69,6 @@ from .reference_distance import (
 )
 from .simulation import (
     SimulatedStop as SimulatedStop,
-    compile_for as compile_for,
     recording_of_stop as recording_of_stop,
     sha256_of_case as sha256_of_case,
     simulate as simulate,
@@ -93,4 +86,9 @@ from .train_inputs import (
     assemble_train as assemble_train,
     coupling_of as coupling_of,
 )
-from .train_stop import TrainInputs as TrainInputs, TrainStop as TrainStop
+from .train_stop import (
+    TrainInputs as TrainInputs,
+    TrainStop as TrainStop,
+    alone as alone,
+    empty_trace as empty_trace,
+)

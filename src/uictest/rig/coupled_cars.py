@@ -35,7 +35,7 @@ def run_coupled(
     steps_per_sample: int = 0,
     run: RunTrain | None = None,
 ) -> TrainStop:
-    """Run one stop of a train. The first call on a machine compiles it, within half a minute.
+    """Run one stop of a train.
 
     Args:
         cases: one for each car, from the leading one, all with the same rail.

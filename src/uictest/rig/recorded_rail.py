@@ -3,30 +3,23 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.lanes import Length, at, translate
 from uictest.plans.scenario import Scenario
 from uictest.rig.assembly import ASSIGNMENTS, assigned
-from uictest.rig.backends.compiled import compile_inner, compiled_operations
-from uictest.rig.backends.machine_code import Entry, Unit, native_function
+from uictest.rig.kernel.arguments import Length, at
+from uictest.rig.kernel.library import Entry, native_function
 from uictest.rig.model.parameters import PARAMETERS
-from uictest.rig.model.rail import MET_RAIL, RAIL_MEMORY, RECORDED_MOTION, follow_record
+from uictest.rig.model.rail import MET_RAIL, RAIL_MEMORY, RECORDED_MOTION
 from uictest.rig.model.state import CAR, WHEELSET
 
 Array = NDArray[np.float64]
 _WHEELSETS = 4
 _ROWS = Length("rows")
-_ENTRY = Entry(
-    "uictest_recorded_rail",
-    "the rail under a record",
+ENTRY = Entry(
+    "uictest.rig.model.rail:follow_record",
     (
         *(at(CAR), at(WHEELSET, _WHEELSETS), at(PARAMETERS), at(RAIL_MEMORY)),
         *(at(RECORDED_MOTION, _ROWS, _WHEELSETS), at(MET_RAIL, _ROWS, _WHEELSETS)),
     ),
-)
-_UNIT = Unit(
-    _ENTRY.name,
-    (_ENTRY,),
-    lambda: [translate(follow_record, compile_inner, compiled_operations())],
 )
 
 
@@ -60,8 +53,7 @@ class RecordedRail:
     def met(self, found: Array) -> tuple[Array, Array]:
         """Return the friction under each wheelset and the cleaned share of the rail, both of shape (4, n).
 
-        `found` is the initial friction coefficient of the rail that nothing has cleaned, shape (4, n). The
-        first call on a machine compiles it, within seconds.
+        `found` is the initial friction coefficient of the rail that nothing has cleaned, shape (4, n).
         """
         self._motion["found"] = found.T
         met = np.zeros(self._motion.shape, MET_RAIL)
@@ -72,6 +64,6 @@ class RecordedRail:
             wheelsets[name] = self._parameters[name]
         car, memory = np.zeros(1, CAR), np.zeros(1, RAIL_MEMORY)
         memory["points"] = self._parameters["spent_share"]
-        follow = native_function(_UNIT, _ENTRY)
+        follow = native_function(ENTRY)
         follow(car[0], wheelsets, self._parameters[0], memory[0], self._motion, met)
         return met["friction"].T, met["cleaned_share"].T

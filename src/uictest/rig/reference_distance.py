@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.lanes import Length, at, translate
 from uictest.core.measures import STOP_MEASURES
 from uictest.core.record import fields_of
-from uictest.rig.backends.compiled import compile_inner, scalar_model
-from uictest.rig.backends.machine_code import Entry, Unit, native_function
+from uictest.rig.kernel.arguments import Length, at
+from uictest.rig.kernel.library import Entry, native_function
 from uictest.rig.model.parameters import PARAMETERS, Parameters
 from uictest.rig.model.rail import RAIL_MEMORY, ROWS
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
@@ -29,23 +28,13 @@ _LACKING: Final = ("end_speed", "drag_duration", "has_track_brake", "has_sanders
 _OF_CONTROLLERS: Final = {*PARAMETERS.names} - {*fields_of(Parameters)}
 _UNREAD: Final = ("controller", "controller_contract", "noise_key", "wsp_active", *_OF_CONTROLLERS)
 """Parameters that no reference depends on and in which stops on one rail often differ."""
-_ENTRY: Final = Entry(
-    "uictest_reference_stop",
-    "the reference of stops",
+ENTRY: Final = Entry(
+    "uictest.rig.model.reference_stop:keep_slide_to_end",
     (
         *(at(CAR), at(BOGIE, 2), at(WHEELSET, 4), at(PARAMETERS), at(WHEELSET_PARAMETERS, 4)),
         *(at("f8", ROWS, Length("points")), at(RAIL_MEMORY), at(STOP_MEASURES), at("f8", 2)),
     ),
 )
-
-
-def _functions() -> list[Any]:
-    from uictest.rig.model.reference_stop import keep_slide_to_end  # a warm start does not load it
-
-    return [translate(keep_slide_to_end, compile_inner, scalar_model())]
-
-
-_UNIT: Final = Unit(_ENTRY.name, (_ENTRY,), _functions)
 
 
 def reference_distances(
@@ -98,7 +87,7 @@ def _shortest(parameters: bytes, wheelset_parameters: bytes, rail: bytes) -> flo
     def distance_at(slide: float, step: float) -> float:
         measures, car, memory = (np.zeros(1, layout)[0] for layout in (STOP_MEASURES, CAR, RAIL_MEMORY))
         records = car, np.zeros(2, BOGIE), np.zeros(4, WHEELSET), *given, memory, measures
-        native_function(_UNIT, _ENTRY)(*records, np.array([slide, step]))
+        native_function(ENTRY)(*records, np.array([slide, step]))
         return float(measures["reference_distance"])
 
     return distance_at(min(_SLIDES, key=lambda slide: distance_at(slide, _COARSE)), _FINE)

@@ -1,7 +1,7 @@
 """A case in, a stop out."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,8 +12,6 @@ from uictest.controllers import Config, ResponseTimes
 from uictest.core.recording import BRAKE_COMMAND_TIME, ORIGIN, TRACK_BRAKES_BESIDE, Recording
 from uictest.plans.scenario import Case
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.scalar import compiled_stop
-from uictest.rig.backends.trains import compiled_train
 from uictest.rig.coupled_cars import CouplerPeaks, peaks_beside
 from uictest.rig.external.workers import RunInputs, RunTrain, Workers
 from uictest.rig.model.trace import (
@@ -30,9 +28,9 @@ from uictest.rig.model.trace import (
     WHEELSET_CHANNELS,
 )
 from uictest.rig.reference_distance import measures_with_reference
-from uictest.rig.single_stop import FinishedStop, empty_trace, noise_key_text
+from uictest.rig.single_stop import FinishedStop, noise_key_text
 from uictest.rig.train_inputs import assemble_train, coupling_of
-from uictest.rig.train_stop import TrainInputs
+from uictest.rig.train_stop import TrainInputs, empty_trace
 
 
 @dataclass(frozen=True)
@@ -66,18 +64,8 @@ class SimulatedStop:
     controller_output: str = ""
 
 
-def compile_for(cases: Iterable[Case]) -> None:
-    """Compile the rig for cars alone, and for trains where there are some.
-
-    With that for cars alone comes what passes recordings, those of trains too, to the measures.
-    """
-    compiled_stop()
-    if any(case.train is not None for case in cases):
-        compiled_train()
-
-
 def simulate(case: Case, record_every: float | None = None, run: RunInputs | None = None) -> SimulatedStop:
-    """Simulate a case on the compiled rig; other threads may run meanwhile.
+    """Simulate a case; other threads may run meanwhile.
 
     Args:
         case: the case.
@@ -138,7 +126,7 @@ def simulate_trains(
     Raises:
         ControllerError: when a controller from outside failed.
     """
-    from uictest.rig.backends.train_lanes import run_trains_in_lanes  # single stops do without them
+    from uictest.rig.backends.lanes import run_trains_in_lanes  # single stops do without them
 
     inputs = [_inputs_of(cases) for cases in trains]
     if noise_of is not None:
@@ -157,7 +145,7 @@ def simulate_trains(
             else:
                 of_lane = next(in_lanes)
                 pairs = zip(of_lane.measures, of_lane.wheelset_measures.view(np.recarray), strict=True)
-                cars = [FinishedStop(*pair, None, None, empty_trace(0)) for pair in pairs]
+                cars = [FinishedStop(*pair, None, None, empty_trace(1, 0)) for pair in pairs]
                 stops.append(_stops_of_train(cases, own, cars, of_lane.couplers))
     return stops
 

@@ -7,7 +7,6 @@ it, so that two controllers, two compensations or two topologies meet the same n
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final, NamedTuple
 
@@ -16,17 +15,13 @@ from numpy.typing import NDArray
 
 from uictest.controllers import Config, ControllerProgram, ResponseTimes
 from uictest.core.ensemble import alike, rows_at
-from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.model.rail import FACTORS, FRICTIONS, PLACES, RAIL_MEMORY, TIMES
-from uictest.rig.model.state import BOGIE, CAR, WHEELSET
-from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
+from uictest.rig.model.rail import FACTORS, FRICTIONS, PLACES, TIMES
+from uictest.rig.model.trace import Trace
 
 _OF_STOP: Final = ("initial_speed", "commanded_pressure", "static_wheel_load")
 _OF_WHEELSETS: Final = ("wheel_radius", "brake_force", "reference_pad_friction")
 _ALONG_TRACK: Final = slice(PLACES, FRICTIONS + 1)
 _OVER_TIME: Final = slice(TIMES, FACTORS + 1)
-RunStop = Callable[..., int]
-""":func:`uictest.rig.model.stop.run_stop` made for one controller, plain or compiled."""
 
 
 def noise_keys(
@@ -105,42 +100,8 @@ class FinishedStop:
     controller_output: str = ""
 
 
-def run_to_end(run_stop: RunStop, inputs: StopInputs, steps_per_sample: int = 0) -> FinishedStop:
-    """Run a stop on fresh records.
-
-    Args:
-        run_stop: what runs the stop, made for the controller of ``inputs``.
-        inputs: parameters, those of the wheelsets, rail and controller.
-        steps_per_sample: base steps from one sample of the trace to the next; 0: no trace.
-    """
-    parameters = inputs.parameters
-    car = np.zeros(1, CAR)
-    bogies = np.zeros(2, BOGIE)
-    wheelsets = np.zeros(4, WHEELSET)
-    measures = np.zeros(1, STOP_MEASURES)
-    wheelset_measures = np.zeros(4, WHEELSET_MEASURES)
-    trace = empty_trace(rows_of_trace(parameters, steps_per_sample))
-    rows = run_stop(
-        *(car[0], bogies, wheelsets, parameters, inputs.wheelset_parameters),
-        *(inputs.rail, np.zeros(1, RAIL_MEMORY)[0]),
-        *(measures[0], wheelset_measures, trace, steps_per_sample),
-    )
-    return FinishedStop(
-        measures[0],
-        wheelset_measures.view(np.recarray),
-        car[0],
-        wheelsets.view(np.recarray),
-        Trace(trace.train[:rows], trace.wheelsets[:rows]),
-    )
-
-
-def empty_trace(rows: int) -> Trace:
-    """Return a trace with so many rows, not yet filled."""
-    return Trace(np.empty(rows, TRAIN_SAMPLE), np.empty((rows, 4), WHEELSET_SAMPLE))
-
-
 def rows_of_trace(parameters: Any, steps_per_sample: int) -> int:
     """Return the rows of the longest trace of a stop; 0 steps per sample: none."""
     if steps_per_sample == 0:
         return 0
-    return int(parameters.cycles * parameters.steps_per_cycle) // steps_per_sample + 1
+    return int(parameters["cycles"] * parameters["steps_per_cycle"]) // steps_per_sample + 1

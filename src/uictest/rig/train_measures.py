@@ -5,36 +5,33 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from uictest.rig.model.records import TrainRecords
 from uictest.rig.model.trace import Trace
 from uictest.rig.single_stop import FinishedStop
 
 
-def finished_cars(
-    measures: NDArray[Any],
-    of_wheelsets: NDArray[Any],
-    cars: NDArray[Any],
-    wheelsets: NDArray[Any],
-    trace: Trace,
-) -> tuple[FinishedStop, ...]:
-    """Return what the stop of n cars leaves of each.
+def finished_cars(train: TrainRecords, trace: Trace, rows: int) -> tuple[FinishedStop, ...]:
+    """Return what the stop of a train leaves of each car; its measures are changed.
 
     Args:
-        measures: n records; changed.
-        of_wheelsets: measures of the wheelsets, 4 n records.
-        cars: n records.
-        wheelsets: 4 n records.
-        trace: samples of every car, shapes (n, rows) and (n, rows, 4).
+        train: records of a stop that has ended.
+        trace: samples of every car, shapes (n, room) and (n, room, 4).
+        rows: of the trace that are filled.
     """
+    measures: Any = train.measures
+    of_wheelsets, wheelsets = (
+        np.asarray(each).view(np.recarray) for each in (train.wheelset_measures, train.wheelsets)
+    )
     note_track_brakes_beside(measures)
     return tuple(
         FinishedStop(
             measures[j],
-            of_wheelsets[4 * j : 4 * j + 4].view(np.recarray),
-            cars[j],
-            wheelsets[4 * j : 4 * j + 4].view(np.recarray),
-            Trace(trace.train[j], trace.wheelsets[j]),
+            of_wheelsets[4 * j : 4 * j + 4],
+            train.cars[j],
+            wheelsets[4 * j : 4 * j + 4],
+            Trace(trace.train[j, :rows], trace.wheelsets[j, :rows]),
         )
-        for j in range(len(cars))
+        for j in range(len(train.cars))
     )
 
 

@@ -1,6 +1,5 @@
-"""One stop of a train of coupled cars: what the rig is given for it, and what it leaves."""
+"""One stop of a train, or of a car alone: what the rig is given for it, and what it leaves."""
 
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -8,10 +7,13 @@ from numpy.typing import NDArray
 
 from uictest.controllers import Config, ControllerProgram
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.backends.stops import RunTrain
+from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.rail import RAIL_MEMORY
+from uictest.rig.model.records import TrainRecords
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
-from uictest.rig.single_stop import FinishedStop, rows_of_trace
+from uictest.rig.single_stop import FinishedStop, StopInputs, rows_of_trace
 from uictest.rig.train_measures import finished_cars
 
 
@@ -56,9 +58,21 @@ class TrainStop(NamedTuple):
     parameters: NDArray[Any]
 
 
-def run_train_to_end(
-    run_train: Callable[..., int], inputs: TrainInputs, steps_per_sample: int = 0
-) -> TrainStop:
+def alone(inputs: StopInputs) -> TrainInputs:
+    """Return the inputs of a stop of a car alone as those of a train of one."""
+    return TrainInputs(
+        *(np.array([inputs.parameters]), inputs.wheelset_parameters[None], np.zeros(1), np.zeros(0, COUPLER)),
+        *(np.ascontiguousarray(inputs.rail), (inputs.program,), (inputs.config,)),
+    )
+
+
+def run_to_end(run_train: RunTrain, inputs: StopInputs, steps_per_sample: int = 0) -> FinishedStop:
+    """Run a stop of a car alone on fresh records; arguments as for :func:`run_train_to_end`."""
+    [finished] = run_train_to_end(run_train, alone(inputs), steps_per_sample).cars
+    return finished
+
+
+def run_train_to_end(run_train: RunTrain, inputs: TrainInputs, steps_per_sample: int = 0) -> TrainStop:
     """Run a stop of a train on fresh records.
 
     Args:
@@ -66,15 +80,27 @@ def run_train_to_end(
         inputs: of its cars, and of what couples them; the ledgers of its couplers are filled.
         steps_per_sample: base steps from one sample of the traces to the next; 0: no traces.
     """
-    parameters, of_wheelsets, distances, couplers, rail, *_ = inputs
-    n = len(parameters)
-    records = [np.zeros(n * each, layout) for layout, each in ((CAR, 1), (BOGIE, 2), (WHEELSET, 4))]
-    measures, of_each = np.zeros(n, STOP_MEASURES), np.zeros(4 * n, WHEELSET_MEASURES)
-    room = rows_of_trace(parameters[0], steps_per_sample)
-    samples, wheelset_samples = np.empty((n, room), TRAIN_SAMPLE), np.empty((n, room, 4), WHEELSET_SAMPLE)
-    rows = run_train(
-        *(*records, parameters, of_wheelsets.reshape(-1), distances, couplers, rail),
-        *(np.zeros(n, RAIL_MEMORY), measures, of_each, samples, wheelset_samples, steps_per_sample),
+    train = _fresh_records(inputs)
+    trace = empty_trace(len(train.cars), rows_of_trace(inputs.parameters[0], steps_per_sample))
+    rows = run_train(train, trace, steps_per_sample)
+    return TrainStop(finished_cars(train, trace, rows), inputs.couplers, inputs.parameters)
+
+
+def _fresh_records(inputs: TrainInputs) -> TrainRecords:
+    """Return the records of a stop that has not begun."""
+    given: Any = inputs
+
+    def zeroed(layout: Any, each: int = 1) -> Any:
+        return np.zeros(each * len(inputs.parameters), layout)
+
+    return TrainRecords(
+        *(zeroed(CAR), zeroed(BOGIE, 2), zeroed(WHEELSET, 4), given.parameters),
+        *(given.wheelset_parameters.reshape(-1), zeroed(RAIL_MEMORY)),
+        *(zeroed(STOP_MEASURES), zeroed(WHEELSET_MEASURES, 4)),
+        *(given.distances, given.couplers, given.rail),
     )
-    trace = Trace(samples[:, :rows], wheelset_samples[:, :rows])
-    return TrainStop(finished_cars(measures, of_each, records[0], records[2], trace), couplers, parameters)
+
+
+def empty_trace(cars: int, rows: int) -> Trace:
+    """Return the trace of a train with so many rows, not yet filled."""
+    return Trace(np.empty((cars, rows), TRAIN_SAMPLE), np.empty((cars, rows, 4), WHEELSET_SAMPLE))

@@ -225,13 +225,9 @@ def simulate_cases(
         from uictest.runs.firmness import firmness_run, stops_of_case  # which few runs need
 
         varied = sum(stops_of_case(case, settings) for case in asked.values())
-    with observer.compiling():
-        campaign.compile_for(cases, settings.recording)
-        if asked:
-            varied_cases = (*asked.values(), *settings.calibration)
-            rig.load_block([case.scenario.controller.program for case in varied_cases])
     stops = sum(case.scenario.repeat for case in cases) + varied
     unit = unit or ("stops" if stops > len(cases) else "cases")
+    rig.compiled_rig()  # built before stops run side by side; where it cannot be, that is no result of a case
     with ExitStack() as stack:
         advance = stack.enter_context(observer.simulating(stops, unit=unit))
         if asked:
@@ -254,8 +250,6 @@ def _with_firmness(
     from uictest.runs.firmness import firmness_run, stops_of_series  # which few runs need
 
     stops = stops_of_series(planned, settings)
-    with observer.compiling():
-        rig.load_block([case.scenario.controller.program for case in (*planned.cases, *settings.calibration)])
     with observer.simulating(stops, unit="stops") as advance, firmness_run(settings, advance) as firm:
         return replace(result, firmness=firm.of_series(planned))
 

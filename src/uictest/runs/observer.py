@@ -26,10 +26,6 @@ class Observer:
     def foreign_in_process(self) -> None:
         """Take note that controllers from outside run in this process."""
 
-    def compiling(self) -> AbstractContextManager[None]:
-        """Return a context in which the rig is compiled, where it is not yet."""
-        return nullcontext()
-
     def simulating(
         self, count: int, finished: int = 0, unit: str = "cases"
     ) -> AbstractContextManager[Advance]:

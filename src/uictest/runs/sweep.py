@@ -18,7 +18,10 @@ from uictest.running.chunked import ChunkStore
 from uictest.runs.batch import simulate_cases
 from uictest.runs.errors import InvalidInputError
 from uictest.runs.observer import Observer
-from uictest.runs.sweep_chunks import SweepRequest, prepared_runner, run_missing_chunks
+from uictest.runs.sweep_chunks import SweepRequest, run_missing_chunks
+
+_PATIENCE = 0.2
+"""How long another process may hold the folder, s; chosen: one that only looks is gone sooner."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +76,7 @@ def _locked(folder: Path, *, shared: bool) -> files.FolderLock:
         )
     try:
         with files.writing(folder):
-            return files.FolderLock(folder.parent, folder.name, shared=shared)
+            return files.FolderLock(folder.parent, folder.name, shared=shared, patience=_PATIENCE)
     except files.FolderInUseError as error:
         raise InvalidInputError(
             f"{folder} is in use by {error}: wait until it ends, or name another output folder",
@@ -155,7 +158,7 @@ def _frontier(
     observer: Observer,
 ) -> report.Frontier:
     observer.searching(search.key)
-    runner = prepared_runner(request, observer)
+    runner = request.runner()
     scans = search.run(
         summary.verdicts, lambda plan, indices: summaries.verdicts_of(plan, indices, runner, request.jobs)
     )

@@ -61,6 +61,10 @@ class SweepRequest:
         """Whether there is a row for every case in CSV, too."""
         return self.selection.size <= report.LARGEST_CSV or "csv" in self.reports
 
+    def runner(self) -> ChunkRunner:
+        """Return what runs its chunks in this process."""
+        return chunked.chunk_runner(self.selection.plan, self.run_block, self.run_train)
+
 
 class MaxfailReached(Exception):  # noqa: N818 - nothing went wrong with the program
     """`maxfail` cases missed their expectation; the message gives their number and the first."""
@@ -89,6 +93,8 @@ def run_missing_chunks(
     missing_chunks = [number for number in own_chunks if number not in finished]
     cases, missing_cases = (_cases_in(request, numbers) for numbers in (own_chunks, missing_chunks))
     observer.found(cases, missing_cases)
+    if missing_chunks and request.cluster is None:
+        rig.compiled_rig()  # as before a run of single cases
     with observer.simulating(cases, cases - missing_cases) as advance:
         failures, unfinished = _Failures(request.maxfail), dict.fromkeys(missing_chunks)
 
@@ -135,8 +141,9 @@ def _run_chunks(
 ) -> None:
     address = request.cluster
     if address is None:
-        runner = prepared_runner(request, observer)
-        chunked.run_on_threads(runner, request.selection, numbers, request.jobs, write_chunk, meanwhile)
+        chunked.run_on_threads(
+            request.runner(), request.selection, numbers, request.jobs, write_chunk, meanwhile
+        )
         return
     try:
         chunked.run_on_cluster(
@@ -148,14 +155,6 @@ def _run_chunks(
         ) from error
     except chunked.ClusterError as error:
         raise OSError(str(error)) from error
-
-
-def prepared_runner(request: SweepRequest, observer: Observer) -> ChunkRunner:
-    """Return a runner with a compiled rig."""
-    runner = chunked.chunk_runner(request.selection.plan, request.run_block, request.run_train)
-    with observer.compiling():
-        runner.prepare()
-    return runner
 
 
 def reason_missed(reason: str) -> str:

@@ -10,9 +10,8 @@ from importlib.metadata import PackageNotFoundError, PackagePath, distribution, 
 from pathlib import Path
 from typing import Final
 
-from uictest import __version__
+from uictest import __version__, rig
 from uictest.core import user_cache
-from uictest.core.lanes import fuses, register_width
 from uictest.selftest.closed_forms import AIR_CHECKS, CONTACT_CHECKS, DRY_STOP_CHECKS, FRICTION_CHECKS
 from uictest.selftest.findings import Examination, Finding, Status
 from uictest.selftest.known_stops import (
@@ -25,7 +24,7 @@ from uictest.selftest.known_stops import (
 )
 from uictest.selftest.stored_answers import controller_checks, data_checks, judging_checks, stop_checks
 
-_PACKAGES: Final = ("numpy", "scipy", "numba", "llvmlite", "pydantic", "pyyaml", "pandas", "pyarrow")
+_PACKAGES: Final = ("numpy", "scipy", "pydantic", "pyyaml", "pandas", "pyarrow")
 """Those that take part in figures and verdicts."""
 _TRIAL: Final = b"uictest selftest"
 _MOST_NAMED: Final = 5
@@ -55,11 +54,10 @@ def environment_checks() -> Iterator[Check]:
 
 
 def _processor() -> str:
-    from llvmlite import binding
-
-    fused = "" if fuses() else ", without fused multiply-add: some fifteen times slower"
-    name, cores = binding.get_host_cpu_name(), os.cpu_count()
-    return f"{platform.machine()} {name}, {cores} cores, {register_width()} lanes{fused}"
+    slow = platform.machine().lower() in ("x86_64", "amd64") and rig.processor() == "v1"
+    fused = ", without fused multiply-add: some twenty times slower" if slow else ""
+    name, lanes = f"{platform.machine()} {rig.processor()}", rig.register_width()
+    return f"{name}, {os.cpu_count()} cores, {lanes} lanes{fused}"
 
 
 def _extras() -> Iterator[tuple[str, str]]:
@@ -112,9 +110,8 @@ def _cache(stops: KnownStops) -> Answer:
     found = user_cache.read("selftest", _TRIAL)
     if found == _TRIAL:
         return Answer("read back", "read back")
-    return Answer(
-        "read back", "nothing", "each run compiles again; set UICTEST_CACHE to a folder of your own"
-    )
+    words = "each run identifies compensations again; set UICTEST_CACHE to a folder of your own"
+    return Answer("read back", "nothing", words)
 
 
 def all_checks(stops: KnownStops) -> tuple[Check, ...]:

@@ -1,13 +1,10 @@
 """One sweep at a time works in a folder."""
 
-import sys
 from pathlib import Path
 
 import pytest
 
 from uictest.core.files import FolderLock
-
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such locks")
 
 SWEEP = """schema: uictest/scenario/1
 name: study

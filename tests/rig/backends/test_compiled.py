@@ -1,31 +1,27 @@
 """Plain Python and compiled code give the same bits."""
 
 from concurrent.futures import ThreadPoolExecutor
-from functools import cache, partial
-from pathlib import Path
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from uictest.controllers import CONTROLLERS
-from uictest.core.lanes import translate
-from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES, note_samples
-from uictest.core.physics.air import mass_flow, orifice_law
-from uictest.core.physics.arithmetic import exp, maximum
-from uictest.rig.backends.compiled import compiled_operations, sources, with_controllers
-from uictest.rig.backends.lane_stops import run_queue
-from uictest.rig.backends.plain import plain_stop
-from uictest.rig.backends.scalar import compiled_stop
-from uictest.rig.bench.step import run_bench_test
+from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
+from uictest.rig.backends.stops import compiled_rig
+from uictest.rig.model import controller as controllers
 from uictest.rig.model.controller import CHOICES, decide
+from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.rail import RAIL_MEMORY
+from uictest.rig.model.records import TrainRecords
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
-from uictest.rig.model.stop import run_stop
-from uictest.rig.single_stop import empty_trace
+from uictest.rig.model.trace import TRAIN_SAMPLE, Trace
+from uictest.rig.model.train import run_train
+from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
+from uictest.rig.train_stop import empty_trace
 
-from ...conftest import fma_as_written
-from ..plain_numbers import on_numbers
+from ..plain_numbers import run_on_numbers
 
 QUICK_BRAKE = {"dead_time": 0.0, "filling_rate": 20.0, "fill_conductance": 5e-7, "moving_speed": 0.5}
 FAULTS = (
@@ -145,27 +141,39 @@ SETTINGS = {
 }
 
 
-def everything(function, inputs, every):
+LAYOUTS = {
+    "cars": CAR,
+    "bogies": BOGIE,
+    "wheelsets": WHEELSET,
+    "memories": RAIL_MEMORY,
+    "measures": STOP_MEASURES,
+    "wheelset_measures": WHEELSET_MEASURES,
+}
+COUNTS = {"bogies": 2, "wheelsets": 4, "wheelset_measures": 4}
+
+
+def records_of(inputs):
+    """The records of a stop that has not begun."""
+    return TrainRecords(
+        **{name: np.zeros(COUNTS.get(name, 1), layout) for name, layout in LAYOUTS.items()},
+        parameters=np.array([inputs.parameters]),
+        wheelset_parameters=inputs.wheelset_parameters,
+        distances=np.zeros(1),
+        couplers=np.zeros(0, COUPLER),
+        rail=inputs.rail,
+    )
+
+
+def everything(run, inputs, every):
     """Bytes of all records and of the trace after a stop."""
-    layouts = {"car": CAR, "bogies": BOGIE, "wheelsets": WHEELSET}
-    layouts |= {"memory": RAIL_MEMORY, "measures": STOP_MEASURES, "wheelset measures": WHEELSET_MEASURES}
-    counts = (1, 2, 4, 1, 1, 4)
-    records = {name: np.zeros(n, layout) for n, (name, layout) in zip(counts, layouts.items(), strict=True)}
-    trace = empty_trace(inputs.parameters.cycles * inputs.parameters.steps_per_cycle + 1 if every else 0)
+    train, p = records_of(inputs), inputs.parameters
+    trace = empty_trace(1, p.cycles * p.steps_per_cycle + 1 if every else 0)
     for samples in trace:
         samples[...] = 0.0
-    car, bogies, wheelsets, memory, measures, wheelset_measures = records.values()
-    numbers = inputs.parameters, inputs.wheelset_parameters, inputs.rail
-    function(car[0], bogies, wheelsets, *numbers, memory[0], measures[0], wheelset_measures, trace, every)
-    return {name: record.tobytes() for name, record in records.items()} | {
+    run(train, trace, every)
+    return {name: getattr(train, name).tobytes() for name in LAYOUTS} | {
         "trace": trace.train.tobytes() + trace.wheelsets.tobytes()
     }
-
-
-@cache
-def stop_on_numbers():
-    """Return the stop in plain Python, on plain numbers."""
-    return partial(on_numbers, plain_stop())
 
 
 def fields_that_differ(layout, one, other):
@@ -181,14 +189,9 @@ def test_plain_and_compiled_code_give_the_same_bits(rig, setting):
         fields = {**fields, "cycles": 200}
     inputs = rig.inputs(*overrides, **fields)
     as_it_is = setting == "standstill on a dry rail"
-    plain = everything(plain_stop() if as_it_is else stop_on_numbers(), inputs, 1)
-    compiled = everything(compiled_stop(), inputs, 1)
-    for name, layout in (
-        ("car", CAR),
-        ("bogies", BOGIE),
-        ("wheelsets", WHEELSET),
-        ("measures", STOP_MEASURES),
-    ):
+    plain = everything(run_train if as_it_is else run_on_numbers(run_train), inputs, 1)
+    compiled = everything(compiled_rig(), inputs, 1)
+    for name, layout in LAYOUTS.items():
         assert fields_that_differ(layout, plain[name], compiled[name]) == []
     assert plain == compiled
 
@@ -233,43 +236,17 @@ def test_the_settings_reach_what_they_say(rig):
     assert used == CONTROLLERS.keys()
 
 
-def test_every_translated_function_decides_whether_code_is_compiled_anew():
-    """Else a change of its source would run the code of before."""
-    files = set()
-
-    def note(function):
-        files.add(Path(function.__code__.co_filename))
-        return function
-
-    with fma_as_written():
-        done = with_controllers(CHOICES, note, {})
-        for function in (run_stop, run_bench_test, run_queue, note_samples):
-            translate(function, note, done)
-    assert {f"{each.name.replace('-', '_')}.py" for each in CONTROLLERS.values()} < {
-        file.name for file in files
-    }
-    assert files <= set(map(Path, sources()))
-
-
-@pytest.mark.parametrize("controller", CHOICES, ids=lambda controller: controller.name)
-def test_the_number_of_a_controller_chooses_it(controller):
+@pytest.mark.parametrize("number", range(len(CHOICES)), ids=[each.name for each in CHOICES])
+def test_the_number_of_a_controller_chooses_it(number, monkeypatch):
     called = []
-    noting = {each.decide: _noting(called, each) for each in CHOICES}
-    chosen = with_controllers(CHOICES, lambda function: function, noting)[decide]
-    chosen(None, None, SimpleNamespace(controller=CHOICES.index(controller)))
-    assert called == [controller]
+    noting = [SimpleNamespace(decide=partial(_note, called, each.name)) for each in CHOICES]
+    monkeypatch.setattr(controllers, "CHOICES", noting)
+    decide(None, None, SimpleNamespace(controller=number))
+    assert called == [CHOICES[number].name]
 
 
-def _noting(called, controller):
-    def note(train, wheelsets, p):
-        called.append(controller)
-
-    return note
-
-
-def test_a_stop_made_without_a_controller_says_so(rig):
-    with pytest.raises(NotImplementedError, match="without a controller"):
-        everything(run_stop, rig.inputs(cycles=1), 0)
+def _note(called, name, *_):
+    called.append(name)
 
 
 SLIDING = ("rail.condition=wet", "rail.friction=0.08", "initial_speed=60 km/h")
@@ -293,7 +270,7 @@ def test_a_sparse_trace_is_part_of_a_dense_one(rig):
 def test_threads_do_not_disturb_each_other(rig):
     """The same stop in six places, and others beside it."""
     cases = [rig.inputs(*SLIDING, f"rail.friction={mu}") for mu in (0.08, 0.05, 0.08, 0.12, 0.08)]
-    compiled = compiled_stop()
+    compiled = compiled_rig()
     with ThreadPoolExecutor(4) as threads:
         jobs = [threads.submit(everything, compiled, inputs, 0) for inputs in cases * 2]
         ends = [job.result() for job in jobs]
@@ -311,32 +288,22 @@ def test_seed_and_case_change_the_noise_and_nothing_else_does(rig):
     assert np.all(speeds[0] != speeds[3])
 
 
-THROUGH_AN_ORIFICE = (8e5, 1e5, 1.0, 1.0, 1e-8, *orifice_law(0.35, 0.995))
-
-
-def test_translation_wraps_every_function_of_the_package_and_leaves_the_originals_alone():
-    wrapped = []
-
-    def note(function):
-        wrapped.append(function.__name__)
-        return function
-
-    with fma_as_written():
-        copy = translate(mass_flow, note, {})
-    of_fma = {"fma", "_exact_sum", "_lost", "_upper_half"}
-    assert set(wrapped) == {"mass_flow", "reduced_flow", "maximum", "minimum", "select", "sqrt"} | of_fma
-    assert copy is not mass_flow
-    assert copy(*THROUGH_AN_ORIFICE) == mass_flow(*THROUGH_AN_ORIFICE)
-    assert mass_flow.__globals__["maximum"] is maximum
-
-
-def test_translation_replaces_what_it_is_told_to_replace():
-    """With a larger maximum the pressure upstream is larger, and so is the flow."""
-    copy = translate(mass_flow, lambda function: function, {maximum: lambda a, b: 2.0 * max(a, b)})
-    assert copy(*THROUGH_AN_ORIFICE) > mass_flow(*THROUGH_AN_ORIFICE)
-
-
-def test_a_translation_leaves_nothing_behind_for_the_next():
-    operations = compiled_operations()
-    assert translate(exp, lambda function: function, operations) is operations[exp]
-    assert exp not in compiled_operations()
+@pytest.mark.parametrize(
+    ("name", "other"),
+    {
+        "cars": np.zeros(1, WHEELSET),
+        "wheelsets": np.zeros(2, WHEELSET),
+        "wheelset_parameters": np.zeros(1, WHEELSET_PARAMETERS),
+        "wheelset_measures": np.zeros(8, WHEELSET_MEASURES)[::2],
+        "rail": np.zeros((4, 2), np.float32),
+        "couplers": np.zeros(1, COUPLER),
+        "trace": Trace(np.zeros((1, 0), TRAIN_SAMPLE), np.zeros((1, 0, 4), TRAIN_SAMPLE)),
+    }.items(),
+)
+def test_another_layout_is_refused(rig, name, other):
+    """Machine code would read and write beyond it."""
+    train, trace = records_of(rig.inputs(cycles=1)), empty_trace(1, 0)
+    refused = (train, other) if name == "trace" else (train._replace(**{name: other}), trace)
+    with pytest.raises(TypeError, match="contiguous"):
+        compiled_rig()(*refused, 0)
+    assert compiled_rig()(train, trace, 0) == 0

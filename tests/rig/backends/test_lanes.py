@@ -3,20 +3,19 @@
 They stand in one file since most of what is compiled for lanes is the same for both.
 """
 
-import subprocess
-import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
-from uictest.rig.backends.lanes import longest_first, run_in_lanes
-from uictest.rig.backends.scalar import compiled_stop
+from uictest.rig.backends.lanes import _longest_first, run_in_lanes, run_trains_in_lanes
+from uictest.rig.backends.stops import compiled_rig
+from uictest.rig.kernel.library import WIDTHS, processors
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import FRICTIONS, ROWS
 from uictest.rig.model.wheelset_parameters import WHEELSET_PARAMETERS
-from uictest.rig.single_stop import run_to_end
+from uictest.rig.train_stop import run_to_end
 
 from .trains_in_lanes import ALL as ALL_TRAINS, Trains
 
@@ -109,16 +108,11 @@ VARIANTS = (
     (SANDERS, BLOCKED, CLEANED, "rail.friction=0.05"),
 )
 
-WITHOUT_COMPILER = """
-import sys
-sys.modules["numba"] = None
-from pathlib import Path
-import numpy as np
-from uictest.rig.backends.lanes import longest_first, run_in_lanes
-files = [Path(sys.argv[1], f"{name}.npy") for name in ("parameters", "wheelsets", "rail")]
-inputs = [np.load(file, max_header_size=100_000) for file in files]  # a header names all parameters
-print(run_in_lanes(*inputs).measures.tobytes().hex())
-"""
+EVERY_WIDTH = [
+    pytest.param(WIDTHS[level], marks=[pytest.mark.slow] if level != processors()[-1] else [])
+    for level in processors()
+]
+"""The code without fused multiply-add, of two lanes, takes five times as long."""
 
 
 class Batch:
@@ -138,7 +132,7 @@ class Batch:
             self.parameters[number] = parameters
             self.wheelsets[number] = wheelsets
             self.rail[number, :, : rail.shape[1]] = rail
-        self.alone = [run_to_end(compiled_stop(), case) for case in cases]
+        self.alone = [run_to_end(compiled_rig(), case) for case in cases]
 
     def in_lanes(self, numbers, width=None):
         chosen = list(numbers)
@@ -171,9 +165,7 @@ def test_the_cases_differ_in_what_they_do(batch):
     assert len(set(batch.parameters["steps_per_cycle"])) == 2
 
 
-@pytest.mark.parametrize(
-    "width", [None, 4, 8, pytest.param(2, marks=pytest.mark.slow), pytest.param(16, marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize("width", EVERY_WIDTH)
 def test_a_lane_of_any_number_of_them_gives_the_bits_of_a_stop_alone(batch, width):
     assert batch.is_as_alone(ALL, batch.in_lanes(ALL, width))
 
@@ -198,32 +190,14 @@ def test_parameters_and_friction_laws_are_only_read(batch):
     assert [each.tobytes() for each in inputs] == before
 
 
-def test_a_warm_start_needs_no_compiler(batch, tmp_path):
-    warm = batch.in_lanes([0, 1])
-    for name in ("parameters", "wheelsets", "rail"):
-        np.save(tmp_path / f"{name}.npy", getattr(batch, name)[:2], allow_pickle=False)
-    done = subprocess.run(
-        [sys.executable, "-c", WITHOUT_COMPILER, tmp_path], capture_output=True, text=True, check=False
-    )
-    assert done.stdout.strip() == warm.measures.tobytes().hex(), done.stderr
-
-
-def test_the_compiler_is_loaded_only_for_a_batch():
-    code = (
-        "import sys, uictest.rig.backends.lanes; "
-        "sys.exit('numba' in sys.modules or 'llvmlite' in sys.modules)"
-    )
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
-
-
 def test_stops_that_should_take_longest_begin_first():
     """From a high speed or on a slippery rail; a rail that is better than needed shortens none."""
     parameters, rail = np.zeros(4, PARAMETERS), np.zeros((4, ROWS, 2))
     parameters["initial_speed"] = 20.0, 20.0, 40.0, 20.0
     rail[:, FRICTIONS] = np.array([0.3, 0.06, 0.3, 0.2])[:, None]
-    order = longest_first(parameters, rail, np.array([0, 1, 2, 3]))
+    order = _longest_first(parameters, rail, np.array([0, 1, 2, 3]))
     assert order.tolist() == [1, 2, 0, 3]
-    assert longest_first(parameters, rail, np.array([0, 3, 1])).tolist() == [1, 0, 3]
+    assert _longest_first(parameters, rail, np.array([0, 3, 1])).tolist() == [1, 0, 3]
 
 
 @pytest.fixture(name="trains", scope="module")
@@ -240,7 +214,7 @@ def test_the_trains_differ_in_what_they_do(trains):
     assert min(shares) == 0.0 < max(shares)
 
 
-@pytest.mark.parametrize("width", [None, pytest.param(2, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("width", EVERY_WIDTH)
 def test_a_train_in_a_lane_has_the_bits_of_a_train_alone(trains, width):
     assert trains.are_as_alone(ALL_TRAINS, width)
 
@@ -274,9 +248,10 @@ def test_inputs_of_trains_are_only_read(trains):
     assert content() == before
 
 
-def test_the_compiler_is_loaded_only_for_trains():
-    code = (
-        "import sys; from uictest.rig import run_trains_in_lanes; "
-        "sys.exit('numba' in sys.modules or 'llvmlite' in sys.modules or run_trains_in_lanes([]) != [])"
-    )
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+def test_no_trains_are_run():
+    assert run_trains_in_lanes([]) == []
+
+
+def test_a_width_that_no_register_has_is_refused(batch):
+    with pytest.raises(ValueError, match=r"^3 lanes: on this processor it is 2(, 4)?(, 8)?$"):
+        batch.in_lanes([0], 3)

@@ -9,10 +9,10 @@ from uictest.controllers import FORBIDDEN_COMMAND, NO_FAILURE, NO_MAGNET_STATE
 from uictest.core.record import fields_of
 from uictest.plans.scenario import load
 from uictest.rig.assembly import assemble
-from uictest.rig.backends.scalar import compiled_stop
-from uictest.rig.backends.stepped import SteppedStop
+from uictest.rig.backends.stepped import SteppedTrain
+from uictest.rig.backends.stops import compiled_rig
 from uictest.rig.model.state import Car, Wheelset
-from uictest.rig.single_stop import run_to_end
+from uictest.rig.train_stop import alone, run_to_end
 
 from ...stop_bits import stop_bits
 
@@ -33,13 +33,14 @@ VARIANTS = {
 
 
 def stepped_to_end(case, outside, every):
-    stop, controller = SteppedStop(assemble(case), every), outside(case)
-    exchange = stop.exchange
+    stop, controller = SteppedTrain(alone(assemble(case)), every), outside(case)
+    [exchange] = stop.memory["exchange"]
     while not stop.has_ended:
         exchange["hold"], exchange["vent"] = controller.magnets(exchange["wheel_speed"].tolist())
         exchange["reference_speed"] = controller.reference_speed
         stop.step()
-    return stop.finished()
+    [finished] = stop.finished()
+    return finished
 
 
 def assert_same(stepped, run):
@@ -60,13 +61,13 @@ def own_states():
 
 
 def assert_bits_of_run(case, outside, every):
-    run = run_to_end(compiled_stop(), assemble(case), every)
+    run = run_to_end(compiled_rig(), assemble(case), every)
     assert_same(stepped_to_end(case, outside, every), run)
 
 
 def test_every_shipped_stop_has_the_bits_of_run(scenarios, controller_outside):
-    alone = [case for case in scenarios if case.train is None]
-    for number, case in enumerate(alone):
+    single = [case for case in scenarios if case.train is None]
+    for number, case in enumerate(single):
         assert_bits_of_run(case, controller_outside, every=0 if number % 5 else 7)
 
 
@@ -78,13 +79,13 @@ def test_other_parts_of_the_rig_have_the_bits_of_run(name, controller_outside):
 
 def test_a_stop_ends_after_its_longest_duration(rig):
     inputs = rig.inputs("rig.wsp=bypassed", cycles=50)
-    stop, steps = SteppedStop(inputs), 0
+    stop, steps = SteppedTrain(alone(inputs)), 0
     while not stop.has_ended:
         stop.step()
         steps += 1
     assert steps == 50
-    run = run_to_end(compiled_stop(), inputs)
-    ours, theirs = (stop_bits(each.measures, each.wheelset_measures) for each in (stop.finished(), run))
+    run = run_to_end(compiled_rig(), inputs)
+    ours, theirs = (stop_bits(each.measures, each.wheelset_measures) for each in (*stop.finished(), run))
     assert ours == theirs
 
 
@@ -92,12 +93,12 @@ def test_the_present_state_is_that_of_the_recording(rig):
     """Sampled at the end of each cycle, after the sensors were read for the next one."""
     inputs = rig.inputs("rail.condition=wet", "rail.friction=0.06", cycles=150)
     steps = int(inputs.parameters["steps_per_cycle"])
-    stop = SteppedStop(inputs, steps)
+    stop = SteppedTrain(alone(inputs), steps)
     states = [stop.memory["train"].copy()]
     while not stop.has_ended:
         stop.step()
         states.append(stop.memory["train"].copy())
-    recorded = stop.finished().trace.train
+    recorded = stop.finished()[0].trace.train
     for name in ("time", "distance", "speed", "brake_line_pressure"):
         assert np.concatenate(states)[name].tobytes() == recorded[name].tobytes()
 
@@ -107,22 +108,22 @@ def test_the_present_state_is_that_of_the_recording(rig):
     [(0, 1, FORBIDDEN_COMMAND), (2, 0, NO_MAGNET_STATE), (0, -1, NO_MAGNET_STATE)],
 )
 def test_a_command_that_no_valve_has_moves_nothing(rig, hold, vent, failure):
-    stop, other = (SteppedStop(rig.inputs(cycles=20)) for _ in range(2))
-    stop.exchange["hold"][2], stop.exchange["vent"][2] = hold, vent
+    stop, other = (SteppedTrain(alone(rig.inputs(cycles=20))) for _ in range(2))
+    stop.memory["exchange"][0]["hold"][2], stop.memory["exchange"][0]["vent"][2] = hold, vent
     stop.step()
-    assert stop.exchange["failure"] == failure
-    assert stop.exchange["failed_wheelset"] == 2
-    stop.exchange["hold"], stop.exchange["vent"] = 0, 0
+    assert stop.memory["exchange"][0]["failure"] == failure
+    assert stop.memory["exchange"][0]["failed_wheelset"] == 2
+    stop.memory["exchange"][0]["hold"], stop.memory["exchange"][0]["vent"] = 0, 0
     for each in (stop, other):
         while not each.has_ended:
             each.step()
-    assert stop.exchange["failure"] == NO_FAILURE
-    assert stop.finished().measures.tobytes() == other.finished().measures.tobytes()
+    assert stop.memory["exchange"][0]["failure"] == NO_FAILURE
+    assert stop.finished()[0].measures.tobytes() == other.finished()[0].measures.tobytes()
 
 
 def test_a_copy_of_the_memory_is_a_copy_of_the_stop(rig):
     """It holds no address, so that a tool can go back to an earlier state."""
-    stop = SteppedStop(rig.inputs("rail.condition=wet", "rail.friction=0.06", cycles=60))
+    stop = SteppedTrain(alone(rig.inputs("rail.condition=wet", "rail.friction=0.06", cycles=60)))
     for _ in range(30):
         stop.step()
     kept = stop.memory.copy()

@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 
-from uictest.rig.assembly import assemble
-from uictest.rig.backends.stepped import SteppedStop
-from uictest.rig.backends.stepped_train import SteppedTrain
+from uictest.rig.backends.stepped import SteppedTrain
 from uictest.rig.coupled_cars import run_coupled
 from uictest.rig.train_inputs import assemble_train
 
@@ -54,26 +52,6 @@ def test_a_train_has_the_bits_of_run(rig, controller_outside, name):
         assert one == other
         for one, other in zip(ours.trace, theirs.trace, strict=True):
             assert one.tobytes() == other.tobytes()
-
-
-def test_a_train_of_one_car_has_the_bits_of_a_car_alone(rig, controller_outside):
-    case = rig.case(SLOW, *CLEANED, SANDER)
-    train, alone = SteppedTrain(assemble_train([case], COUPLED), 3), SteppedStop(assemble(case), 3)
-    controllers = controller_outside(case), controller_outside(case)
-    while not alone.has_ended:
-        assert train.inputs[0].tobytes() == alone.inputs.tobytes()
-        for name in ("train", "modules"):
-            assert train.memory[name][0].tobytes() == alone.memory[name].tobytes()
-        for stop, outputs, controller in zip(
-            (train, alone), (train.outputs[0], alone.outputs), controllers, strict=True
-        ):
-            outputs["hold"], outputs["vent"] = controller.magnets(alone.inputs["wheel_speed"].tolist())
-            outputs["reference_speed"] = controller.reference_speed
-            stop.step()
-    assert train.has_ended and train.stands
-    for one, other in ((train.finished()[0], alone.finished()),):
-        assert one.measures.tobytes() == other.measures.tobytes()
-        assert one.trace.wheelsets.tobytes() == other.trace.wheelsets.tobytes()
 
 
 @pytest.mark.parametrize("car", [0, 2])

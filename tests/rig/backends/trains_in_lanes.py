@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from uictest.rig.backends.train_lanes import run_trains_in_lanes
+from uictest.rig.backends.lanes import run_trains_in_lanes
 from uictest.rig.coupled_cars import run_coupled
 from uictest.rig.train_inputs import Coupling, assemble_train
 

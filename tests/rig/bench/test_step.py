@@ -16,7 +16,7 @@ from uictest.rig.bench.inputs import (
 )
 from uictest.rig.bench.recipe import load_bench, recipe_path
 from uictest.rig.bench.run import run_bench
-from uictest.rig.bench.step import BENCH_CHANNELS, BenchRig, run_bench_test
+from uictest.rig.bench.step import BENCH_CHANNELS, run_bench_test
 from uictest.rig.simulation import simulate
 
 from ..plain_numbers import on_numbers
@@ -43,11 +43,8 @@ def pulled(case, clock):
 
 def run_on_numbers(rig, demanded_pressures, valve_commands, trace):
     """Run the bench in plain Python."""
-
-    def run(trace, *of_rig):
-        run_bench_test(BenchRig(*of_rig), demanded_pressures.tolist(), valve_commands.tolist(), trace)
-
-    on_numbers(run, trace, *rig)
+    inputs = demanded_pressures.tolist(), valve_commands.tolist()
+    on_numbers(run_bench_test, rig, *inputs, trace, trace=trace)
 
 
 def test_plain_and_compiled_bench_give_the_same_bits(case, clock):

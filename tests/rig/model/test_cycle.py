@@ -5,7 +5,9 @@ import pytest
 
 from uictest.core.physics.valves import FILL, HOLD, VENT
 from uictest.rig.model.cycle import command_valves, read_sensors, start_cycle
-from uictest.rig.model.step import step
+from uictest.rig.model.records import needs_of
+
+from ..plain_numbers import step
 
 
 def scripted(commands):
@@ -97,9 +99,9 @@ def test_every_sensor_has_noise_of_its_own(rig, bench):
     parameters, rail = rig.parameters()
     rolling = bench(parameters)
     undecided = scripted([])
-    noise = []
+    noise, all_sensors = [], needs_of(rolling.p)._replace(calipers=True, line_pressure=True)
     for _ in range(400):
-        read_sensors(rolling.car, rolling.wheelsets, rolling.p)
+        read_sensors(rolling.car, rolling.wheelsets, rolling.p, all_sensors)
         undecided(rolling.car, rolling.wheelsets, rolling.p, rail)
         command_valves(rolling.car, rolling.wheelsets, rolling.p)
         modules = [(w.measured_speed, w.pressure_error, w.loadcell_error) for w in rolling.wheelsets]

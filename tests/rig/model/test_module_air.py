@@ -6,11 +6,11 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from uictest.rig.backends.scalar import compiled_stop
+from uictest.rig.backends.stops import compiled_rig
 from uictest.rig.model.clamping import step_clamping
 from uictest.rig.model.module_air import follow_tanks, read_line_pressure
 from uictest.rig.model.pneumatics import step_air
-from uictest.rig.single_stop import run_to_end
+from uictest.rig.train_stop import run_to_end
 
 EXACT = {f"pressure_{error}": 0.0 for error in ("gain_error", "offset", "noise")} | {
     # A converter so fine that it does not show.
@@ -163,7 +163,7 @@ def test_what_is_modelled_beside_calipers_is_read_by_nothing(rig):
     def measures(topology, exchange):
         overrides = ("rig.compensation=thermal", f"rig.topology={topology}", "initial_speed=20 km/h")
         inputs = rig.inputs(*overrides, modelled_exchange=exchange, noise_key=1)
-        outcome = run_to_end(compiled_stop(), inputs)
+        outcome = run_to_end(compiled_rig(), inputs)
         return outcome.measures.tobytes() + outcome.wheelset_measures.tobytes()
 
     assert measures("four-caliper", 1.0) == measures("four-caliper", 1e-3)

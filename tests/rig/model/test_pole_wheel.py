@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from uictest.rig.model.cycle import read_pole_wheels, read_sensors
+from uictest.rig.model.cycle import read_sensors
+from uictest.rig.model.records import needs_of
 
 EXACT = {"speed_noise": 0.0, "timer_resolution": 1e-12}
 COUNTING = "rig.sensors.speed.method=whole-teeth"
@@ -23,8 +24,7 @@ class Turning:
                 wheelset.rotation = speed_at(float(time)) / wheelset.wheel_radius
                 wheelset.angle = distance_at(float(time)) / wheelset.wheel_radius
             bench.car.cycle, bench.car.time = cycle, float(time)
-            read_sensors(bench.car, bench.wheelsets, bench.p)
-            read_pole_wheels(bench.car, bench.wheelsets, bench.p)
+            read_sensors(bench.car, bench.wheelsets, bench.p, needs_of(bench.p))
             rows.append([(w.measured_speed, w.tooth_time) for w in bench.wheelsets])
         self.readings = np.array(rows)[:, :, 0]
         self.ages = self.times[:, None] - np.array(rows)[:, :, 1]
@@ -53,7 +53,7 @@ def test_a_gain_error_is_one_of_every_reading(rig, bench):
     turning = Turning(counting(rig, bench, high), *steady(7.0), 50)
     np.testing.assert_allclose(turning.readings, 7.0 * 1.02, rtol=1e-8)
     momentary = bench(rig.parameters(high, **EXACT)[0])
-    read_sensors(momentary.car, momentary.wheelsets, momentary.p)
+    read_sensors(momentary.car, momentary.wheelsets, momentary.p, needs_of(momentary.p))
     assert momentary.wheelsets[0].measured_speed == pytest.approx(1.02 * momentary.p.initial_speed, rel=1e-6)
 
 

@@ -8,13 +8,14 @@ import pytest
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from uictest.core.lanes import translate
 from uictest.core.physics.polach import force_and_slope
+from uictest.core.translation import translate
 from uictest.rig.model.balance import stored_energy
 from uictest.rig.model.clamping import step_clamping
 from uictest.rig.model.pneumatics import step_air
 from uictest.rig.model.slip_search import HIGHEST_LOAD, bracket_slip
-from uictest.rig.model.step import step
+
+from ..plain_numbers import step
 
 Array = NDArray[np.float64]
 CREEP_DAMPING = 5e4

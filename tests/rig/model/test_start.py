@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from uictest.rig.model.step import step
+from ..plain_numbers import step
 
 NO_RESISTANCE = {"resistance_constant": 0.0, "resistance_linear": 0.0, "resistance_quadratic": 0.0}
 

@@ -76,7 +76,7 @@ def worst_table(rows: Sequence[Mapping[str, Any]]) -> report.CampaignTable:
 def event_row(event: LoggedEvent, place: float = math.nan) -> dict[str, Cell]:
     """Return where an application of the brake lies in its log, and why it is no stop."""
     return {
-        "file": str(event.file),
+        "file": event.file.as_posix(),
         "sample": event.row + 1,
         "clock": clock_text(event.time),
         "time_s": event.time,

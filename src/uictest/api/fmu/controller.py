@@ -1,36 +1,35 @@
-"""A controller as an FMU: its variables, and what they become in the functions of `uictest_controller.h`."""
+"""A controller as an FMU: its variables, and what they become for the controller."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from html import escape
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from uictest import __version__
-from uictest.api.fmu.building import archive_of, token_of
+from uictest import __version__, rig
+from uictest.api.fmu.binaries import SYSTEMS
+from uictest.api.fmu.building import archive_of
 from uictest.api.fmu.description import FmiVersion, Model, page, table, table_of_variables
 from uictest.api.fmu.exported import Exported, NotExportableError, Parameter, exported, parameter_of
-from uictest.api.fmu.variables import Variable, c_words, model_header, of_wheelsets, place_of
-from uictest.controllers import CONTROLLERS, DEFAULT, HEADER, INPUTS, OUTPUTS, Config, ControllerProgram
+from uictest.api.fmu.resource import Content
+from uictest.api.fmu.variables import Variable, of_wheelsets
+from uictest.controllers import CONTROLLERS, DEFAULT, EXCHANGE, Config, ControllerProgram
 from uictest.plans import scenario
-
-_LIBRARY: Final = "controller.so"
-"""The controller, beside the shared library of the FMU."""
 
 
 def _input(name: str, description: str, unit: str = "", *, truth: str = "") -> Variable:
     kind, start = ("boolean", truth) if truth else ("real", "0.0")
-    return Variable(name, f"inputs.{name}", description, unit, kind, "input", start=start)  # type: ignore[arg-type]
+    return Variable(name, f"exchange.{name}", description, unit, kind, "input", start=start)  # type: ignore[arg-type]
 
 
 def _output(name: str, description: str, unit: str = "", kind: Any = "boolean") -> Variable:
-    return Variable(name, f"outputs.{name}", description, unit, kind)
+    return Variable(name, f"exchange.{name}", description, unit, kind)
 
 
 VARIABLES: Final = (
@@ -75,25 +74,27 @@ class ControllerFmu(NamedTuple):
     notes: tuple[str, ...]
 
 
-def build_controller_fmu(part: Any, version: FmiVersion, compiler: str) -> ControllerFmu:
+def build_controller_fmu(
+    part: Any, version: FmiVersion, libraries: Mapping[str, bytes] | None = None
+) -> ControllerFmu:
     """Return the controller of a scenario as an FMU.
 
     Args:
         part: the controller.
         version: of FMI.
-        compiler: as :func:`~uictest.api.fmu.usable_compiler` gives it.
+        libraries: as :func:`~uictest.api.fmu.compiled` gives them; None: the part's own, for this system.
 
     Raises:
         NotExportableError: it is of a kind that cannot be exported, or has a parameter that cannot.
+        CannotBuildError: this package has no library of FMUs, or no FMU can run a library of this system.
         ControllerError: its library cannot be loaded, or creates no controller.
-        RuntimeError: the compiler failed; the message is its own.
     """
     vehicle: Any = scenario.load_part("vehicles/intercity-180")
     radii = (float(vehicle.wheelset.radius),) * 4
     config = Config(4, float(part.cycle_time), 0.0, radii, getattr(part, "parameters", {}))
-    controller = exported(part, config, compiler)
+    controller = exported(part, config, libraries)
     return ControllerFmu(
-        _fmu(part.label, controller, config, version, compiler), tuple(_notes(part.program, controller))
+        _fmu(part.label, controller, config, version), tuple(_notes(part.program, controller))
     )
 
 
@@ -101,67 +102,109 @@ def _notes(program: ControllerProgram | None, controller: Exported) -> Iterator[
     for each in controller.parameters:
         if not each.is_variable:
             yield f"the parameter {each.name} is no number: it cannot be set in the FMU"
+    if controller.libraries and len(controller.libraries) < len(SYSTEMS):
+        yield (
+            f"the FMU is for {' and '.join(controller.libraries)} alone; from its C sources, with ziglang"
+            f" installed, it is for {', '.join(SYSTEMS)}"
+        )
     folder = str(Path(program.location).parent) if program is not None else "/"
-    if folder != "/" and folder.encode() in controller.library:
+    if folder != "/" and any(folder.encode() in each for each in controller.libraries.values()):
         yield f"the library holds the name of the folder {folder}: build it without -g, or use `strip -g`"
 
 
-def _fmu(name: str, controller: Exported, config: Config, version: FmiVersion, compiler: str) -> bytes:
-    paths = {each.name: f"parameter_{place}" for place, each in enumerate(controller.parameters)}
-    memory = np.dtype(
-        [
-            *(("inputs", INPUTS), ("outputs", OUTPUTS), ("time", "f8")),
-            *(("cycle_time", "f8"), ("initial_speed", "f8"), ("wheel_radius", "f8", 4)),
-            *((path, "f8") for path in paths.values()),
-        ]
-    )
-    variables = _variables(controller, config, paths)
-    given = _given_header(controller, config, memory, paths)
-    about = f"{version} {name} {controller.version} {variables} {given}"
+def _fmu(name: str, controller: Exported, config: Config, version: FmiVersion) -> bytes:
+    paths = _paths_of_parameters(controller)
+    start = _start(controller, config, paths)
     model = Model(
         name=f"controller {name}",
         identifier=re.sub(r"\W", "_", f"controller_{name}", flags=re.ASCII),
-        token=token_of(about.encode(), controller.library),
         description=f"Wheel-slide-protection controller {name}",
         version=controller.version,
-        variables=variables,
+        variables=_variables(controller, config, paths),
+        can_save=not controller.libraries,
     )
+    libraries = {
+        f"resources/{SYSTEMS[system].folder}/controller.{SYSTEMS[system].suffix}": library
+        for system, library in controller.libraries.items()
+    }
     return archive_of(
         model,
         version,
-        compiler,
-        sources=["controller.c"],
-        generated={
-            "model.h": model_header(model.token, memory, variables, _PLACES, can_save=False).encode(),
-            "given.h": given.encode(),
-            HEADER.name: HEADER.read_bytes(),
-        },
-        inputs=["-ldl"],
-        beside={_LIBRARY: controller.library},
-        others={"documentation/index.html": _page(model, controller)},
+        _content(controller, start, paths),
+        {**libraries, "documentation/index.html": _page(model, libraries)},
+        controller.libraries or SYSTEMS,
     )
 
 
-_PLACES: Final = {
-    "INPUTS_AT": "inputs",
-    "OUTPUTS_AT": "outputs",
-    "TIME_AT": "time",
-    "CYCLE_TIME_AT": "cycle_time",
-    "INITIAL_SPEED_AT": "initial_speed",
-    "WHEEL_RADIUS_AT": "wheel_radius",
+_OUTSIDE: Final[Any] = np.dtype(
+    [("exchange", EXCHANGE), ("parameters", [("cycle_time", "f8"), ("initial_speed", "f8")])]
+)
+"""What an instance remembers of a controller in a library, which has a memory of its own."""
+_PATHS: Final = {
+    "exchange": "exchange",
+    "time": "time",
+    "cycle_time": "parameters.cycle_time",
+    "initial_speed": "parameters.initial_speed",
+    "wheel_radius": "wheel_radius",
 }
-"""Name in C -> field of the memory of an instance."""
+"""Name of a place -> path in the memory of an instance."""
 
 
-def _variables(controller: Exported, config: Config, paths: dict[str, str]) -> tuple[Variable, ...]:
+def _paths_of_parameters(controller: Exported) -> dict[str, str]:
+    """Return where the parameters lie in the memory of an instance."""
+    if not controller.libraries:
+        return {each.name: f"parameters.{each.name}" for each in controller.parameters}
+    own = (each for each in controller.parameters if each.is_variable)
+    return {each.name: f"parameter_{place}" for place, each in enumerate(own)}
+
+
+def _start(controller: Exported, config: Config, paths: Mapping[str, str]) -> Any:
+    """Return the memory of an instance before anybody sets a variable."""
+    own = _OUTSIDE if controller.libraries else rig.CONTROLLER_MEMORY
+    fields = [(name, own[name]) for name in own.names]
+    numbers = [path for path in paths.values() if path.startswith("parameter_")]
+    others = [("time", "f8"), ("wheel_radius", "f8", 4), *((path, "f8") for path in numbers)]
+    start = np.zeros(1, [*fields, *others])
+    start["exchange"]["speed_valid"], start["exchange"]["reference_speed"] = 1, np.nan
+    start["wheel_radius"] = config.wheel_radius
+    parameters = start["parameters"]
+    parameters["cycle_time"], parameters["initial_speed"] = config.cycle_time, config.initial_speed
+    if controller.algorithm:
+        names = [each.name for each in rig.CHOICES]
+        parameters["controller"] = names.index(controller.algorithm)
+    for each in controller.parameters:
+        if each.is_variable:
+            folder, _, name = paths[each.name].rpartition(".")
+            (start[folder] if folder else start)[name] = each.value
+    return start
+
+
+def _content(controller: Exported, start: Any, paths: Mapping[str, str]) -> Content:
+    if controller.libraries:
+        return Content("library", start, _PATHS, json=[*_json(controller, paths)])
+    given = tuple(start[0][name] for name in rig.CONTROLLER_MEMORY.names)
+    return Content("built_in", start, _PATHS, [*rig.placed(rig.ALONE.arguments, given, start)])
+
+
+def _json(controller: Exported, paths: Mapping[str, str]) -> Iterator[tuple[str, str, str]]:
+    """Yield the parameters as the library writes them into the JSON object that the controller is given."""
+    for each in controller.parameters:
+        key = f"{json.dumps(each.name)}: "
+        if each.is_variable:
+            yield "truth" if isinstance(each.value, bool) else "number", key, paths[each.name]
+        else:
+            yield "fixed", key + json.dumps(each.value), ""
+
+
+def _variables(controller: Exported, config: Config, paths: Mapping[str, str]) -> tuple[Variable, ...]:
     cycle_time = CONTROLLERS[DEFAULT].declared_parameters()["cycle_time"]
     speed = Parameter("initial_speed", config.initial_speed, "m/s", None, "Of the train at the brake command")
     radius = Parameter("wheel_radius", config.wheel_radius[0], "m", None, "That its speed is computed with")
     variables = (
         *VARIABLES,
         *(VARIABLES_2 if controller.contract > 1 else ()),
-        speed.variable("initial_speed"),
-        parameter_of("cycle_time", config.cycle_time, cycle_time).variable("cycle_time"),
+        speed.variable(_PATHS["initial_speed"]),
+        parameter_of("cycle_time", config.cycle_time, cycle_time).variable(_PATHS["cycle_time"]),
         *of_wheelsets(radius.variable("wheel_radius")),
     )
     own = [each for each in controller.parameters if each.is_variable]
@@ -170,38 +213,9 @@ def _variables(controller: Exported, config: Config, paths: dict[str, str]) -> t
     return (*variables, *(each.variable(paths[each.name]) for each in own))
 
 
-def _given_header(controller: Exported, config: Config, memory: Any, paths: dict[str, str]) -> str:
-    """Return `given.h`: the memory at the start, and what becomes of it in the controller's JSON."""
-    start = np.zeros(1, memory)
-    start["inputs"]["speed_valid"], start["outputs"]["reference_speed"] = 1, np.nan
-    for name in ("cycle_time", "initial_speed", "wheel_radius"):
-        start[name] = getattr(config, name)
-    rows = []
-    for each in controller.parameters:
-        key = f"{json.dumps(each.name)}: "
-        if each.is_variable:
-            start[paths[each.name]] = each.value
-            form = "TRUTH" if isinstance(each.value, bool) else "NUMBER"
-            rows.append((form, key, place_of(memory, paths[each.name])[0]))
-        else:
-            rows.append(("FIXED", key + json.dumps(each.value), 0))
-    lines = [
-        f'#define LIBRARY "{_LIBRARY}"',
-        f"#define LONGEST_JSON {sum(len(text) + _LONGEST_NUMBER for _, text, _ in rows) + len('{}') + 1}",
-        *c_words("START", start),
-        "#define GIVEN_ROWS \\",
-        *(f"    {{{form}, {json.dumps(text)}, {offset}}}, \\" for form, text, offset in rows),
-        '    {END, "", 0}',
-    ]
-    return "".join(f"{line}\n" for line in lines)
-
-
-_LONGEST_NUMBER: Final = len(", -1.2345678901234567e-300")
-
-
-def _page(model: Model, controller: Exported) -> bytes:
-    digest = hashlib.sha256(controller.library).hexdigest()
-    facts = (("version", controller.version), ("exported by", f"uictest {__version__}"), (_LIBRARY, digest))
+def _page(model: Model, libraries: Mapping[str, bytes]) -> bytes:
+    digests = ((name, hashlib.sha256(library).hexdigest()) for name, library in libraries.items())
+    facts = (("version", model.version), ("exported by", f"uictest {__version__}"), *digests)
     note = (
         "Each step is a controller cycle, as long as the parameter cycle_time says: the inputs are read, and"
         " the outputs are the answer to them. Set initial_speed and the wheel radii to those of the train."

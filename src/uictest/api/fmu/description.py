@@ -35,10 +35,10 @@ class Model:
     Attributes:
         name: for people.
         identifier: name of the shared library, an identifier of C.
-        token: ties the model description to the shared library.
         description: one line.
         version: of what is modelled, empty if not known.
         variables: in the order of their value references, from 0.
+        token: ties the model description to what the shared library reads; empty until that is known.
         cycle_time: the only communication step, s; None where a parameter states it.
         longest: longest duration of a simulation, s; None for any.
         can_save: whether the state can be saved and restored.
@@ -46,10 +46,10 @@ class Model:
 
     name: str
     identifier: str
-    token: str
     description: str
     version: str
     variables: Sequence[Variable]
+    token: str = ""
     cycle_time: float | None = None
     longest: float | None = None
     can_save: bool = False

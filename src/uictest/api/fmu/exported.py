@@ -1,27 +1,24 @@
-"""A controller that is exported: a library with the functions of `uictest_controller.h`, and its parameters.
-
-A library is taken as it is, C sources are compiled to one, a built-in controller is linked from machine code.
+"""A controller that is exported: libraries with the functions of `uictest_controller.h` or one that is built
+in, and its parameters.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from uictest import __version__, rig
-from uictest.api.fmu.building import SOURCES, link
-from uictest.api.fmu.variables import Variable, place_of
+from uictest.api.fmu.compiling import this_system
+from uictest.api.fmu.variables import Variable
 from uictest.controllers import (
     CONTROLLERS,
-    HEADER,
     INPUTS,
     Config,
-    Controller,
     ControllerError,
     DeclaredParameter,
     parameter_problems,
@@ -31,9 +28,6 @@ from uictest.controllers import (
 from uictest.core import files
 from uictest.core.units import KINDS
 from uictest.plans.scenario.yaml import parse_quantity
-
-_TARGET: Final = rig.Target("x86-64", in_library=True)
-"""Every x86-64 processor: controllers have no operation that newer ones do otherwise."""
 
 
 class NotExportableError(Exception):
@@ -70,43 +64,40 @@ class Parameter(NamedTuple):
 
 
 class Exported(NamedTuple):
-    """What is exported."""
+    """What is exported: libraries by the names of their systems, or a built-in one by its name."""
 
-    library: bytes
+    libraries: Mapping[str, bytes]
     version: str
     parameters: tuple[Parameter, ...]
     contract: int
+    algorithm: str = ""
 
 
-def library_of_sources(compiler: str, sources: Sequence[Path]) -> bytes:
-    """Return the shared library of a controller's C sources. Raises RuntimeError as the compiler says."""
-    paths = [each.resolve() for each in sources]
-    folders = dict.fromkeys((*(path.parent for path in paths), HEADER.parent))
-    includes = [f"-I{folder}" for folder in folders]
-    # An `assert` holds the name of its file: without the folders of this machine.
-    names = [f"-ffile-prefix-map={folder}=." for folder in folders]
-    return link(compiler, {}, ["-ffp-contract=off", *includes, *names, *map(str, paths), "-lm"])
-
-
-def exported(part: Any, config: Config, compiler: str) -> Exported:
+def exported(part: Any, config: Config, libraries: Mapping[str, bytes] | None) -> Exported:
     """Return the controller of a scenario as it is exported.
+
+    Args:
+        part: the controller.
+        config: what it is given while it is asked for its parameters.
+        libraries: as :func:`~uictest.api.fmu.compiled` gives them; None: the part's own, for this system.
 
     Raises:
         NotExportableError: it is of a kind that cannot be exported.
+        CannotBuildError: no FMU can run a library of this system.
         ControllerError: its library cannot be loaded, or creates no controller.
-        RuntimeError: the compiler failed; the message is its own.
     """
     if part.program is None:
-        return _built_in(part, compiler)
+        return _built_in(part)
     if part.program.kind == "library":
-        return _in_library(part, config)
+        own = libraries or {this_system(): Path(part.program.location).read_bytes()}
+        return _in_library(part, config, own)
     raise NotExportableError(
         f"a {part.tag} cannot be exported; accepted: a shared library (.so) or a part that names one, C"
         f" sources (.c), and the built-in controllers {', '.join(sorted(CONTROLLERS))}"
     )
 
 
-def _in_library(part: Any, config: Config) -> Exported:
+def _in_library(part: Any, config: Config, libraries: Mapping[str, bytes]) -> Exported:
     """Ask a library for its version and parameters; it creates one controller, in a child process."""
     path = Path(part.program.location)
     with files.temporary_folder() as folder, rig.Workers() as workers:
@@ -125,7 +116,7 @@ def _in_library(part: Any, config: Config) -> Exported:
         about = (each.unit, tuple(each.range) if each.range else None, each.description) if each else ()
         parameters.append(Parameter(name, value, *about))
     version = part.version or shown_version(said.version)
-    return Exported(path.read_bytes(), version, tuple(parameters), said.contract)
+    return Exported(libraries, version, tuple(parameters), said.contract)
 
 
 def parameter_of(name: str, value: float, declared: DeclaredParameter) -> Parameter:
@@ -136,33 +127,8 @@ def parameter_of(name: str, value: float, declared: DeclaredParameter) -> Parame
     return Parameter(name, value, KINDS[declared.kind].canonical, (at_least, at_most), declared.description)
 
 
-def _built_in(part: Any, compiler: str) -> Exported:
+def _built_in(part: Any) -> Exported:
     controller = CONTROLLERS[part.algorithm]
     declared = {name: each for name, each in controller.declared_parameters().items() if name != "cycle_time"}
-    code = rig.controller_code(controller, _TARGET)
-    inputs = {
-        "built_in.c": (SOURCES / "built_in.c").read_bytes(),
-        HEADER.name: HEADER.read_bytes(),
-        "memory.h": _memory_header(controller, tuple(declared), code.function).encode(),
-        "code.o": code.content,
-    }
-    library = link(compiler, inputs, ["built_in.c", "code.o", "-lm"])
     parameters = (parameter_of(name, float(getattr(part, name)), each) for name, each in declared.items())
-    return Exported(library, __version__, tuple(parameters), controller.contract)
-
-
-def _memory_header(controller: Controller, parameters: Sequence[str], function: str) -> str:
-    """Return `memory.h`: the name of the machine code, and places in its memory."""
-    memory = rig.controller_memory(controller)
-    places = {name: place_of(memory, f"parameters.{name}")[0] for name in ("cycle_time", *parameters)}
-    rows = (f"{{{json.dumps(json.dumps(name) + ':')}, {places[name]}}}" for name in parameters)
-    lines = {
-        "UICTEST_ABI_VERSION": controller.contract,
-        "FUNCTION": function,
-        "MEMORY_SIZE": memory.itemsize,
-        "REMEMBERED_SIZE": memory.fields["parameters"][1],
-        "CYCLE_TIME_AT": places["cycle_time"],
-        "INITIAL_SPEED_AT": memory.fields["initial_speed"][1],
-        "PARAMETER_ROWS": ", ".join(rows),
-    }
-    return "".join(f"#define {name} {value}\n" for name, value in lines.items())
+    return Exported({}, __version__, tuple(parameters), controller.contract, part.algorithm)

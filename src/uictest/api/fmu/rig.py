@@ -1,4 +1,4 @@
-"""The rig of one case as an FMU: its variables, the case as C has it, and what the FMU says of it."""
+"""The rig of one case as an FMU: its variables, what its library reads, and what the FMU says of it."""
 
 from __future__ import annotations
 
@@ -7,32 +7,30 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from html import escape
-from importlib import metadata
 from pathlib import Path
 from typing import Any, Final, Literal
 
 import numpy as np
 
 from uictest import __version__, rig
-from uictest.api.fmu.building import archive_of, token_of
+from uictest.api.fmu.building import archive_of
 from uictest.api.fmu.description import FmiVersion, Model, page, table, table_of_variables
-from uictest.api.fmu.variables import Variable, c_words, model_header, of_wheelsets
+from uictest.api.fmu.resource import Content
+from uictest.api.fmu.variables import Variable, of_wheelsets
+from uictest.controllers import OUTPUTS, UNTOUCHED
 from uictest.judging import evaluation
 from uictest.plans import scenario
-from uictest.rig import STEP, STOP_MEMORY, StopInputs, bench
+from uictest.rig import STEP, StopInputs, bench
 
 INSTANCE_MEMORY: Final[Any] = np.dtype(
-    [
-        *(("stop", STOP_MEMORY), ("time", "f8"), ("ended", "i8"), ("hold", "i4", 4), ("vent", "i4", 4)),
-        *(("dynamic_reduction", "f8", 4), ("sand_request", "i4", 4), ("track_brake_request", "i4")),
-    ]
+    [("stop", rig.train_memory(1)), ("time", "f8"), ("ended", "i8"), ("commands", OUTPUTS)]
 )
 """A stop, the time of the simulation, whether the stop has ended, and the commands as last set."""
 
 
 def _command(name: str, description: str, kind: Literal["real", "boolean"] = "boolean") -> Variable:
     start = "false" if kind == "boolean" else "0.0"
-    return Variable(name, name, description, "", kind, "input", start=start)
+    return Variable(name, f"commands.{name}", description, "", kind, "input", start=start)
 
 
 VARIABLES: Final = (
@@ -130,55 +128,39 @@ VARIABLES_2: Final = (
 """Further ones of a rig whose commands keep version 2 of the contract of controllers."""
 
 _PLACES: Final = {
-    "PARAMETERS_AT": "stop.parameters",
-    "STOPPED_AT": "stop.car.stopped",
-    "CYCLE_AT": "stop.car.cycle",
-    "LONGEST_STOP_AT": "stop.parameters.cycles",
-    "COMMANDED_HOLD_AT": "stop.exchange.hold",
-    "COMMANDED_VENT_AT": "stop.exchange.vent",
-    "TIME_AT": "time",
-    "ENDED_AT": "ended",
-    "HOLD_AT": "hold",
-    "VENT_AT": "vent",
-    "COMMANDED_REDUCTION_AT": "stop.exchange.dynamic_reduction",
-    "COMMANDED_SAND_AT": "stop.exchange.sand_request",
-    "COMMANDED_TRACK_BRAKE_AT": "stop.exchange.track_brake_request",
-    "REDUCTION_AT": "dynamic_reduction",
-    "SAND_AT": "sand_request",
-    "TRACK_BRAKE_AT": "track_brake_request",
+    "time": "time",
+    "cycle_time": "stop.parameters.cycle_time",
+    "exchange": "stop.exchange",
+    "kept": "stop.parameters",
+    "closed": "stop.car.closed",
+    "commands": "commands",
+    "ended": "ended",
 }
-"""Name in C -> field of the memory of an instance."""
-_TARGET: Final = rig.Target("x86-64-v3", in_library=True)
-"""Every x86-64 processor since 2013 (AVX2, FMA, BMI2): FMUs are given to colleagues."""
 _LARGEST_SEED: Final = {2: 2**31 - 1, 3: 2**32 - 1}
 """FMI version -> largest whole number that a seed can be."""
-_PACKAGES: Final = ("numba", "llvmlite", "numpy")
 
 
-def build_fmu(case: scenario.Case, version: FmiVersion, compiler: str, contract: int = 1) -> bytes:
+def build_fmu(case: scenario.Case, version: FmiVersion, contract: int = 1) -> bytes:
     """Return the FMU of a case as the bytes of its file.
 
     Args:
         case: the case; its controller plays no part, but its cycle time holds.
         version: of FMI.
-        compiler: as :func:`~uictest.api.fmu.usable_compiler` gives it.
         contract: version of the contract of controllers that the commands keep, as for :class:`uictest.Rig`.
 
     Raises:
         ValueError: the seed of the case is too large for the version.
-        RuntimeError: the compiler failed; the message is its own.
+        CannotBuildError: this package has no library of FMUs.
     """
     case = bench.identified(case)
     inputs = rig.assemble(case)
     inputs.parameters["controller_contract"] = contract
     seed = _seed(int(inputs.parameters["seed"]), version)
     variables = (*VARIABLES[:-1], seed, *(VARIABLES_2 if contract > 1 else ()))
-    header, code = _case_header(inputs, contract), rig.stepping_code(_TARGET)
     cycle_time = float(inputs.parameters["cycle_time"])
     model = Model(
         name=f"rig {case.id}",
         identifier=re.sub(r"\W", "_", f"rig_{case.scenario.name}"),
-        token=token_of(f"{version} {header}".encode(), code),
         description=case.scenario.title or f"Brake rig, case {case.id}",
         version=__version__,
         variables=variables,
@@ -186,16 +168,12 @@ def build_fmu(case: scenario.Case, version: FmiVersion, compiler: str, contract:
         longest=cycle_time * int(inputs.parameters["cycles"]),
         can_save=True,
     )
-    places = model_header(model.token, INSTANCE_MEMORY, variables, _PLACES, can_save=True)
     parts = _parts_inside(case)
     return archive_of(
         model,
         version,
-        compiler,
-        sources=["rig.c"],
-        generated={"model.h": places.encode(), "case.h": header.encode(), "code.o": code},
-        inputs=["code.o"],
-        others={
+        _content(inputs, contract),
+        {
             "documentation/index.html": page(f"Brake rig: {case.id}", *_page(case, parts, variables)),
             "resources/case.json": _provenance(case, parts),
         },
@@ -219,33 +197,33 @@ def _parts_inside(case: scenario.Case) -> dict[str, evaluation.EffectivePart]:
     return {role: part for role, part in parts.items() if role.partition(".")[0] not in outside}
 
 
-def _case_header(inputs: StopInputs, contract: int) -> str:
-    """Return `case.h`: the records of the case, and the call of the machine code."""
-    lines = [
-        f"#define STOP_SIZE {STOP_MEMORY.itemsize}",
-        f"#define CONTRACT {contract}",
-        f"#define CYCLE_TIME {float(inputs.parameters['cycle_time']).hex()}",
-        *c_words("PARAMETERS", inputs.parameters),
-        *c_words("WHEELSET_PARAMETERS", inputs.wheelset_parameters),
-        *c_words("RAIL", inputs.rail),
-        *_call(inputs.rail.shape[1]),
-    ]
-    return "".join(f"{line}\n" for line in lines)
-
-
-def _call(points: int) -> Iterator[str]:
-    """Yield the call of the machine code, as :func:`uictest.core.lanes.passed` says, without a trace."""
-    parts = {name: f"(memory) + {place}" for name, (_, place, *_) in STOP_MEMORY.fields.items()}
-    parts |= {"wheelset_parameters": "WHEELSET_PARAMETERS", "rail": "RAIL"}
-    order = (
-        *("car", "bogies", "wheelsets", "parameters", "wheelset_parameters", "rail", "rail_memory"),
-        *("measures", "wheelset_measures", "exchange", "train", "modules"),
+def _content(inputs: StopInputs, contract: int) -> Content:
+    """Return what the library reads: the case, and where the machine code finds it."""
+    case = rig.alone(inputs)
+    start = np.zeros(1, INSTANCE_MEMORY)
+    stop, commands = start[0]["stop"], start[0]["commands"]
+    stop["parameters"] = case.parameters
+    # As before a controller is asked: it may answer nothing, and one of version 1 nothing beyond its outputs.
+    commands["reference_speed"], commands["dynamic_reduction"] = np.nan, 0.0 if contract > 1 else UNTOUCHED
+    fixed = {
+        "wheelset_parameters": case.wheelset_parameters[0],
+        "distances": case.distances,
+        "rail": case.rail,
+    }
+    constants = np.zeros(1, [(name, each.dtype, each.shape) for name, each in fixed.items()])
+    for name, each in fixed.items():
+        constants[name] = each
+    train = rig.TrainRecords(
+        *(stop["car"], stop["bogies"], stop["wheelsets"], stop["parameters"]),
+        *(constants[0]["wheelset_parameters"], stop["rail_memory"]),
+        *(stop["measures"], stop["wheelset_measures"]),
+        *(constants[0]["distances"], stop["couplers"], constants[0]["rail"]),
     )
-    addresses = ["const void *" if name.isupper() else "void *" for name in (parts[each] for each in order)]
-    kinds = ", ".join(["int64_t", "int64_t", *addresses, "void *", "void *", "int64_t", "int64_t"])
-    yield f"int64_t {STEP.name}({kinds});"
-    yield f"#define CARRY_OUT(memory) {STEP.name}({points}, 0, {', '.join(parts[each] for each in order)}, \\"
-    yield "    NULL, NULL, 0, 0)"
+    present = rig.Trace(stop["train"].reshape(1, 1), stop["modules"].reshape(1, 1, 4))
+    given = train, stop["exchange"], present, rig.empty_trace(1, 0), 0, 0
+    return Content(
+        "rig", start, _PLACES, [*rig.placed(STEP.arguments, given, start, constants)], constants, begun="stop"
+    )
 
 
 def _provenance(case: scenario.Case, parts: dict[str, evaluation.EffectivePart]) -> bytes:
@@ -274,8 +252,7 @@ def _page(
     )
     yield from table_of_variables(variables)
     yield "<h2>Versions</h2>"
-    versions = [("uictest", __version__), *((name, metadata.version(name)) for name in _PACKAGES)]
-    yield from table(("program", "version"), versions)
+    yield from table(("program", "version"), [("uictest", __version__)])
     yield "<h2>Files</h2>"
     yield from table(("file", "SHA-256"), _files(case))
     for role, part in parts.items():

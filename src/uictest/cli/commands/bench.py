@@ -10,7 +10,6 @@ from typing import Annotated
 from uictest import runs
 from uictest.cli.options import argument, option, trusted_folders
 from uictest.cli.output import ExitCode, data, message
-from uictest.cli.progress import compilation_shown
 from uictest.core import files, recording
 from uictest.core.recording import formats
 from uictest.plans import scenario
@@ -61,8 +60,7 @@ def bench(
     test = _test(recipe, trace, pressure, command, overrides or ())
     target = output or Path(f"{test.recipe.name}.parquet")
     write = _writer(target)
-    with compilation_shown():
-        samples = _run(test)
+    samples = _run(test)
     write(samples, target)
     message(f"uictest: wrote {len(samples)} samples of {samples['time'][-1]:.1f} s to {target}")
     data(_summary(samples))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,7 +13,6 @@ from uictest.api import fmu
 from uictest.cli import fmu_options
 from uictest.cli.options import trusted_folders
 from uictest.cli.output import ExitCode, data, message
-from uictest.cli.progress import compilation_shown
 from uictest.core import files
 from uictest.plans import scenario
 
@@ -48,18 +47,17 @@ def export_controller(
     the FMU. A library is loaded in a child process.
     """
     fmu_options.reject_target(output, force=force)
-    compiler = fmu_options.compiler()
     own = [Path(reference)] if reference.endswith(".c") else []
     if sources and not own and not reference.endswith((".yaml", ".yml")):
         raise runs.InvalidInputError(f"{reference}: --source is for a part (.yaml) that names a library")
     paths = [*own, *(sources or ())]
-    with files.temporary_folder() as folder:
-        library = _compiled(compiler, paths, folder) if paths else None
+    with files.temporary_folder() as folder, fmu_options.building():
+        libraries = _compiled(paths) if paths else None
+        library = _own(libraries, paths[0], folder) if libraries else None
         named = str(library) if own else reference
         part: Any = scenario.load_controller(named, "", trusted_folders(), None if own else library)
         try:
-            with compilation_shown():
-                built = fmu.build_controller_fmu(part, version.number, compiler)
+            built = fmu.build_controller_fmu(part, version.number, libraries)
         except fmu.NotExportableError as error:
             raise runs.InvalidInputError(f"{reference}: {error}") from error
         except controllers.ControllerError as error:
@@ -73,15 +71,20 @@ def export_controller(
     return ExitCode.MET
 
 
-def _compiled(compiler: str, sources: Sequence[Path], folder: Path) -> Path:
-    """Return the library of these sources in a folder. Raises InvalidInputError."""
+def _compiled(sources: Sequence[Path]) -> dict[str, bytes]:
+    """Return the libraries of these sources. Raises InvalidInputError, CannotBuildError."""
     for path in sources:
         if path.suffix != ".c" or not path.is_file():
             raise runs.InvalidInputError(f"{path}: no such C source; other languages: build a library (.so)")
     try:
-        content = fmu.library_of_sources(compiler, sources)
+        return fmu.compiled(sources)
     except RuntimeError as error:
         raise runs.InvalidInputError(f"{error}") from error
-    name = f"{sources[0].stem}.so"
-    files.write(folder, name, content)
+
+
+def _own(libraries: Mapping[str, bytes], source: Path, folder: Path) -> Path:
+    """Return the library that this system can ask, in a folder."""
+    own = fmu.this_system()
+    name = f"{source.stem}.{fmu.SYSTEMS[own].suffix}"
+    files.write(folder, name, libraries[own])
     return folder / name

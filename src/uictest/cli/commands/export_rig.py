@@ -14,7 +14,6 @@ from uictest.cli import fmu_options
 from uictest.cli.cases import case_lines
 from uictest.cli.options import Overrides, trusted_folders
 from uictest.cli.output import ExitCode, data, message
-from uictest.cli.progress import compilation_shown
 from uictest.core import files
 from uictest.plans import scenario
 
@@ -59,10 +58,9 @@ def export_rig(
         message(
             f"note: {case.id}: `repeat` plays no part; the parameter `seed` of the FMU begins other stops"
         )
-    compiler = fmu_options.compiler()
     try:
-        with compilation_shown():
-            content = fmu.build_fmu(case, version.number, compiler, contract)
+        with fmu_options.building():
+            content = fmu.build_fmu(case, version.number, contract)
     except ValueError as error:
         raise runs.InvalidInputError(f"{error}") from error
     files.write_to(output, content)

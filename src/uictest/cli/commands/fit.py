@@ -15,7 +15,6 @@ from uictest import controllers, report, rig, runs
 from uictest.cli import options, recordings
 from uictest.cli.options import argument, option
 from uictest.cli.output import ExitCode, data, message
-from uictest.cli.progress import compilation_shown
 from uictest.core import files
 from uictest.core.recording import formats
 from uictest.plans import scenario as scenarios
@@ -72,9 +71,8 @@ def fit(
     [stop] = runs.each_file([file], lambda path: runs.read_stop(path, mapped))
     result = _fit(file, stop, case, _places(breaks or ()), with_pads=with_pads)
     data("\n".join(_lines(result)))
-    with compilation_shown():
-        fitted = _FittedStop(stop, case, scenario, overrides or (), trusted, result)
-        folder = _publish(fitted, context.obj, output)
+    fitted = _FittedStop(stop, case, scenario, overrides or (), trusted, result)
+    folder = _publish(fitted, context.obj, output)
     for defect in stop.defects:
         message(f"uictest: {file}: {defect}")
     message(f"uictest: fitted scenario, overlay and numbers in {folder}")

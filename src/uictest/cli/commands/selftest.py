@@ -9,7 +9,6 @@ from typing import Final
 from uictest import report, selftest as known_answers
 from uictest.cli import options
 from uictest.cli.output import ExitCode, data, terminal_width
-from uictest.cli.progress import compilation_shown
 from uictest.core import files
 
 _CODES: Final = {"fail": ExitCode.MISSED, "error": ExitCode.ERROR}
@@ -24,10 +23,7 @@ def selftest(
     Exit code 1: an answer differs; 3: a check failed to run. What this machine cannot check is listed.
     """
     file = options.junit_file(junit, Path())
-    stops = known_answers.KnownStops()
-    with compilation_shown():
-        examination = known_answers.examine(stops)
-    return show_findings(examination, shown, file)
+    return show_findings(known_answers.examine(known_answers.KnownStops()), shown, file)
 
 
 def show_findings(

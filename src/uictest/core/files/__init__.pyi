@@ -1,4 +1,9 @@
-from .listing import LIST as LIST, begin_list as begin_list, remove_listed as remove_listed
+from .listing import (
+    LIST as LIST,
+    begin_list as begin_list,
+    relative_path as relative_path,
+    remove_listed as remove_listed,
+)
 from .lock import FolderInUseError as FolderInUseError, FolderLock as FolderLock
 from .run_folder import (
     LATEST as LATEST,

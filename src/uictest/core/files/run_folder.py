@@ -19,12 +19,8 @@ from typing import Final, Self
 from uictest.core.files.listing import (
     LIST,
     begin_list,
-    exists,
     foreign_paths,
-    is_link,
-    names_in,
-    opened,
-    opened_file,
+    is_file,
     partial_name,
     remove_contents,
 )
@@ -34,7 +30,6 @@ from uictest.core.files.writing import WriteError, make_folder, remove_empty, wr
 LATEST: Final = "latest"
 _LONGEST_NAME: Final = 255
 """Of a file, bytes."""
-_NEW: Final = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW
 
 
 class RunFolder:
@@ -55,20 +50,16 @@ class RunFolder:
     def __init__(self, parent: Path, name: str) -> None:
         self._parent = parent
         self._wanted = name
-        self._published = False
-        self._made_parents = make_folder(parent)
-        with writing(parent), ExitStack() as held:
-            held.callback(self._remove_made_parents)
-            self._place = held.enter_context(opened(parent))
-            _remove_abandoned(parent, self._place)
-            self._name = _reserved(self._place, name)
-            self._hidden = _hidden(self._name)
-            self.path = parent / self._hidden
-            held.callback(self._remove_hidden)
-            self._lock = held.enter_context(FolderLock(parent, self._hidden))
-            held.callback(self._remove_contents)
+        with writing(parent), ExitStack() as undo:
+            undo.callback(remove_empty, make_folder(parent))
+            _remove_abandoned(parent)
+            self._name = _reserved(parent, name)
+            self.path = _hidden(parent / self._name)
+            undo.callback(remove_empty, [self.path])
+            self._lock = undo.enter_context(FolderLock(self.path))
+            undo.callback(self._remove_contents)
             begin_list(self.path)
-            self._held = held.pop_all()
+            self._undo = undo.pop_all()
 
     def __enter__(self) -> Self:
         return self
@@ -79,7 +70,7 @@ class RunFolder:
         if isinstance(error, WriteError) and Path(error.filename).is_relative_to(self.path):
             inside = Path(error.filename).relative_to(self.path)
             error.filename = str(self._parent / self._wanted / inside)  # nobody knows the hidden name
-        self._held.close()
+        self._undo.close()
 
     @property
     def name(self) -> str:
@@ -88,27 +79,18 @@ class RunFolder:
 
     def publish(self, name: str = "") -> Path:
         """Give the folder its name, or another one, and return where it stands now. Raises WriteError."""
-        names = itertools.chain(
-            [name or self._name], _names(self._wanted)
-        )  # somebody may have taken it meanwhile
+        # Somebody may have taken it meanwhile.
+        names = itertools.chain([name or self._name], _names(self._wanted))
+        self._lock.release()  # Windows renames no folder with an open file
         with writing(self._parent / self._name):
-            self._name = next(name for name in names if _renamed(self._place, self._hidden, name))
-        self._published = True
+            self._name = next(name for name in names if _renamed(self.path, self._parent / name))
+        self._undo.pop_all()
         self.path = self._parent / self._name
         return self.path
 
     def _remove_contents(self) -> None:
-        if not self._published and (stay := remove_contents(self._lock.place, LOCK)):
+        if stay := remove_contents(self.path, LOCK):
             _warn(self.path, stay[0])
-
-    def _remove_hidden(self) -> None:
-        if not self._published:
-            with suppress(OSError):  # it holds something of the user's
-                os.rmdir(self._hidden, dir_fd=self._place)
-
-    def _remove_made_parents(self) -> None:
-        if not self._published:
-            remove_empty(self._made_parents)
 
 
 class ForeignFileError(Exception):
@@ -127,17 +109,17 @@ def remove_run(parent: Path, name: str, replace: Callable[[], object] = lambda: 
         OSError: it cannot be removed.
 
     """
-    with opened(parent) as place, FolderLock(parent, name) as lock:
-        if foreign := next(foreign_paths(lock.place, LOCK), ""):
+    folder, hidden = parent / name, _hidden(parent / name)
+    with FolderLock(parent, name) as lock:
+        if foreign := next(foreign_paths(folder, LOCK), ""):
             raise ForeignFileError(foreign)
-        if not _renamed(place, name, hidden := _hidden(name)):
-            raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), hidden)
-        lock.leaves_file = True  # should this be cut short
-        replace()
-        if stay := remove_contents(lock.place, LOCK):
-            lock.leaves_file = not _renamed(place, hidden, name)
-            raise ForeignFileError(stay[0])
-        os.rmdir(hidden, dir_fd=place)
+        lock.leaves_file = not os.path.lexists(hidden)  # should this be cut short
+    if not _renamed(folder, hidden):
+        raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST), str(hidden))
+    replace()
+    if stay := _removed(hidden, abandoned=False):
+        _renamed(hidden, folder)
+        raise ForeignFileError(stay)
 
 
 @contextmanager
@@ -153,8 +135,8 @@ def replaced_folder(folder: Path) -> Iterator[Path]:
 
     """
     named, folder = folder, Path(os.path.realpath(folder))
-    with writing(named), suppress(FileNotFoundError), opened(folder) as place:
-        foreign = [*foreign_paths(place, LOCK)] if names_in(place) else []
+    with writing(named), suppress(FileNotFoundError):
+        foreign = [*foreign_paths(folder, LOCK)] if any(folder.iterdir()) else []
         if foreign:  # what lies there says more than a missing list
             raise ForeignFileError(next((each for each in foreign if each != LIST), LIST))
     with RunFolder(folder.parent, folder.name) as new:
@@ -168,16 +150,23 @@ def replaced_folder(folder: Path) -> Iterator[Path]:
             new.publish(folder.name)
 
 
-def _remove_abandoned(parent: Path, place: int) -> None:
+def _remove_abandoned(parent: Path) -> None:
     """Remove what killed processes left: folders with an unlocked lock of uictest, and listed files alone."""
-    for name in names_in(place):
-        if not (name.startswith(".") and name.endswith(".partial")):
-            continue
-        with suppress(OSError, FolderInUseError), FolderLock(parent, name, abandoned=True) as lock:
-            if stay := remove_contents(lock.place, LOCK):
-                _warn(parent / name, stay[0])
-            else:
-                os.rmdir(name, dir_fd=place)
+    for folder in [*parent.glob(".*.partial")]:
+        with suppress(OSError, FolderInUseError):
+            if stay := _removed(folder, abandoned=True):
+                _warn(folder, stay)
+
+
+def _removed(folder: Path, *, abandoned: bool) -> str:
+    """Remove a hidden folder; return what it holds of somebody else. Raises OSError, FolderInUseError."""
+    with FolderLock(folder.parent, folder.name, abandoned=abandoned) as lock:
+        lock.leaves_file = True  # should this be cut short
+        stay = remove_contents(folder, LOCK)
+        lock.leaves_file = False
+    if not stay:
+        folder.rmdir()
+    return next(iter(stay), "")
 
 
 def _warn(folder: Path, name: str) -> None:
@@ -185,8 +174,8 @@ def _warn(folder: Path, name: str) -> None:
     logging.getLogger(__name__).warning(text, folder, name)
 
 
-def _hidden(name: str) -> str:
-    return f".{name}.partial"
+def _hidden(folder: Path) -> Path:
+    return folder.with_name(f".{folder.name}.partial")
 
 
 def _names(name: str) -> Iterator[str]:
@@ -194,40 +183,32 @@ def _names(name: str) -> Iterator[str]:
     yield from (f"{name}-{number}" for number in itertools.count(2))
 
 
-def _reserved(place: int, name: str) -> str:
+def _reserved(parent: Path, name: str) -> str:
     """Return the first name that no folder has, after its hidden folder was made: no other run has that."""
     for each in _names(name):
-        if exists(place, each):
+        folder = parent / each
+        if os.path.lexists(folder):
             continue
         try:
-            os.mkdir(_hidden(each), dir_fd=place)
+            _hidden(folder).mkdir()
         except FileExistsError:
             continue
-        if not exists(place, each):
+        if not os.path.lexists(folder):
             return each
-        os.rmdir(_hidden(each), dir_fd=place)  # another run was published meanwhile
+        _hidden(folder).rmdir()  # another run was published meanwhile
     raise AssertionError  # there are always more names
 
 
-def _renamed(place: int, old: str, new: str) -> bool:
-    """Rename a folder; return False, and replace nothing, where the new name is taken. Raises OSError.
-
-    An empty folder of the new name comes first: nobody else can make it, and only a folder that is still
-    empty is replaced by a rename.
-    """
-    try:
-        os.mkdir(new, dir_fd=place)
-    except FileExistsError:
+def _renamed(old: Path, new: Path) -> bool:
+    """Rename a folder; return False, and replace nothing, where the new name is taken. Raises OSError."""
+    if os.path.lexists(new):
         return False
     try:
-        os.rename(old, new, src_dir_fd=place, dst_dir_fd=place)
+        old.rename(new)  # replaces at most an empty folder, which has just appeared
     except OSError:
-        try:
-            os.rmdir(new, dir_fd=place)
-        except OSError:
-            return False  # somebody put something into it
-        # File systems that replace no empty folder exist; they replace none by this either.
-        os.rename(old, new, src_dir_fd=place, dst_dir_fd=place)
+        if os.path.lexists(new):
+            return False
+        raise
     return True
 
 
@@ -236,37 +217,35 @@ def point_latest(run: Path) -> str:
 
     Returns why it was left as it is: somebody else's file has this name; else nothing. Raises WriteError.
     """
-    with writing(run.parent / LATEST), opened(run.parent) as place:
-        if exists(place, LATEST) and not is_link(place, LATEST) and not _named_in_text(place):
-            return f"{run.parent / LATEST} was not written by uictest: it is left as it is"
-        temporary = partial_name()
+    latest, temporary = run.parent / LATEST, run.parent / partial_name()
+    with writing(latest):
+        if os.path.lexists(latest) and not latest.is_symlink() and not _named_in_text(latest):
+            return f"{latest} was not written by uictest: it is left as it is"
+        with suppress(OSError):
+            if os.name != "nt":  # Windows gives links to some users only, and replaces none
+                temporary.symlink_to(run.name, target_is_directory=True)
+        if not temporary.is_symlink():
+            temporary.write_bytes(os.fsencode(run.name) + b"\n")
         try:
-            os.symlink(run.name, temporary, target_is_directory=True, dir_fd=place)
-        except (OSError, NotImplementedError):
-            with os.fdopen(os.open(temporary, _NEW, 0o666, dir_fd=place), "wb") as file:
-                file.write(os.fsencode(run.name) + b"\n")
-        try:
-            os.replace(temporary, LATEST, src_dir_fd=place, dst_dir_fd=place)
+            temporary.replace(latest)
         except OSError:
-            os.unlink(temporary, dir_fd=place)
+            temporary.unlink()
             raise
     return ""
 
 
-def _named_in_text(place: int) -> str:
+def _named_in_text(latest: Path) -> str:
     """Return the name in a text file `latest`; empty where it holds anything but the name of a run."""
-    with suppress(OSError), opened_file(place, LATEST) as file:
-        name, end, rest = os.read(file, _LONGEST_NAME + 2).partition(b"\n")
-        one = end and not rest and b"/" not in name and b"\0" not in name
-        return os.fsdecode(name) if one and exists(place, os.fsdecode(name)) else ""
+    with suppress(OSError):
+        if is_file(latest) and latest.stat().st_size < _LONGEST_NAME + 2:
+            name, end, rest = latest.read_bytes().partition(b"\n")
+            one = end and not rest and b"/" not in name and b"\0" not in name
+            return os.fsdecode(name) if one and os.path.lexists(latest.with_name(os.fsdecode(name))) else ""
     return ""
 
 
 def latest_run(parent: Path) -> Path | None:
     """Return the newest run folder below `parent`, or None where there is none. Raises OSError."""
-    latest = parent / LATEST
-    if latest.is_file() and not latest.is_symlink():
-        run = parent / latest.read_text(encoding="utf-8").strip()
-    else:
-        run = latest.resolve()
+    name = _named_in_text(parent / LATEST)
+    run = parent / name if name else (parent / LATEST).resolve()
     return run if run.is_dir() else None

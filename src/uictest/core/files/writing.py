@@ -7,12 +7,12 @@ import os
 import shutil
 import stat
 import tempfile
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path, PurePath
 from typing import BinaryIO
 
-from uictest.core.files.listing import add_to_list, is_partial, names_in, opened, partial_name
+from uictest.core.files.listing import add_to_list, is_partial, partial_name, path_below
 
 
 class WriteError(OSError):
@@ -23,20 +23,21 @@ class WriteError(OSError):
 
 
 @contextmanager
-def writing(target: Path, *, only_about: Collection[object] = ()) -> Iterator[None]:
+def writing(target: Path, *, only_nameless: bool = False) -> Iterator[None]:
     """Let an error of the system be a WriteError of what the user named, or of a file in it.
 
-    With `only_about`, names of files or None, an error about anything else is left as it is.
+    With `only_nameless`, an error about a file that it names is left as it is.
     """
     try:
         yield
     except WriteError:
         raise
     except OSError as error:
-        if only_about and (error.errno is None or error.filename not in only_about):
+        if only_nameless and (error.errno is None or error.filename is not None):
             raise
-        inside = error.filename and Path(error.filename).is_relative_to(target)
-        place = error.filename if inside else target
+        path = Path(error.filename or target)
+        is_hidden = any(part.endswith(".partial") for part in path.parts)
+        place = path if path.is_relative_to(target) and not is_hidden else target
         raise WriteError(error.errno, error.strerror or str(error), str(place)) from error
 
 
@@ -57,55 +58,36 @@ def new_file(folder: Path, name: str, *, private: bool = False, listed: bool = T
         WriteError: the folder is missing, full or not writable.
 
     """
-    below, last, temporary = str(PurePath(name).parent), PurePath(name).name, partial_name()
-    about = (None, temporary, folder, str(folder), *PurePath(name).parts, name)
-    with (
-        writing(folder / name, only_about=about),
-        _made_folders(folder, below),
-        opened(folder, below, make=True) as place,
-    ):
-        if last in ("", ".."):
-            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), name)
-        if not private:
-            _require_replaceable(place, last)
-        flags, mode = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o600 if private else 0o666
-        descriptor = os.open(temporary, flags, mode, dir_fd=place)
-        try:
-            # Some writers close what they are given; the descriptor stays open.
-            with os.fdopen(os.dup(descriptor), "w+b") as file:
-                yield file
-            os.fsync(descriptor)
-            if listed:
-                add_to_list(folder, name, descriptor)
-            os.replace(temporary, last, src_dir_fd=place, dst_dir_fd=place)
-        except BaseException:
-            with suppress(OSError):
-                os.unlink(temporary, dir_fd=place)
-            raise
-        finally:
-            os.close(descriptor)
+    below, last = PurePath(name).parent.as_posix(), PurePath(name).name
+    with ExitStack() as undo:
+        with writing(folder / name):
+            place = path_below(folder, below)
+            folder.stat()  # which is not made
+            undo.callback(remove_empty, make_folder(place, target=folder / name))
+            if last in ("", ".."):
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), name)
+            if not private:
+                _require_replaceable(place / last)
+            temporary = place / partial_name()
+            temporary.touch(0o600 if private else 0o666, exist_ok=False)
+            undo.callback(temporary.unlink, missing_ok=True)
+            new = undo.enter_context(temporary.open("r+b"))
+        with writing(folder / name, only_nameless=True), new:
+            yield new
+        with writing(folder / name):
+            with temporary.open("r+b") as file:
+                os.fsync(file.fileno())
+                if listed:
+                    add_to_list(folder, PurePath(name).as_posix(), file)
+            temporary.replace(place / last)
 
 
-@contextmanager
-def _made_folders(folder: Path, below: str) -> Iterator[None]:
-    """Remove the folders down to `below` that the block has made, should it raise."""
-    names = [str(each) for each in (PurePath(below), *PurePath(below).parents) if str(each) != "."]
-    missing = [name for name in names if not os.path.lexists(folder / name)]
-    try:
-        yield
-    except BaseException:
-        with suppress(OSError), opened(folder) as place:
-            for name in missing:
-                os.rmdir(name, dir_fd=place)
-        raise
-
-
-def _require_replaceable(place: int, name: str) -> None:
+def _require_replaceable(path: Path) -> None:
     """Raise FileExistsError for a device or a pipe: a rename would put a file in the place of `/dev/null`."""
     with suppress(FileNotFoundError):
-        mode = os.lstat(name, dir_fd=place).st_mode
+        mode = path.lstat().st_mode
         if not (stat.S_ISREG(mode) or stat.S_ISLNK(mode) or stat.S_ISDIR(mode)):
-            raise FileExistsError(errno.EEXIST, "no file, and not replaced by one", name)
+            raise FileExistsError(errno.EEXIST, "no file, and not replaced by one", path.name)
 
 
 def write(
@@ -144,7 +126,9 @@ def write_all(contents: Mapping[Path, bytes | str]) -> None:
 
 def require_place(path: Path) -> None:
     """Raise WriteError where a file that the user named cannot be: beside a folder, or in place of one."""
-    with writing(path), opened(path.parent):
+    with writing(path):
+        if not stat.S_ISDIR(path.parent.stat().st_mode):
+            raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR))
         if path.is_dir():
             raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
 
@@ -178,16 +162,15 @@ def remove_empty(folders: Sequence[Path]) -> None:
 
 def remove(folder: Path, name: str) -> None:
     """Remove a file of uictest, which its name tells, below a folder that the user named. Raises OSError."""
-    with opened(folder, str(PurePath(name).parent)) as place, suppress(FileNotFoundError):
-        os.unlink(PurePath(name).name, dir_fd=place)
+    path = path_below(folder, PurePath(name).parent.as_posix()) / PurePath(name).name
+    path.unlink(missing_ok=True)
 
 
 def remove_partial_files(folder: Path, below: str = "") -> None:
     """Remove files that interrupted writers left in a folder where nobody writes now. Raises OSError."""
-    with opened(folder, below) as place:
-        for name in names_in(place):
-            if is_partial(place, name):
-                os.unlink(name, dir_fd=place)
+    for path in path_below(folder, below).iterdir():
+        if is_partial(path):
+            path.unlink()
 
 
 @contextmanager

@@ -2,8 +2,8 @@
 
 `catalogue` declares every measure in one row; the registry finds them, and all other rooms read it.
 
-`train` and `wheelset` update records with every sample: the simulator once per controller cycle, the
-evaluation of a recording once per row. The same functions observe simulated and recorded stops. They are
+`samples` has the order in which a sample updates the records: the simulator feeds one per controller cycle,
+the evaluation of a recording one per row. The same functions observe simulated and recorded stops. They are
 scalar code on records. Single numbers are updated without branches, so that many stops can be observed side
 by side; tables (speeds after the first sliding, slides above each speed) are updated afterwards.
 """

@@ -43,7 +43,14 @@ from .replay import (
     Cell as Cell,
     Faults as Faults,
     Replay as Replay,
+    place_of as place_of,
     samples_of as samples_of,
+)
+from .samples import (
+    TrainState as TrainState,
+    WheelsetState as WheelsetState,
+    keep_tables as keep_tables,
+    observe_sample as observe_sample,
 )
 from .train import (
     begin_build_up as begin_build_up,

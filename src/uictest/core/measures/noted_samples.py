@@ -5,22 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.measures.contact import observe_contact
 from uictest.core.measures.monitoring import observe_monitoring, reports_wheelset
 from uictest.core.measures.records import MeasureDefinition, StopMeasures, WheelsetMeasures
-from uictest.core.measures.train import (
-    keep_window,
-    observe_build_up,
-    observe_reservoir_margin,
-    observe_train,
-)
-from uictest.core.measures.wheelset import (
-    keep_slide,
-    keep_slow_times,
-    observe_reaction,
-    observe_reference,
-    observe_wheelset,
-)
+from uictest.core.measures.samples import TrainState, WheelsetState, keep_tables, observe_sample
+from uictest.core.measures.wheelset import observe_reaction, observe_reference
 
 Array = NDArray[np.float64]
 
@@ -36,7 +24,7 @@ def note_samples(
     places: NDArray[np.int64],
     noted: Array,
 ) -> int:
-    """Feed all samples but the first, which has begun the records, as :class:`.Replay` does.
+    """Feed all samples but the first, which has begun the records.
 
     Args:
         measures: record of the stop.
@@ -50,26 +38,13 @@ def note_samples(
         noted: takes them, a row for each sample fed.
     """
     for k in range(1, len(samples)):
-        time, distance, speed = samples[k, 0], samples[k, 1], samples[k, 2]
-        reservoir_pressure, line_pressure = samples[k, 3], samples[k, 4]
-        for i in range(4):
-            wheelset, own = wheelset_measures[i], wheelset_samples[k, i]
-            observe_wheelset(
-                wheelset, measures, definition, i + 1, time, speed, own[0], own[1], own[2], own[3]
-            )
-            observe_contact(
-                wheelset, measures, definition, time, speed, own[4], line_pressure, own[5], own[6], own[7]
-            )
-            slip = speed - own[0]
-            if slip != slip:  # a gap
-                wheelset.lock = 0.0
-            else:
-                keep_slide(wheelset, wheelset, definition, speed)
-        observe_reservoir_margin(measures, reservoir_pressure, samples[k, 5])
-        observe_build_up(measures, definition, time, distance, speed, line_pressure)
-        observe_train(measures, definition, time, distance, speed, reservoir_pressure)
-        keep_window(measures, measures)
-        keep_slow_times(measures, wheelset_measures, measures, wheelset_measures)
+        four = wheelset_samples[k]
+        train = TrainState(
+            *(samples[k, 0], samples[k, 1], samples[k, 2], samples[k, 3], samples[k, 4], samples[k, 5])
+        )
+        wheelsets = _state(four[0]), _state(four[1]), _state(four[2]), _state(four[3])
+        observe_sample(measures, wheelset_measures, definition, train, wheelsets)
+        keep_tables(measures, wheelset_measures, measures, wheelset_measures, definition)
         if len(faults) > 0 and faults[k, 0] > 0.0:
             _observe_faults(
                 measures, wheelset_measures, definition, samples[k, 6], wheelset_samples[k], faults[k]
@@ -85,6 +60,12 @@ def note_samples(
         for j in range(len(places)):
             noted[k - 1, j] = numbers[places[j]]
     return len(samples)
+
+
+def _state(sample: Array) -> WheelsetState:
+    return WheelsetState(
+        *(sample[0], sample[1], sample[2], sample[3], sample[4], sample[5], sample[6], sample[7])
+    )
 
 
 def _observe_faults(

@@ -1,39 +1,25 @@
-"""A recording fed to the accumulators sample by sample, and where their fields change meanwhile."""
+"""A recording whose samples are fed to the measures: the samples, and the records at the first of them."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from math import inf, isnan, nan
-from types import SimpleNamespace
+from collections.abc import Mapping, Sequence
+from math import inf, nan
 from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.measures.contact import begin_contact, begin_utilisation, observe_contact
-from uictest.core.measures.monitoring import observe_monitoring, reports_wheelset
-from uictest.core.measures.records import END_SPEEDS, SLOW_TIMES, SPEED_CLASSES, WINDOW_SECONDS
+from uictest.core.measures.contact import begin_contact, begin_utilisation
+from uictest.core.measures.layouts import STOP_MEASURES, WHEELSET_MEASURES
 from uictest.core.measures.train import (
     begin_build_up,
     begin_train,
     begin_window,
     keep_window,
     note_standstill,
-    observe_build_up,
-    observe_reservoir_margin,
     observe_train,
 )
-from uictest.core.measures.wheelset import (
-    begin_slides,
-    begin_slow_times,
-    begin_wheelset,
-    keep_slide,
-    keep_slow_times,
-    observe_reaction,
-    observe_reference,
-    observe_wheelset,
-)
+from uictest.core.measures.wheelset import begin_slides, begin_slow_times, begin_wheelset, keep_slow_times
 from uictest.core.physics import FILL, VENT
 
 Array = NDArray[np.float64]
@@ -48,7 +34,9 @@ table."""
 _WHEELSETS: Final = (1, 2, 3, 4)
 _WHEELS: Final = 2.0
 """Of a wheelset: adhesion and wheel load are those of one."""
-_NONE_REQUIRED: Final = (0.0,) * len(_WHEELSETS)
+_RECORDS: Final = np.dtype([("train", STOP_MEASURES), ("wheelsets", WHEELSET_MEASURES, 4)])
+_NUMBER: Final = 8
+"""Bytes of a number of these records."""
 
 
 class Samples(NamedTuple):
@@ -130,43 +118,37 @@ def _last_known(command: Array) -> Array:
     return np.take_along_axis(command, np.maximum.accumulate(known, axis=0), axis=0)
 
 
-@dataclass(frozen=True, slots=True)
 class Replay:
-    """The records of a stop while the samples of its recording pass, SI.
+    """The records of a stop at its first sample; the rig lets the others pass.
 
-    They are plain objects: attributes of numpy records take ten times as long outside compiled code.
-
-    Args:
-        samples: of the recording.
+    Attributes:
+        samples: of the recording, up to the last that is fed.
         definition: how samples become measures.
-        commanded_pressure: of the brake line, gauge, Pa.
-        end: time of the first sample that is not fed, s.
-
+        train: record of :data:`~uictest.core.measures.STOP_MEASURES`.
+        wheelsets: four records of :data:`~uictest.core.measures.WHEELSET_MEASURES`.
+        numbers: both again, as numbers one after the other.
     """
 
-    samples: Samples
-    definition: Any
-    commanded_pressure: float
-    end: float = inf
-    train: Any = field(
-        default_factory=lambda: SimpleNamespace(
-            speed_after_sliding=[0.0] * (WINDOW_SECONDS + 1),
-            reached_time=[0.0] * len(END_SPEEDS),
-            half_slow_time=[0.0] * SLOW_TIMES,
-        )
-    )
-    wheelsets: list[Any] = field(
-        default_factory=lambda: [
-            SimpleNamespace(maximum_slide_above=[0.0] * SPEED_CLASSES, slow_time=[0.0] * SLOW_TIMES)
-            for _ in _WHEELSETS
-        ]
-    )
+    def __init__(
+        self, samples: Samples, definition: Any, commanded_pressure: float, end: float = inf
+    ) -> None:
+        """Begin the records.
 
-    def __post_init__(self) -> None:
+        Args:
+            samples: of the recording.
+            definition: how samples become measures.
+            commanded_pressure: of the brake line, gauge, Pa.
+            end: time of the first sample that is not fed, s.
+        """
+        self.samples, self.definition = samples.before(end), definition
+        records = np.zeros(1, _RECORDS)
+        self.train: Any = records["train"][0]
+        self.wheelsets: Any = records["wheelsets"][0].view(np.recarray)
+        self.numbers: Array = records.view(np.float64)
         time, distance, speed, reservoir, line, *_ = self.samples.train[0].tolist()
         begin_train(self.train, time, distance, speed, reservoir)
         self.train.has_diagnosis = 1.0 if np.isfinite(self.samples.train[:, 7]).any() else nan
-        begin_build_up(self.train, self.commanded_pressure, line)
+        begin_build_up(self.train, commanded_pressure, line)
         begin_utilisation(self.train)
         begin_window(self.train)
         begin_slow_times(self.train, self.wheelsets)
@@ -175,101 +157,23 @@ class Replay:
             begin_contact(wheelset)
             begin_slides(wheelset)
 
-    def pass_samples(self, fields: Collection[str] | None = None) -> Iterator[float]:
-        """Feed the samples before the end, and yield the time of each; the first one has begun the records.
-
-        Only `fields` need to hold their numbers afterwards; None: all of them.
-        """
-        train, definition = self.train, self.definition
-        contacts, slides, pressures, tables, reports = (
-            fields is None or not own.isdisjoint(fields)
-            for own in (_OF_CONTACTS, _OF_SLIDES, _OF_PRESSURES, _TABLES, _OF_REPORTS)
-        )
-        fed = self.samples.before(self.end)
-        faults = fed.faults[1:].tolist()
-        samples = zip(fed.train[1:].tolist(), fed.wheelsets[1:].tolist(), strict=True)
-        for k, (sample, own_samples) in enumerate(samples):
-            time, distance, speed, reservoir, line, cylinder, reference_speed, diagnosis = sample
-            for n, wheelset, own in zip(_WHEELSETS, self.wheelsets, own_samples, strict=True):
-                wheel_speed, venting, force, temperature, tank, rail_work, loss, highest, *_ = own
-                observe_wheelset(
-                    wheelset, train, definition, n, time, speed, wheel_speed, venting, force, temperature
-                )
-                if contacts:
-                    observe_contact(
-                        wheelset, train, definition, time, speed, tank, line, rail_work, loss, highest
-                    )
-                if isnan(speed - wheel_speed):
-                    # A lock before a gap and one after it need not be the same lock.
-                    wheelset.lock = 0.0
-                elif slides:
-                    keep_slide(wheelset, wheelset, definition, speed)
-            if pressures:
-                observe_reservoir_margin(train, reservoir, cylinder)
-                observe_build_up(train, definition, time, distance, speed, line)
-            observe_train(train, definition, time, distance, speed, reservoir)
-            if tables:
-                self._keep_tables()
-            if faults:
-                self._observe_faults(faults[k], [own[2] for own in own_samples], reference_speed)
-            if reports:
-                self._observe_reports(diagnosis, own_samples, faults[k][-4:] if faults else _NONE_REQUIRED)
-            yield time
-
-    def numbers(self, cells: Sequence[Cell]) -> list[float]:
-        """Return numbers in the records as they are now."""
-        return [holder[key] for holder, key in self._places(cells)]
-
-    def noted(self, cells: Sequence[Cell]) -> Array:
-        """Let the samples pass, and return numbers of the records after each but the first, a row each."""
-        places = self._places(cells)
-        passed = self.pass_samples(fields={name for name, _, _ in cells})
-        rows = [[holder[key] for holder, key in places] for _ in passed]
-        return np.array(rows, np.float64).reshape(len(rows), len(cells))
-
-    def _places(self, cells: Sequence[Cell]) -> list[tuple[Any, str | int]]:
-        records = [vars(record) for record in (self.train, *self.wheelsets)]
-        return [
-            (records[n], name) if place is None else (records[n][name], place) for name, n, place in cells
-        ]
-
     def stop_at(self, time: float, distance: float) -> None:
         """Feed the standstill of the train (s, m), the last of all samples."""
         reservoir = self.train.reservoir_minimum_pressure
         observe_train(self.train, self.definition, time, distance, 0.0, reservoir)
-        self._keep_tables()
-        note_standstill(self.train, True, time, distance)
-
-    def _keep_tables(self) -> None:
         keep_window(self.train, self.train)
         keep_slow_times(self.train, self.wheelsets, self.train, self.wheelsets)
+        note_standstill(self.train, True, time, distance)
 
-    def _observe_faults(self, faults: list[float], forces: list[float], reference_speed: float) -> None:
-        begun, *of_wheelsets = faults
-        if not begun:
-            return
-        train, definition = self.train, self.definition
-        observe_reference(train, definition, reference_speed)
-        largest = max(forces)
-        for i, wheelset in enumerate(self.wheelsets):
-            own = of_wheelsets[i], of_wheelsets[len(forces) + i], forces[i]
-            observe_reaction(wheelset, train, definition, *own, largest)
-
-    def _observe_reports(
-        self, diagnosis: float, samples: list[list[float]], required: Sequence[float]
-    ) -> None:
-        bits = 0 if isnan(diagnosis) else int(diagnosis)
-        for i, wheelset in enumerate(self.wheelsets):
-            *_, shown_speed, fills = samples[i]
-            own = reports_wheelset(bits, i), wheelset.faulty, required[i], shown_speed, fills
-            observe_monitoring(wheelset, self.train, self.definition, *own)
+    def numbers_at(self, cells: Sequence[Cell]) -> list[float]:
+        """Return numbers in the records as they are now."""
+        values: list[float] = self.numbers[[place_of(cell) for cell in cells]].tolist()
+        return values
 
 
-_OF_CONTACTS: Final = frozenset({"slid_distance", "contact_energy", "exploited_work", "available_work"})
-_OF_SLIDES: Final = frozenset({"maximum_slide_above"})
-_OF_PRESSURES: Final = frozenset({"reservoir_margin", "rise_time", "build_up_time"})
-_OF_REPORTS: Final = frozenset(
-    {"deviation", "unfilled", "report_delay", "required_delay", "falsely_reported"}
-)
-_TABLES: Final = frozenset({"speed_after_sliding", "reached_time", "half_slow_time", "slow_time"})
-"""Fields whose accumulators are left out where nobody asks for them: they take half of the time."""
+def place_of(cell: Cell) -> int:
+    """Return where a number of the records lies among :attr:`Replay.numbers`."""
+    name, n, place = cell
+    layout: Any = WHEELSET_MEASURES if n else STOP_MEASURES
+    start = STOP_MEASURES.itemsize + (n - 1) * WHEELSET_MEASURES.itemsize if n else 0
+    return int(start + layout.fields[name][1]) // _NUMBER + (place or 0)

@@ -99,10 +99,12 @@ def observe_wheelset(
     slide = slip / select(moves, speed, 1.0)
     measures.wheel_speed = wheel_speed
     measures.slide = select(moves, slide, measures.slide)
-    measures.maximum_slide = select(moves, maximum(measures.maximum_slide, slide), measures.maximum_slide)
+    measures.maximum_slide = select(moves, maximum(slide, measures.maximum_slide), measures.maximum_slide)
     slides = moves & (slide > definition.sliding_slide) & (slip > definition.sliding_slip)
     _observe_sliding(measures, train, slides, number, time, interval)
-    _observe_lock(measures, moves, moves & (wheel_speed < definition.locked_speed), interval)
+    # A lock before a gap and one after it need not be the same lock.
+    ended = moves | (slip != slip)
+    _observe_lock(measures, ended, moves & (wheel_speed < definition.locked_speed), interval)
 
 
 def keep_slide(
@@ -116,7 +118,7 @@ def keep_slide(
         definition: how samples become measures.
         speed: of the train at that sample, m/s.
     """
-    if not speed > definition.moving_speed:
+    if not speed > definition.moving_speed or samples.slide != samples.slide:  # a gap
         return
     k = _highest_class_below(speed)
     # A slide counts above every lower speed, too: once a class holds as much, so do all classes below.
@@ -148,10 +150,10 @@ def _observe_sliding(
     train.sliding_time = select(slides, minimum(train.sliding_time, time), train.sliding_time)
 
 
-def _observe_lock(measures: WheelsetMeasures, moves: bool, locked: bool, interval: float) -> None:
-    """Add up the time during which the wheelset stands while the train moves."""
+def _observe_lock(measures: WheelsetMeasures, ended: bool, locked: bool, interval: float) -> None:
+    """Add up the time during which the wheelset stands while the train moves; `ended` where none goes on."""
     measures.locked_time += select(locked, interval, 0.0)
-    measures.lock = select(locked, measures.lock + interval, select(moves, 0.0, measures.lock))
+    measures.lock = select(locked, measures.lock + interval, select(ended, 0.0, measures.lock))
     measures.longest_lock = maximum(measures.longest_lock, measures.lock)
 
 

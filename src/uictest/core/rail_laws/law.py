@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
 from typing import Any, Final, NamedTuple
 
+from uictest.core.physics import cleaned_share
 from uictest.core.rail_laws import laws
 
 MOST_NUMBERS: Final = 4
@@ -39,7 +40,7 @@ class RailLaw(NamedTuple):
     """A law, as its module declares it.
 
     Both functions are scalar code of :mod:`uictest.core.physics`, which also runs compiled and beside lanes.
-    Behind the arguments that are named here, each takes those of the law's own numbers that it names.
+    Behind the arguments that are named here, each takes `numbers`, the law's own in their order.
 
     Attributes:
         name: its key below `rail.cleaning`.
@@ -60,14 +61,14 @@ class RailLaw(NamedTuple):
 
     def settled_share(self, loss: float, response: float, numbers: Sequence[float]) -> float:
         """Return the state of a rail of which every metre has taken a loss in J; `numbers` are the law's."""
-        own = (numbers[k] for k in self.passed(self.own_share))
-        return self.own_share(0.0, loss * _FAR, _FAR, response, 1.0, *own)
+        return self.own_share(0.0, loss * _FAR, _FAR, response, 1.0, numbers)
 
-    def passed(self, function: Callable[..., float]) -> list[int]:
-        """Return the places of those own numbers that one of the functions names."""
-        code = function.__code__
-        named = code.co_varnames[: code.co_argcount]
-        return [k for k, name in enumerate(self.numbers) if name in named]
+
+def cleaned_by_energy(
+    share: float, loss: float, distance: float, response: float, decay: float, numbers: Sequence[float]
+) -> float:
+    """Return the state of the rail of a law that has no equation of its own for it."""
+    return cleaned_share(share, loss, distance, response, decay)
 
 
 def _laws() -> dict[str, RailLaw]:
@@ -81,25 +82,16 @@ LAWS: Final = _laws()
 """Every law by its name; its place is its number in the model."""
 
 
-def _chosen(part: str, arguments: str, passed: str) -> Callable[..., float]:
-    """Return a function of the model that calls that of the law whose number the parameters hold."""
-    lines, functions = [], {}
-    for number, law in reversed(list(enumerate(LAWS.values()))):
-        functions[f"law_{number}"] = getattr(law, part)
-        numbers = "".join(f", p.law_numbers[{k}]" for k in law.passed(getattr(law, part)))
-        condition = f"    if p.rail_law == {number}:\n    " if number else ""
-        lines.append(f"{condition}    return law_{number}({passed}{numbers})\n")
-    source = f"def {part}({arguments}, p):\n{''.join(lines)}"
-    namespace: dict[str, Any] = {"__name__": __name__, **functions}
-    # In the name of this file, whose content decides whether compiled code is still that of its source.
-    exec(compile(source, __file__, "exec"), namespace)
-    chosen: Callable[..., float] = namespace[part]
-    return chosen
+_OF_NUMBER: Final = tuple(LAWS.values())
 
 
-own_share: Final = _chosen(
-    "own_share", "share, loss, distance", "share, loss, distance, p.cleaning_response, p.cleaning_decay"
-)
-"""State of the rail under one wheelset at the end of a stretch of track, by the law of the parameters."""
-clean_part: Final = _chosen("clean_part", "share", "share")
-"""How far a rail of some state has gone to a clean one, by the law of the parameters."""
+def own_share(share: float, loss: float, distance: float, p: Any) -> Any:
+    """Return the state of the rail under one wheelset at the end of a stretch of track, by the law of `p`."""
+    return _OF_NUMBER[p.rail_law].own_share(
+        share, loss, distance, p.cleaning_response, p.cleaning_decay, p.law_numbers
+    )
+
+
+def clean_part(share: float, p: Any) -> Any:
+    """Return how far a rail of some state has gone to a clean one, by the law of the parameters `p`."""
+    return _OF_NUMBER[p.rail_law].clean_part(share, p.law_numbers)

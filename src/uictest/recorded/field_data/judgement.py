@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 
 from uictest import report
 from uictest.core.measures import (
-    STOP_MEASURES,
-    WHEELSET_MEASURES,
     MeasureDefinition,
     Replay,
     close_contacts,
@@ -101,12 +99,7 @@ def observe(stop: RecordedStop, judged_under: scenario.Scenario) -> Observed:
     _observe_track_brake(train, recording)
     train.track_brake_time_beside = stop.track_brakes_beside
     close_contacts(train, wheelsets, _mass(recording))
-    records = np.zeros(len(WHEELSETS), WHEELSET_MEASURES)
-    for record, wheelset in zip(records, wheelsets, strict=True):
-        _copy(wheelset, record)
-    stop_measures = np.zeros(1, STOP_MEASURES)
-    _copy(train, stop_measures[0])
-    return Observed(stop_measures[0], records.view(np.recarray), coverage_of(stop))
+    return Observed(train, wheelsets, coverage_of(stop))
 
 
 def _observe_track_brake(train: Any, recording: Recording) -> None:
@@ -115,11 +108,6 @@ def _observe_track_brake(train: Any, recording: Recording) -> None:
         force = np.nan_to_num(recording["track_brake_force"])
         train.track_brake_energy = float(np.trapezoid(force * recording["speed"], recording[TIME]))
         train.track_brake_time = float(np.diff(recording[TIME])[force[1:] > 0.0].sum())
-
-
-def _copy(source: Any, record: Any) -> None:
-    for name in record.dtype.names:
-        record[name] = getattr(source, name)
 
 
 def judge_recording(case: scenario.Case, stop: RecordedStop) -> tuple[CaseResult, Recording]:

@@ -23,8 +23,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from uictest.core.lanes import translate
 from uictest.core.physics import contact_stiffness, creep_force, fma, maximum, select
+from uictest.core.translation import translate
 from uictest.core.units import STANDARD_GRAVITY
 from uictest.plans import scenario
 from uictest.plans.scenario import Scenario

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any, Final
 import numpy as np
 import yaml
 
+from uictest.core import files
 from uictest.core.recording import TIME, Recording, at_instants
 from uictest.core.units import KILOMETRE_PER_HOUR
 from uictest.judging import evaluation
@@ -95,7 +95,7 @@ def fitted_yaml(case: Case, statements: Mapping[str, str], fit: Fit, scenario: P
         "name": f"{case.scenario.name[:_LONGEST_NAME]}-fitted",
         "title": f"{case.scenario.name} with the friction of a recorded stop",
         "description": "\n".join(["Fitted to a recorded stop.", *map(str, fit.estimates)]),
-        "extends": (scenario if ships else Path(os.path.relpath(scenario, folder))).as_posix(),
+        "extends": scenario.as_posix() if ships else files.relative_path(scenario, folder),
         "expect": case.scenario.expect.form(),
         **dict.fromkeys(EXPANSION_KEYS),
     }

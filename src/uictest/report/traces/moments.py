@@ -155,7 +155,7 @@ def _definition(verdict: evaluation.Verdict) -> dict[str, float]:
 
 def _changes(replay: Replay, cells: Sequence[Cell]) -> dict[Cell, _Changes]:
     """Let the samples pass and return where the numbers of the records changed."""
-    first = replay.numbers(cells)
+    first = replay.numbers_at(cells)
     noted = rig.noted_numbers(replay, cells)
     time = replay.samples.train[:, 0]
     return {cell: _changes_of(first[j], noted[:, j], time) for j, cell in enumerate(cells)}

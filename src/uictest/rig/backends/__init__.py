@@ -1,1 +1,1 @@
-"""How the model is run: plain Python, machine code, SIMD lanes."""
+"""How machine code runs the model: to standstill, stepped, in lanes, beside a recording; what it is given."""

@@ -3,21 +3,25 @@
 No controller is called: commands and sensor readings pass through the exchange.
 """
 
-from typing import Any, Final
+from typing import Any, Final, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uictest.controllers import EXCHANGE, INPUTS, OUTPUTS, OUTPUTS_AT
-from uictest.core.lanes import passed
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.machine_code import Target, function_of_addresses, object_code
-from uictest.rig.backends.scalar import SCALAR, STEP
+from uictest.rig.backends.stops import STEP
+from uictest.rig.kernel.arguments import passed
+from uictest.rig.kernel.library import function_of_addresses
+from uictest.rig.model.couplers import COUPLER
 from uictest.rig.model.parameters import PARAMETERS
 from uictest.rig.model.rail import RAIL_MEMORY
+from uictest.rig.model.records import TrainRecords
 from uictest.rig.model.state import BOGIE, CAR, WHEELSET
 from uictest.rig.model.trace import TRAIN_SAMPLE, WHEELSET_SAMPLE, Trace
-from uictest.rig.single_stop import FinishedStop, StopInputs, empty_trace, rows_of_trace
+from uictest.rig.single_stop import FinishedStop, rows_of_trace
+from uictest.rig.train_measures import finished_cars
+from uictest.rig.train_stop import TrainInputs, empty_trace
 
 STOP_MEMORY: Final[Any] = np.dtype(
     [
@@ -40,84 +44,84 @@ is a stop that has not begun.
 """
 
 
-def stepping_code(target: Target) -> bytes:
-    """Return the stepped stop as an object file for a target; :data:`STEP` says what it is called with."""
-    return object_code(SCALAR, STEP, target)
+def train_memory(cars: int) -> Any:
+    """Return the layout of everything that changes in a stop of a train: a copy of it is a copy of the stop.
+
+    The parts of :data:`STOP_MEMORY`, each for all cars, and the couplers.
+    """
+    parts: list[tuple[Any, ...]] = []
+    for name in STOP_MEMORY.names:
+        part = STOP_MEMORY.fields[name][0]
+        first, *rest = part.shape or (1,)
+        parts.append((name, part.base, (cars * first, *rest)))
+    return np.dtype([*parts, ("couplers", COUPLER, (cars - 1,))])
 
 
-class SteppedStop:
-    """One stop that is carried on from outside, on memory of its own.
+class SteppedTrain:
+    """One stop of a train that is carried on from outside, on memory of its own.
 
     Attributes:
-        memory: record of :data:`STOP_MEMORY`.
-        exchange: its part of that name.
-        inputs: what the sensors show for the coming cycle, the record of :data:`~uictest.controllers.INPUTS`
-            within the exchange.
-        outputs: the commands for that cycle, :data:`~uictest.controllers.OUTPUTS` within it, shape ().
+        memory: record of :func:`train_memory`.
+        inputs: of each car, what its sensors show for the coming cycle: the record of
+            :data:`~uictest.controllers.INPUTS` within its exchange.
+        outputs: of each car, the commands for that cycle, :data:`~uictest.controllers.OUTPUTS` within it.
     """
 
-    def __init__(self, inputs: StopInputs, steps_per_sample: int = 0) -> None:
-        """Begin the stop.
+    def __init__(self, inputs: TrainInputs, steps_per_sample: int = 0) -> None:
+        """Begin the stop; the controllers of the cars play no part.
 
         Args:
-            inputs: parameters, those of the wheelsets and rail; the controller plays no part.
-            steps_per_sample: base steps from one sample of the trace to the next; 0: no trace.
+            inputs: what the rig is given; :func:`~uictest.rig.train_stop.alone` gives those of a car alone.
+            steps_per_sample: base steps from one sample of the traces to the next; 0: no traces.
         """
-        memory = np.zeros(1, STOP_MEMORY)
+        n = len(inputs.parameters)
+        memory = np.zeros(1, train_memory(n))
         memory["parameters"] = inputs.parameters
+        memory["couplers"] = inputs.couplers
         self.memory: Any = memory[0]
-        self.exchange: Any = self.memory["exchange"]
-        (self.inputs,), (self.outputs,) = within_exchanges(memory, 1)
-        self._trace = empty_trace(rows_of_trace(inputs.parameters, steps_per_sample))
-        own = self.memory
-        # The machine code reads and writes them by their addresses as long as the stop lasts.
-        self._kept = (
+        self.inputs, self.outputs = _within_exchanges(memory, n)
+        self._trace = empty_trace(n, rows_of_trace(inputs.parameters[0], steps_per_sample))
+        own, given = self.memory, cast(Any, inputs)
+        self._train = TrainRecords(
             *(own["car"], own["bogies"], own["wheelsets"], own["parameters"]),
-            *(inputs.wheelset_parameters, inputs.rail),
-            *(own["rail_memory"], own["measures"], own["wheelset_measures"], own["exchange"]),
-            *(Trace(own["train"], own["modules"]), self._trace, steps_per_sample, 0),
+            *(given.wheelset_parameters.reshape(4 * n), own["rail_memory"]),
+            *(own["measures"], own["wheelset_measures"], given.distances, own["couplers"], given.rail),
         )
+        present = Trace(own["train"].reshape(n, 1), own["modules"].reshape(n, 1, 4))
+        # The machine code reads and writes them by their addresses as long as the stop lasts.
+        self._kept = self._train, own["exchange"], present, self._trace, steps_per_sample, 0
         *self._arguments, _ = passed(STEP.arguments, self._kept)
-        self._step = function_of_addresses(SCALAR, STEP)
+        self._step = function_of_addresses(STEP)
         self._rows = 0
         self.step()
 
     @property
     def time(self) -> float:
         """Of the coming cycle, s."""
-        return float(self.inputs["time"])
+        return float(self.inputs[0]["time"])
 
     @property
     def stands(self) -> bool:
-        """Whether the train stands."""
-        return self._is_over and not self.memory["parameters"]["end_speed"]
-
-    @property
-    def _is_over(self) -> bool:
-        return bool(self.memory["car"]["stopped"])
+        """Whether all cars stand."""
+        over = self.memory["car"]["stopped"] > 0.0
+        return bool(over.all() and not self.memory["parameters"]["end_speed"].any())
 
     @property
     def has_ended(self) -> bool:
-        """Whether the train stands, has come down to where the stop ends, or its longest duration is over."""
-        return self._is_over or bool(self.memory["car"]["cycle"] >= self.memory["parameters"]["cycles"])
+        """Whether each car stands, has come down to where the stop ends, or its longest duration is over."""
+        return bool(self.memory["car"]["closed"].all())
 
     def step(self) -> None:
-        """Carry out the commands in the exchange until the next cycle."""
+        """Carry out the commands in the exchanges until the next cycle; none, where one is refused."""
         self._rows = self._step(*self._arguments, self._rows)
 
-    def finished(self) -> FinishedStop:
-        """Return what the stop leaves, which must have ended."""
-        memory, rows = self.memory, self._rows
-        return FinishedStop(
-            memory["measures"],
-            memory["wheelset_measures"].view(np.recarray),
-            memory["car"],
-            memory["wheelsets"].view(np.recarray),
-            Trace(self._trace.train[:rows], self._trace.wheelsets[:rows]),
-        )
+    def finished(self) -> tuple[FinishedStop, ...]:
+        """Return what the stop of each car leaves, which must have ended."""
+        measures: Any = self.memory["measures"].copy()
+        return finished_cars(self._train._replace(measures=measures), self._trace, self._rows)
 
 
-def within_exchanges(memory: NDArray[Any], cars: int) -> tuple[list[Any], list[Any]]:
+def _within_exchanges(memory: NDArray[Any], cars: int) -> tuple[list[Any], list[Any]]:
     """Return the records of inputs, and those of outputs, within the part `exchange` of a record."""
     first = memory.dtype.fields["exchange"][1]  # type: ignore[index]
     places = [first + EXCHANGE.itemsize * car for car in range(cars)]

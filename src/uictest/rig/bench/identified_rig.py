@@ -24,7 +24,6 @@ from uictest.plans.scenario import (
 )
 from uictest.plans.scenario.yaml import Document, parse, quantities_in
 from uictest.rig import identification
-from uictest.rig.backends.compiled import compiler_inputs
 from uictest.rig.bench.identified_air import identify_air
 from uictest.rig.bench.recipe import (
     BenchTest,
@@ -36,6 +35,7 @@ from uictest.rig.bench.recipe import (
     recipe_path,
 )
 from uictest.rig.bench.run import run_test
+from uictest.rig.kernel.built import source_digest
 
 _BENCHES: Final = {"hysteresis": "six-inch-hysteresis", "pressure": "six-inch-cylinder"}
 _BASE: Final = "six-inch"
@@ -76,7 +76,7 @@ def _inputs(scenario: Scenario, subjects: Iterable[str]) -> bytes:
         uictest.__version__,
         scipy.__version__,
     )
-    return b"".join([repr(stated).encode(), *benches, compiler_inputs()])
+    return b"".join([repr(stated).encode(), *benches, source_digest().encode()])
 
 
 def _kept_or_identified(inputs: bytes, scenario: Scenario, pressure: str) -> str:

@@ -1,4 +1,4 @@
-"""The bench in machine code: a test run and recorded, and the air of a record followed as the rig does."""
+"""The bench by the kernel: a test run and recorded, and the air of a record followed as the rig does."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -8,12 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import uictest
-from uictest.core.lanes import Length, at, translate
 from uictest.core.recording import ORIGIN, Recording
 from uictest.plans.scenario import Case, rig_as_built
 from uictest.rig.assembly import ASSIGNMENTS, assemble, assigned
-from uictest.rig.backends.compiled import compile_inner, compiled_operations
-from uictest.rig.backends.machine_code import Entry, Unit, native_function
 from uictest.rig.bench.inputs import BenchInput, bench_input
 from uictest.rig.bench.recipe import BenchTest
 from uictest.rig.bench.step import (
@@ -24,9 +21,10 @@ from uictest.rig.bench.step import (
     SETTINGS,
     BenchRig,
     bench_rig,
-    run_bench_test,
 )
 from uictest.rig.identification import AS_BUILT
+from uictest.rig.kernel.arguments import Length, at
+from uictest.rig.kernel.library import Entry, native_function
 from uictest.rig.model.cycle import command_valve
 from uictest.rig.model.module_air import follow_tank
 from uictest.rig.model.parameters import PARAMETERS, Parameters
@@ -42,9 +40,8 @@ from uictest.rig.model.wheelset_parameters import (
 Samples = NDArray[np.float64]
 
 _COUNT, _CYCLES, _ROWS = len(SETTINGS), Length("cycles"), Length("rows")
-_BENCH = Entry(
-    "uictest_bench",
-    "the bench of the rig",
+BENCH = Entry(
+    "uictest.rig.bench.step:run_bench_test",
     (
         BenchRig(
             *(at(CAR), at(WHEELSET, MODULES), at(WHEELSET, _COUNT), at(PARAMETERS, _COUNT)),
@@ -53,19 +50,16 @@ _BENCH = Entry(
         *(at("f8", _ROWS - 1), at("i8", _CYCLES), at(BENCH_SAMPLE, _ROWS)),
     ),
 )
-_UNIT = Unit(
-    _BENCH.name, (_BENCH,), lambda: [translate(run_bench_test, compile_inner, compiled_operations())]
-)
 
 
 def run_compiled(
     rig: BenchRig, demanded_pressures: NDArray[Any], valve_commands: NDArray[Any], trace: NDArray[Any]
 ) -> None:
-    """Run :func:`uictest.rig.bench.step.run_bench_test` compiled; the first call compiles it.
+    """Run :func:`uictest.rig.bench.step.run_bench_test` compiled.
 
     Raises TypeError where a record or an array does not have the compiled layout.
     """
-    native_function(_UNIT, _BENCH)(rig, demanded_pressures, valve_commands, trace)
+    native_function(BENCH)(rig, demanded_pressures, valve_commands, trace)
 
 
 def run_bench(case: Case, applied: BenchInput, run: Callable[..., None] = run_compiled) -> Recording:
@@ -132,7 +126,7 @@ class ModelledPressure:
             self._parameters[name] = value
         computed = np.empty(self._tank.size)
         car, wheelset = np.zeros(1, CAR)[0], np.zeros(1, WHEELSET)[0]
-        follow = native_function(_WALK_UNIT, _WALK)
+        follow = native_function(WALK)
         follow(
             *(car, wheelset, self._parameters[0], self._of_wheelset[0]),
             *(self._tank, self._line, self._commands, computed),
@@ -159,7 +153,7 @@ def _with(case: Case, **sections: object) -> Case:
     return replace(case, scenario=case.scenario.model_copy(update=sections))
 
 
-def _follow_record(
+def follow_record_of_air(
     car: Car,
     wheelset: Wheelset,
     p: Parameters,
@@ -186,14 +180,10 @@ def _follow_record(
         computed[n] = wheelset.modelled_pressure - p.atmospheric_pressure
 
 
-_WALK = Entry(
-    "uictest_modelled_pressure",
-    "the air of a record",
+WALK = Entry(
+    f"{__name__}:follow_record_of_air",
     (
         *(at(CAR), at(WHEELSET), at(PARAMETERS), at(WHEELSET_PARAMETERS)),
         *(at("f8", _ROWS), at("f8", _ROWS), at("i8", _ROWS), at("f8", _ROWS)),
     ),
-)
-_WALK_UNIT = Unit(
-    _WALK.name, (_WALK,), lambda: [translate(_follow_record, compile_inner, compiled_operations())]
 )

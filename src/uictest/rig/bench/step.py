@@ -104,7 +104,7 @@ def start_bench(rig: BenchRig) -> None:
     for i in range(MODULES):
         copy_wheelset_parameters(rig.modules[i], rig.wheelset_parameters)
         start_module(rig.modules[i], 1.0 - i, p)
-    for i in range(len(SETTINGS)):
+    for i in range(len(rig.settings)):
         copy_wheelset_parameters(rig.computed[i], rig.wheelset_parameters)
         start_module(rig.computed[i], 0.0, rig.settings[i])
 
@@ -140,7 +140,7 @@ def step_bench(rig: BenchRig) -> None:
     follow_demanded_pressure(rig.car, drawn_1 + drawn_2, enthalpy_1 + enthalpy_2, p)
     step_clamping(caliper, p)
     step_clamping(tank, p)
-    for i in range(len(SETTINGS)):
+    for i in range(len(rig.settings)):
         computed = rig.computed[i]
         computed.pressure = tank.pressure
         computed.pressure_error = tank.pressure_error

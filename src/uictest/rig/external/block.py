@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from uictest.controllers import EXCHANGE, Config, ControllerError, ControllerProgram
 from uictest.core.measures import STOP_MEASURES, WHEELSET_MEASURES
-from uictest.rig.backends.scalar import compiled_stop
+from uictest.rig.backends.stops import compiled_rig
 from uictest.rig.external.in_process import opened
-from uictest.rig.single_stop import StopInputs, run_to_end
+from uictest.rig.single_stop import StopInputs
+from uictest.rig.train_stop import run_to_end
 
 
 class BlockRun(NamedTuple):
@@ -95,17 +96,6 @@ def empty_run(count: int) -> BlockRun:
     return BlockRun(np.zeros(count, STOP_MEASURES), np.zeros((count, 4), WHEELSET_MEASURES), [""] * count)
 
 
-def load_block(programs: Sequence[ControllerProgram | None]) -> None:
-    """Load what :func:`run_block` calls, compiled first where the cache does not hold it; no foreign code."""
-    kinds = {None if program is None else program.kind for program in programs}
-    if kinds & {None, "library"}:
-        from uictest.rig.backends.lanes import load_lanes
-
-        load_lanes()
-    if kinds - {None, "library"}:
-        compiled_stop()
-
-
 def _is_ready(block: _Block, place: int, controllers: ExitStack) -> bool:
     """Open the controller of a case, and return whether it waits for the lanes; else its stop is over."""
     program, config = block.inputs.programs[place], block.inputs.configs[place]
@@ -128,7 +118,7 @@ def _run_alone(block: _Block, place: int) -> None:
     own = block.inputs
     records = own.parameters[place], own.wheelset_parameters[place], own.rail[place]
     stop = StopInputs(*records, own.programs[place], own.configs[place])
-    finished = run_to_end(compiled_stop(), stop)
+    finished = run_to_end(compiled_rig(), stop)
     block.run.measures[place] = finished.measures
     block.run.wheelset_measures[place] = finished.wheelset_measures
 

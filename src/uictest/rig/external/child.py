@@ -31,18 +31,22 @@ from uictest.rig.external.messages import (
     train_stop_message,
     write_message,
 )
+from uictest.rig.kernel.built import source_digest
 
 MEMORY_LIMIT: Final = 4 * 2**30
 """Most memory of a child, or of a process that its controller starts, bytes; chosen: a child takes some
 110 MB, and a controller that leaks is to end before the machine does."""
 
+_CHANGED: Final = "the Python files of uictest were changed while it runs: run it again"
 
-def serve(exchange_file: int) -> None:
+
+def serve(exchange_file: int, sources: str) -> None:
     """Answer requests until there are no more.
 
     Args:
         exchange_file: descriptor of the memory that the parent watches, records of
             :data:`~uictest.controllers.EXCHANGE`.
+        sources: digest of those that the kernel of the parent was made from.
 
     """
     requests, answers = _private_streams()
@@ -57,7 +61,7 @@ def serve(exchange_file: int) -> None:
         except StreamEndedError:
             return
         memory[:] = bytes(len(memory))
-        answer = _answer(request, exchanges)
+        answer = _answer(request, exchanges) if sources == source_digest() else Message({"error": _CHANGED})
         try:
             write_message(answers, answer)
         except OSError:  # a controller has closed it
@@ -97,4 +101,4 @@ if __name__ == "__main__":
     _, most = resource.getrlimit(resource.RLIMIT_DATA)
     limit = MEMORY_LIMIT if most == resource.RLIM_INFINITY else min(MEMORY_LIMIT, most)
     resource.setrlimit(resource.RLIMIT_DATA, (limit, limit))
-    serve(int(sys.argv[1]))
+    serve(int(sys.argv[1]), sys.argv[2])

@@ -32,11 +32,10 @@ from uictest.controllers import (
     open_controller,
     shown_version,
 )
-from uictest.rig.backends.scalar import compiled_stop
-from uictest.rig.backends.trains import compiled_train
+from uictest.rig.backends.stops import compiled_rig
 from uictest.rig.external.process_state import ControllerCalls
-from uictest.rig.single_stop import FinishedStop, StopInputs, run_to_end
-from uictest.rig.train_stop import TrainInputs, TrainStop, run_train_to_end
+from uictest.rig.single_stop import FinishedStop, StopInputs
+from uictest.rig.train_stop import TrainInputs, TrainStop, run_to_end, run_train_to_end
 
 _FAILURES: Final = {
     STEP_FAILED: "step failed: {error}",
@@ -171,7 +170,7 @@ def run_in_process(inputs: StopInputs, steps_per_sample: int = 0, exchange: Any 
     Raises:
         ControllerError: when a controller from outside cannot be opened, or failed.
     """
-    run_stop = compiled_stop()
+    run_stop = compiled_rig()
     if inputs.program is None or inputs.config is None:
         return run_to_end(run_stop, inputs, steps_per_sample)
     exchange = empty_exchange() if exchange is None else exchange
@@ -194,7 +193,7 @@ def run_train_in_process(
     Raises:
         ControllerError: when a controller from outside cannot be opened, or failed; it names the car.
     """
-    run_train, programs = compiled_train(), inputs.from_outside
+    run_train, programs = compiled_rig(), inputs.from_outside
     if exchanges is None:
         exchanges = [empty_exchange() for _ in programs]
     own_exchanges = dict(zip(programs, exchanges, strict=True))

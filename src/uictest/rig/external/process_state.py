@@ -19,19 +19,29 @@ from typing import Any, Final
 
 import numpy as np
 
-from uictest.controllers import NOT_CALLED
+from uictest.controllers import NOT_CALLED, ControllerError
+from uictest.core.guarded_process import HAS_GUARD
 
-_C: Final[Any] = ctypes.CDLL(None)
+_C: Final[Any] = ctypes.CDLL(None) if HAS_GUARD else None
 _LAYOUT: Final = platform.machine() if sys.platform == "linux" else ""
 """Of `fenv_t`; on other systems only the rounding mode is looked at."""
 _X86: Final = Struct("<H26xI")
 _MODES: Final = (0x400, 0x800, 0xC00, 0x800000, 0x400000, 0xC00000)  # of x86, of Arm
 _ROUNDING: Final = dict(zip(_MODES, 2 * ("downward", "upward", "toward zero"), strict=True))
 _NAMES: Final = ("HUP", "INT", "QUIT", "ILL", "ABRT", "BUS", "FPE", "SEGV", "PIPE", "ALRM", "TERM", "CHLD")
-_SIGNALS: Final = [(getattr(signal, f"SIG{name}"), f"handler of SIG{name}") for name in _NAMES]
+_SIGNALS: Final = [(getattr(signal, f"SIG{name}", 0), f"handler of SIG{name}") for name in _NAMES]
 _SLOT: Final = 256
 """Bytes for a `fenv_t` or a `sigaction`; chosen, at least those of any system."""
 _Slots = ctypes.c_char * (_SLOT * (1 + len(_SIGNALS)))
+
+
+def require_guard() -> None:
+    """Raise ControllerError where a controller from outside could not be kept from harming the program."""
+    if not HAS_GUARD:
+        raise ControllerError(
+            "a controller from outside (C library, Python class, FMU, program at a socket) needs Linux: on "
+            "Windows install and run uictest in the Windows Subsystem for Linux, or use a built-in controller"
+        )
 
 
 class ProcessState:
@@ -69,6 +79,7 @@ class ControllerCalls:
     """Calls of controllers: told in the exchange; what they change of the process is put back and noted."""
 
     def __init__(self, exchange: Any) -> None:
+        require_guard()
         self.exchange = exchange
         self.traces: dict[tuple[str, str], str] = {}
         """What was changed and the call -> in words."""

@@ -45,6 +45,8 @@ from uictest.rig.external.messages import (
     write_message,
 )
 from uictest.rig.external.printed import PrintedOutput
+from uictest.rig.external.process_state import require_guard
+from uictest.rig.kernel.built import source_digest
 from uictest.rig.single_stop import FinishedStop, StopInputs
 from uictest.rig.train_stop import TrainInputs, TrainStop
 
@@ -91,7 +93,8 @@ class Worker:
     """
 
     def __init__(self, keys: frozenset[ProgramKey], *, keep_output: bool = False) -> None:
-        """Start it; what it prints is kept, or goes to standard error."""
+        """Start it; what it prints is kept, or goes to standard error. Raises ControllerError."""
+        require_guard()
         self.keys = keys
         """Of the programs that may run on it."""
         self.printed = printed = PrintedOutput(kept=keep_output)
@@ -230,7 +233,12 @@ def _started(exchange_file: int, folder: str, printed: PrintedOutput) -> tuple[G
         # -P: modules of the working folder are not ours, whatever they are called. -u: what Python and C
         # print belongs to the stop in which they do, and is not lost in a crash.
         process = GuardedProcess(
-            _CHILD, [str(exchange_file)], Path(folder), ["-P", "-u"], pass_fds=(exchange_file,), **streams
+            _CHILD,
+            [str(exchange_file), source_digest()],
+            Path(folder),
+            ["-P", "-u"],
+            pass_fds=(exchange_file,),
+            **streams,
         )
     except BaseException:
         channel.close()

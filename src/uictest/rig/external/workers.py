@@ -8,9 +8,7 @@ from types import TracebackType
 from typing import Final, Self, TypeGuard
 
 from uictest.controllers import ControllerError, ControllerProgram, ProgramKey
-from uictest.rig.backends.scalar import compiled_stop
-from uictest.rig.backends.trains import compiled_train
-from uictest.rig.external.block import BlockInputs, BlockRun, empty_run, load_block, run_block
+from uictest.rig.external.block import BlockInputs, BlockRun, empty_run, run_block
 from uictest.rig.external.drives import DriveRequest, Drives, drive_controller
 from uictest.rig.external.in_process import empty_exchange, of_car, run_in_process, run_train_in_process
 from uictest.rig.external.worker import LARGEST_BLOCK, LostChildError, Worker
@@ -75,7 +73,6 @@ class Workers:
         """
         if not _is_isolated(inputs.program):
             return run_in_process(inputs, steps_per_sample)
-        compiled_stop()  # so that the child finds it in the cache
         with self._worker(inputs.program) as worker:
             return replace(worker.run(inputs, steps_per_sample), controller_output=worker.printed.taken())
 
@@ -88,7 +85,6 @@ class Workers:
         programs = inputs.from_outside
         if not any(map(_is_isolated, programs.values())):
             return run_train_in_process(inputs, steps_per_sample)
-        compiled_train()  # so that the child finds it in the cache
         try:
             with self._worker(*programs.values()) as worker:
                 stop = worker.run_train(inputs, steps_per_sample)
@@ -109,7 +105,6 @@ class Workers:
         """Run many stops; those whose controller is built in, or a process of its own, run here."""
         places = range(len(inputs.programs))
         here = [place for place in places if not _is_isolated(inputs.programs[place])]
-        load_block(inputs.programs)  # so that the child finds it in the cache
         run = empty_run(len(places))
         if here:
             _put(run, here, run_block(inputs.at(here)))

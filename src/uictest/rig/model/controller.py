@@ -1,9 +1,8 @@
-"""The place of the controller in the model, and a controller from outside in it.
+"""The choice of the controller in the model, and a controller from outside in it.
 
-:mod:`uictest.rig.backends.compiled` puts the functions of controllers where the model calls :func:`begin` and
-:func:`decide`. For a controller from outside the rig writes inputs, calls and reads the answer. Inputs and
-outputs lie in memory of their own, :data:`uictest.controllers.EXCHANGE`; functions that reach memory by its
-address are replaced where the model is compiled.
+For a controller from outside the rig writes inputs, calls and reads the answer. Inputs and
+outputs lie in memory of their own, :data:`uictest.controllers.EXCHANGE`; the kernel has functions of
+its own for those that reach memory by its address.
 """
 
 import ctypes
@@ -202,9 +201,9 @@ FROM_OUTSIDE: Final = CHOICES.index(EXTERNAL)
 
 def begin(train: TrainMemory, wheelsets: Sequence[ControlledWheelset], p: Parameters) -> None:
     """Set the memory of the case's controller at the start of a stop."""
-    raise NotImplementedError("the stop was made without a controller")
+    CHOICES[p.controller].begin(train, wheelsets, p.initial_speed)
 
 
 def decide(train: TrainMemory, wheelsets: Sequence[ControlledWheelset], p: Parameters) -> None:
     """Let the case's controller set the valve commands of the coming cycle."""
-    raise NotImplementedError("the stop was made without a controller")
+    CHOICES[p.controller].decide(train, wheelsets, p)

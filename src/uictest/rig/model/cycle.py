@@ -1,9 +1,8 @@
 """What happens once per controller cycle: read the sensors, let the controller decide, set the valves.
 
 Reading sensors and setting valves has no branches and runs in lanes, too; the controller between them is
-scalar code that may branch and look up tables. Between two cycles :func:`uictest.rig.model.step.step` runs
-alone. Speed sensors that count whole teeth, or whose pole wheel is eccentric or has lost teeth, are read
-only in stops where a wheelset has one.
+scalar code that may branch and look up tables. Speed sensors that count whole teeth, or whose pole wheel is
+eccentric or has lost teeth, are read only in stops where a wheelset has one.
 """
 
 import math
@@ -31,6 +30,7 @@ from uictest.rig.model.disc_brake import set_pad_friction
 from uictest.rig.model.parameters import Parameters
 from uictest.rig.model.rail import FACTORS, FRICTIONS, PLACES, TIMES
 from uictest.rig.model.random_rail import vary_friction
+from uictest.rig.model.records import Needs
 from uictest.rig.model.state import Car, Wheelset
 
 CHANNELS = 16
@@ -47,27 +47,19 @@ _PER_RADIAN = 0.5 / math.pi
 """Turns."""
 
 
-def read_sensors(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    """Read all sensors for cycle ``car.cycle``."""
-    read_common_sensors(car, wheelsets, p)
-    read_other_loadcells(car, wheelsets, p)
-    read_line_sensor(car, p, car.cycle)
-
-
-def read_common_sensors(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    """Read the sensors that every rig has: of speeds and pressures, and the first loadcells."""
-    read_module_sensors(wheelsets[0], p, car.cycle, 0)
-    read_module_sensors(wheelsets[1], p, car.cycle, 1)
-    read_module_sensors(wheelsets[2], p, car.cycle, 2)
-    read_module_sensors(wheelsets[3], p, car.cycle, 3)
+def read_sensors(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, needs: Needs) -> None:
+    """Read the sensors for cycle ``car.cycle``: of speeds and pressures, and what else the rig has."""
+    for i in range(4):
+        read_module_sensors(wheelsets[i], p, car.cycle, i)
     _read_loadcells(wheelsets[0], p, car.cycle, 0)
-
-
-def read_other_loadcells(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    """Draw the momentary errors of the loadcells of the other modules."""
-    _read_loadcells(wheelsets[1], p, car.cycle, 1)
-    _read_loadcells(wheelsets[2], p, car.cycle, 2)
-    _read_loadcells(wheelsets[3], p, car.cycle, 3)
+    if needs.calipers:
+        for i in range(1, 4):
+            _read_loadcells(wheelsets[i], p, car.cycle, i)
+    if needs.line_pressure:
+        read_line_sensor(car, p, car.cycle)
+    if needs.pole_wheels:
+        for i in range(4):
+            read_pole_wheel(wheelsets[i], car, p, i)
 
 
 def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: Any) -> None:
@@ -91,10 +83,8 @@ def start_cycle(car: Car, wheelsets: Sequence[Wheelset], p: Parameters, rail: An
 
 def command_valves(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Set the valve targets of all wheelsets for the steps of this cycle."""
-    command_valve(wheelsets[0], p)
-    command_valve(wheelsets[1], p)
-    command_valve(wheelsets[2], p)
-    command_valve(wheelsets[3], p)
+    for i in range(4):
+        command_valve(wheelsets[i], p)
     car.substep = 0.0
     car.cycle += 1
 
@@ -151,14 +141,6 @@ def command_valve(wheelset: Wheelset, p: Parameters) -> None:
     wheelset.venting = select(command == VENT, 1.0, 0.0)
     wheelset.filling_cycles = filling_cycles
     wheelset.wsp_acting = select(filling_cycles < p.wsp_acting_cycles, 1.0, 0.0)
-
-
-def read_pole_wheels(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    """Put in the place of all momentary speeds what the pole wheels show, for cycle ``car.cycle``."""
-    read_pole_wheel(wheelsets[0], car, p, 0)
-    read_pole_wheel(wheelsets[1], car, p, 1)
-    read_pole_wheel(wheelsets[2], car, p, 2)
-    read_pole_wheel(wheelsets[3], car, p, 3)
 
 
 def read_pole_wheel(wheelset: Wheelset, car: Car, p: Parameters, number: int) -> None:

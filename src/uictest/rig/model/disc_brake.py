@@ -59,10 +59,8 @@ def warm_discs(wheelsets: Sequence[Wheelset], p: Parameters) -> None:
 
     Where the temperature is not modelled the coefficients are zero: it stays as it is.
     """
-    warm_disc(wheelsets[0], p)
-    warm_disc(wheelsets[1], p)
-    warm_disc(wheelsets[2], p)
-    warm_disc(wheelsets[3], p)
+    for i in range(4):
+        warm_disc(wheelsets[i], p)
 
 
 def warm_disc(wheelset: Wheelset, p: Parameters) -> None:

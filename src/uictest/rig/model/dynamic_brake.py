@@ -101,10 +101,8 @@ def _follow(wheelset: Wheelset, car: Car, request: float, p: Parameters) -> None
 
 def brake_dynamically(wheelsets: Sequence[Wheelset], p: Parameters) -> None:
     """Set the torque of the dynamic brake on each wheelset for one step, from its own rotation; in lanes."""
-    _brake_wheelset(wheelsets[0], p)
-    _brake_wheelset(wheelsets[1], p)
-    _brake_wheelset(wheelsets[2], p)
-    _brake_wheelset(wheelsets[3], p)
+    for i in range(4):
+        _brake_wheelset(wheelsets[i], p)
 
 
 def _brake_wheelset(wheelset: Wheelset, p: Parameters) -> None:

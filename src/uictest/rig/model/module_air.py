@@ -25,9 +25,8 @@ def follow_tanks(wheelsets: Sequence[Wheelset], line: float, p: Parameters) -> N
 
     The first module always has a caliper, and what is modelled beside a caliper nothing reads.
     """
-    follow_tank(wheelsets[1], line, p)
-    follow_tank(wheelsets[2], line, p)
-    follow_tank(wheelsets[3], line, p)
+    for i in range(1, 4):
+        follow_tank(wheelsets[i], line, p)
 
 
 def read_line_pressure(car: Car, p: Parameters) -> float:

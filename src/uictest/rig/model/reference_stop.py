@@ -29,6 +29,7 @@ from uictest.rig.model.state import Bogie, Car, Wheelset
 from uictest.rig.model.wheelset_parameters import WheelsetParameters
 
 _WHEELS = 2.0
+_INFINITE = float("inf")
 
 
 def keep_slide_to_end(
@@ -51,7 +52,7 @@ def keep_slide_to_end(
     start(car, bogies, wheelsets, p, wheelset_parameters)
     if p.cleans_rail > 0.0:
         forget_rail(memory, p)
-    measures.reference_distance = float("inf")
+    measures.reference_distance = _INFINITE
     deceleration = 0.0
     while car.time < p.cycles * p.cycle_time:
         if p.command_count > 1:

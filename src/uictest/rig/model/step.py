@@ -31,38 +31,28 @@ from uictest.rig.model.slip_search import find_slips
 from uictest.rig.model.state import Bogie, Car, ModuleStep, Wheelset
 
 
-def step(car: Car, bogies: Sequence[Bogie], wheelsets: Sequence[Wheelset], p: Parameters) -> None:
-    """Advance everything by ``p.step``: air, clamping forces, wheelsets on the rail, vehicle.
-
-    Nothing branches and nothing is looked up: what happens once per controller cycle is in
-    :mod:`uictest.rig.model.cycle`.
-    """
+def step_brake(car: Car, wheelsets: Sequence[Wheelset], p: Parameters) -> None:
+    """Advance the brake by ``p.step``: air and clamping forces, also of calipers that a rig does not have."""
     step_air(car, wheelsets, p)
-    step_clamping(wheelsets[0], p)
-    step_clamping(wheelsets[1], p)
-    step_clamping(wheelsets[2], p)
-    step_clamping(wheelsets[3], p)
+    for i in range(4):
+        step_clamping(wheelsets[i], p)
     _count_step(car, p)
-    step_vehicle(car, bogies, wheelsets, p)
 
 
 def step_modules(car: Car, wheelsets: Sequence[Wheelset], kept: Sequence[ModuleStep], p: Parameters) -> None:
     """Advance air and the first caliper, which every rig has; keep what the sensors read."""
     step_air(car, wheelsets, p)
     _step_caliper(wheelsets[0], kept[0], p)
-    _keep_reading(wheelsets[0], kept[0], p)
-    _keep_reading(wheelsets[1], kept[1], p)
-    _keep_reading(wheelsets[2], kept[2], p)
-    _keep_reading(wheelsets[3], kept[3], p)
+    for i in range(4):
+        _keep_reading(wheelsets[i], kept[i], p)
     wheelsets[0].compensated_pressure = wheelsets[0].pressure_reading
     _count_step(car, p)
 
 
 def step_other_calipers(wheelsets: Sequence[Wheelset], kept: Sequence[ModuleStep], p: Parameters) -> None:
     """Advance the calipers of the other modules; nothing reads those that a rig does not have."""
-    _step_caliper(wheelsets[1], kept[1], p)
-    _step_caliper(wheelsets[2], kept[2], p)
-    _step_caliper(wheelsets[3], kept[3], p)
+    for i in range(1, 4):
+        _step_caliper(wheelsets[i], kept[i], p)
 
 
 def compensate_kept(wheelset: Wheelset, kept: ModuleStep, p: Parameters) -> None:
@@ -76,10 +66,8 @@ def compensate_kept(wheelset: Wheelset, kept: ModuleStep, p: Parameters) -> None
 
 def take_clamping_forces(wheelsets: Sequence[Wheelset], kept: Sequence[ModuleStep]) -> None:
     """Give the vehicle the clamping forces that are kept of a step."""
-    wheelsets[0].clamping_force = kept[0].clamping_force
-    wheelsets[1].clamping_force = kept[1].clamping_force
-    wheelsets[2].clamping_force = kept[2].clamping_force
-    wheelsets[3].clamping_force = kept[3].clamping_force
+    for i in range(4):
+        wheelsets[i].clamping_force = kept[i].clamping_force
 
 
 def _step_caliper(wheelset: Wheelset, kept: ModuleStep, p: Parameters) -> None:

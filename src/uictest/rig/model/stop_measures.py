@@ -4,7 +4,9 @@ from collections.abc import Sequence
 
 from uictest.core.measures import (
     StopMeasures,
+    TrainState,
     WheelsetMeasures,
+    WheelsetState,
     begin_build_up,
     begin_contact,
     begin_slides,
@@ -14,25 +16,19 @@ from uictest.core.measures import (
     begin_wheelset,
     begin_window,
     close_contacts,
-    keep_slide,
-    keep_slow_times,
-    keep_window,
     note_standstill,
-    observe_build_up,
-    observe_contact,
     observe_monitoring,
     observe_reaction,
     observe_reference,
-    observe_reservoir_margin,
-    observe_train,
-    observe_wheelset,
+    observe_sample,
     reports_wheelset,
 )
 from uictest.core.physics import FILL, highest_creep_force, maximum, select
 from uictest.rig.model.balance import air_energy_residual, air_residual, energy_residual, rail_work
 from uictest.rig.model.controller import FROM_OUTSIDE
 from uictest.rig.model.parameters import Parameters
-from uictest.rig.model.state import Bogie, Car, Wheelset
+from uictest.rig.model.records import CarRecords
+from uictest.rig.model.state import Car, Wheelset
 
 NAN = float("nan")
 
@@ -72,40 +68,39 @@ def observe_cycle(
     time = select(stands, car.stop_time, car.time)
     position = select(stands, car.stop_position, car.position)
     speed = select(stands, 0.0, car.speed)
-    line_pressure = car.line_pressure - p.atmospheric_pressure
-    reservoir_pressure = car.reservoir_pressure - p.atmospheric_pressure
-    for i in range(4):
-        wheelset = wheelsets[i]
-        observed = wheelset_measures[i]
-        observe_wheelset(
-            observed,
-            measures,
-            p,
-            i + 1,
-            time,
-            speed,
-            wheelset.rotation * wheelset.wheel_radius,
-            select(stands, observed.venting, wheelset.venting),
-            select(stands, 0.0, wheelset.clamping_force),
-            wheelset.disc_surface_temperature,
-        )
-        observe_contact(
-            observed,
-            measures,
-            p,
-            time,
-            speed,
-            wheelset.pressure - p.atmospheric_pressure,
-            line_pressure,
-            rail_work(wheelset, p),
-            wheelset.contact_loss,
-            _highest_force(wheelset, speed, p),
-        )
+    train = TrainState(
+        time,
+        position,
+        speed,
+        car.reservoir_pressure - p.atmospheric_pressure,
+        car.line_pressure - p.atmospheric_pressure,
+        _highest_cylinder_pressure(wheelsets),
+    )
+    states = (
+        _state(wheelsets[0], wheelset_measures[0], stands, speed, p),
+        _state(wheelsets[1], wheelset_measures[1], stands, speed, p),
+        _state(wheelsets[2], wheelset_measures[2], stands, speed, p),
+        _state(wheelsets[3], wheelset_measures[3], stands, speed, p),
+    )
+    observe_sample(measures, wheelset_measures, p, train, states)
     _observe_saturation(car, wheelsets, measures, wheelset_measures, p, time)
-    observe_reservoir_margin(measures, reservoir_pressure, _highest_cylinder_pressure(wheelsets))
-    observe_build_up(measures, p, time, position, speed, line_pressure)
-    observe_train(measures, p, time, position, speed, reservoir_pressure)
     note_standstill(measures, stands, time, position)
+
+
+def _state(
+    wheelset: Wheelset, measures: WheelsetMeasures, stands: bool, speed: float, p: Parameters
+) -> WheelsetState:
+    """Return what is observed of a wheelset; at standstill its valve and its brake count no more."""
+    return WheelsetState(
+        wheelset.rotation * wheelset.wheel_radius,
+        select(stands, measures.venting, wheelset.venting),
+        select(stands, 0.0, wheelset.clamping_force),
+        wheelset.disc_surface_temperature,
+        wheelset.pressure - p.atmospheric_pressure,
+        rail_work(wheelset, p),
+        wheelset.contact_loss,
+        _highest_force(wheelset, speed, p),
+    )
 
 
 def _observe_saturation(
@@ -227,29 +222,10 @@ def _highest_cylinder_pressure(wheelsets: Sequence[Wheelset]) -> float:
     return maximum(leading, trailing)
 
 
-def keep_tables(
-    measures: StopMeasures,
-    wheelset_measures: Sequence[WheelsetMeasures],
-    samples: StopMeasures,
-    wheelset_samples: Sequence[WheelsetMeasures],
-    p: Parameters,
-) -> None:
-    """Keep the tables from what :func:`observe_cycle` has put into ``samples``, which may be the same."""
-    keep_window(measures, samples)
-    keep_slow_times(measures, wheelset_measures, samples, wheelset_samples)
-    for i in range(4):
-        keep_slide(wheelset_measures[i], wheelset_samples[i], p, samples.end_speed)
-
-
-def close_stop_measures(
-    car: Car,
-    bogies: Sequence[Bogie],
-    wheelsets: Sequence[Wheelset],
-    measures: StopMeasures,
-    wheelset_measures: Sequence[WheelsetMeasures],
-    p: Parameters,
-) -> None:
+def close_stop_measures(own: CarRecords) -> None:
     """Add the ledgers and balances of the whole stop."""
+    car, bogies, wheelsets, p = own.car, own.bogies, own.wheelsets, own.parameters
+    measures, wheelset_measures = own.measures, own.wheelset_measures
     close_contacts(measures, wheelset_measures, p.total_mass)
     measures.air_consumed = car.consumed_air
     measures.held_time = car.held_time

@@ -1,244 +1,174 @@
-"""One stop of a train: several cars, each with its own rig, coupled, on one rail.
+"""One stop of a train: cars with a rig each, coupled, on one rail. A car alone is a train of one.
 
-A car is what it is alone: its functions get the parts of the train's records that are its own. Between them
-are the couplers and the rail, which keeps what the wheelsets of all cars before have cleaned.
+Between the cars are the couplers and the rail, with what the wheelsets of all cars before have left.
 """
 
-from collections.abc import Sequence
 from typing import Any
 
 from uictest.controllers import NO_FAILURE
-from uictest.core.measures import StopMeasures, WheelsetMeasures
 from uictest.rig.model.controller import FROM_OUTSIDE, decide_watched, read_outputs, write_inputs
-from uictest.rig.model.couplers import Coupler, account_for_coupler, pull_cars, release_couplers
+from uictest.rig.model.couplers import account_for_coupler, pull_cars, release_couplers
+from uictest.rig.model.cycle import command_valves, read_sensors
 from uictest.rig.model.disc_brake import warm_discs
-from uictest.rig.model.parameters import Parameters
-from uictest.rig.model.rail import RailMemory, hand_rail_on
+from uictest.rig.model.rail import hand_rail_on
+from uictest.rig.model.records import CarRecords, TrainRecords, car_of, needs_of
 from uictest.rig.model.sand import hand_sand_on
-from uictest.rig.model.state import Bogie, Car, Wheelset
-from uictest.rig.model.stop import act, advance, begin_cycle, begin_stop, end_cycle, is_running
+from uictest.rig.model.step import step_brake
+from uictest.rig.model.stop import (
+    begin_stop,
+    end_cycle,
+    is_running,
+    keep_measures,
+    meet_rail,
+    move_air,
+    move_car,
+    notice_faults,
+    set_demands,
+    take_commands,
+)
 from uictest.rig.model.stop_measures import close_stop_measures
 from uictest.rig.model.trace import Trace, sample
-from uictest.rig.model.wheelset_parameters import WheelsetParameters
 
 
-def run_train(
-    cars: Sequence[Car],
-    bogies: Sequence[Bogie],
-    wheelsets: Sequence[Wheelset],
-    parameters: Sequence[Parameters],
-    wheelset_parameters: Sequence[WheelsetParameters],
-    distances: Sequence[float],
-    couplers: Sequence[Coupler],
-    rail: Any,
-    memories: Sequence[RailMemory],
-    measures: Sequence[StopMeasures],
-    wheelset_measures: Sequence[WheelsetMeasures],
-    train_samples: Any,
-    wheelset_samples: Any,
-    steps_per_sample: int,
-) -> int:
-    """Run one stop of n cars on zeroed records; fill the measures and return the rows written to the traces.
+def run_train(train: TrainRecords, trace: Trace, steps_per_sample: int) -> int:
+    """Run one stop on zeroed records, fill the measures and return the rows written to the trace.
 
-    The measures of a car are those up to its own standstill. It stays coupled until all cars stand. A train
-    of one car gives the bits of :func:`uictest.rig.model.stop.run_stop`.
+    The measures of a car are those up to its own standstill; it stays coupled until all cars stand. Steps run
+    in whole controller cycles: standstill is interpolated within its step and the cycle is finished, so that
+    a stop runs the same steps alone or beside others. Recording reads the state and never changes it.
 
     Args:
-        cars: n records.
-        bogies: 2 n records.
-        wheelsets: 4 n records, in the order of the train.
-        parameters: n records with one step and one length of the controller cycle.
-        wheelset_parameters: 4 n records.
-        distances: of each car's first wheelset behind that of the train, m.
-        couplers: n - 1 records, with their numbers set.
-        rail: friction laws, places counted from the first wheelset of the train.
-        memories: n records.
-        measures: n records.
-        wheelset_measures: 4 n records.
-        train_samples: of every car, shape (n, rows).
-        wheelset_samples: likewise, shape (n, rows, 4).
+        train: records of the train.
+        trace: samples of every car, shapes (n, rows) and (n, rows, 4).
         steps_per_sample: base steps from one sample to the next; 0: none.
     """
-    begin_train(
-        *(cars, bogies, wheelsets, parameters, wheelset_parameters, distances),
-        *(memories, measures, wheelset_measures),
-    )
+    begin_train(train)
     rows = 0
-    running = len(cars)
+    running = len(train.cars)
     while running > 0:
-        for j in range(len(cars)):
-            _begin_cycle(j, cars, wheelsets, parameters, wheelset_parameters, rail, memories)
-            own = wheelsets[4 * j : 4 * j + 4]
-            decide_watched(j, cars, own, parameters)
-            act(cars[j], own, parameters[j], measures[j])
-        rows = _step_cycle(
-            *(cars, bogies, wheelsets, parameters, couplers),
-            *(train_samples, wheelset_samples, steps_per_sample, rows),
-        )
-        running = _observe(cars, bogies, wheelsets, parameters, measures, wheelset_measures)
+        for j in range(len(train.cars)):
+            _begin_cycle(train, j)
+            decide_watched(j, train.cars, car_of(train, j).wheelsets, train.parameters)
+            _act(car_of(train, j))
+        rows = _step_cycle(train, trace, steps_per_sample, rows)
+        running = _observe(train)
     return rows
 
 
 def step_train(
-    cars: Sequence[Car],
-    bogies: Sequence[Bogie],
-    wheelsets: Sequence[Wheelset],
-    parameters: Sequence[Parameters],
-    wheelset_parameters: Sequence[WheelsetParameters],
-    distances: Sequence[float],
-    couplers: Sequence[Coupler],
-    rail: Any,
-    memories: Sequence[RailMemory],
-    measures: Sequence[StopMeasures],
-    wheelset_measures: Sequence[WheelsetMeasures],
-    exchanges: Any,
-    present: Trace,
-    train_samples: Any,
-    wheelset_samples: Any,
-    steps_per_sample: int,
-    rows: int,
+    train: TrainRecords, exchanges: Any, present: Trace, trace: Trace, steps_per_sample: int, rows: int
 ) -> int:
     """Carry out the commands in the exchanges for one cycle; on zeroed records, begin the stop instead.
 
-    The arguments of :func:`run_train`, with an exchange for each car and, as traces of one row, the true
-    state. What :func:`uictest.rig.model.stop.step_stop` says holds for all cars: while a command of one is
-    refused, none moves. A car is asked for commands until all cars have ended.
+    Afterwards the exchanges hold what the sensors show then, and ``present``, a trace of one row, the true
+    state. While a command of one car is refused, which its ``exchange.failure`` tells, none moves. A car is
+    asked for commands until all cars have ended. Returns the number of rows that ``trace`` has.
     """
     if exchanges[0].cycles == 0:
-        for j in range(len(cars)):
-            parameters[j].controller = FROM_OUTSIDE
-        begin_train(
-            *(cars, bogies, wheelsets, parameters, wheelset_parameters, distances),
-            *(memories, measures, wheelset_measures),
-        )
+        for j in range(len(train.cars)):
+            train.parameters[j].controller = FROM_OUTSIDE  # whoever carries the stop on decides
+        begin_train(train)
     else:
-        if not _read_commands(cars, wheelsets, parameters, exchanges):
+        if not _read_commands(train, exchanges):
             return rows
-        for j in range(len(cars)):
-            act(cars[j], wheelsets[4 * j : 4 * j + 4], parameters[j], measures[j])
-        rows = _step_cycle(
-            *(cars, bogies, wheelsets, parameters, couplers),
-            *(train_samples, wheelset_samples, steps_per_sample, rows),
-        )
-        _observe(cars, bogies, wheelsets, parameters, measures, wheelset_measures)
-    for j in range(len(cars)):
-        _begin_cycle(j, cars, wheelsets, parameters, wheelset_parameters, rail, memories)
-        write_inputs(exchanges[j], cars[j], wheelsets[4 * j : 4 * j + 4], parameters[j])
+        for j in range(len(train.cars)):
+            _act(car_of(train, j))
+        rows = _step_cycle(train, trace, steps_per_sample, rows)
+        _observe(train)
+    # Also at the end: whoever drives the rig sees the sensors at standstill. No measure is taken from this.
+    for j in range(len(train.cars)):
+        _begin_cycle(train, j)
+        write_inputs(exchanges[j], train.cars[j], car_of(train, j).wheelsets, train.parameters[j])
         exchanges[j].cycles += 1
-    _sample(cars, wheelsets, parameters, present.train, present.wheelsets, 0)
+    _sample(train, present, 0)
     return rows
 
 
-def _read_commands(
-    cars: Sequence[Car], wheelsets: Sequence[Wheelset], parameters: Sequence[Parameters], exchanges: Any
-) -> bool:
+def _read_commands(train: TrainRecords, exchanges: Any) -> bool:
     """Set what is commanded of every car; return whether all of it can be carried out."""
     sound = True
-    for j in range(len(cars)):
+    for j in range(len(train.cars)):
         exchanges[j].failure = NO_FAILURE
-        read_outputs(exchanges[j], cars[j], wheelsets[4 * j : 4 * j + 4], parameters[j])
+        read_outputs(exchanges[j], train.cars[j], car_of(train, j).wheelsets, train.parameters[j])
         sound = sound and exchanges[j].failure == NO_FAILURE
     return sound
 
 
-def begin_train(
-    cars: Sequence[Car],
-    bogies: Sequence[Bogie],
-    wheelsets: Sequence[Wheelset],
-    parameters: Sequence[Parameters],
-    wheelset_parameters: Sequence[WheelsetParameters],
-    distances: Sequence[float],
-    memories: Sequence[RailMemory],
-    measures: Sequence[StopMeasures],
-    wheelset_measures: Sequence[WheelsetMeasures],
-) -> None:
+def begin_train(train: TrainRecords) -> None:
     """Set zeroed records to the instant of the brake command."""
-    for j in range(len(cars)):
-        begin_stop(
-            cars[j],
-            bogies[2 * j : 2 * j + 2],
-            wheelsets[4 * j : 4 * j + 4],
-            parameters[j],
-            wheelset_parameters[4 * j : 4 * j + 4],
-            memories[j],
-            measures[j],
-            wheelset_measures[4 * j : 4 * j + 4],
-        )
+    for j in range(len(train.cars)):
+        begin_stop(car_of(train, j))
         for i in range(4):
-            wheelsets[4 * j + i].behind += distances[j]
+            train.wheelsets[4 * j + i].behind += train.distances[j]
 
 
-def _begin_cycle(
-    j: int,
-    cars: Sequence[Car],
-    wheelsets: Sequence[Wheelset],
-    parameters: Sequence[Parameters],
-    wheelset_parameters: Sequence[WheelsetParameters],
-    rail: Any,
-    memories: Sequence[RailMemory],
-) -> None:
-    """Begin a cycle of car ``j`` and leave to the next car the rail that its last wheelset has passed."""
-    own = wheelsets[4 * j : 4 * j + 4]
-    begin_cycle(cars[j], own, parameters[j], wheelset_parameters[4 * j : 4 * j + 4], rail, memories[j])
-    if parameters[j].cleans_rail > 0.0 and j + 1 < len(cars):
-        hand_rail_on(own[3], parameters[j], memories[j], memories[j + 1])
-    if parameters[j].has_sanders > 0.0 and j + 1 < len(cars):
-        hand_sand_on(own[3], parameters[j], memories[j], memories[j + 1])
+def _begin_cycle(train: TrainRecords, j: int) -> None:
+    """Do what comes before the controller of a car decides: read the sensors, find the friction of the rail.
+
+    The rail that the last wheelset of the car has passed is left to the next car.
+    """
+    own = car_of(train, j)
+    notice_faults(own)
+    read_sensors(own.car, own.wheelsets, own.parameters, needs_of(own.parameters))
+    meet_rail(own, train.rail)
+    if j + 1 < len(train.cars):
+        hand_on(own, train.memories[j + 1])
 
 
-def _step_cycle(
-    cars: Sequence[Car],
-    bogies: Sequence[Bogie],
-    wheelsets: Sequence[Wheelset],
-    parameters: Sequence[Parameters],
-    couplers: Sequence[Coupler],
-    train_samples: Any,
-    wheelset_samples: Any,
-    steps_per_sample: int,
-    rows: int,
-) -> int:
-    """Step all cars through a controller cycle; return the rows that the traces have then."""
-    p = parameters[0]
-    steps = (cars[0].cycle - 1) * p.steps_per_cycle
+def hand_on(own: CarRecords, behind: Any) -> None:
+    """Leave to the next car what the last wheelset of this one leaves of the rail and on it."""
+    if own.parameters.cleans_rail > 0.0:
+        hand_rail_on(own.wheelsets[3], own.parameters, own.memory, behind)
+    if own.parameters.has_sanders > 0.0:
+        hand_sand_on(own.wheelsets[3], own.parameters, own.memory, behind)
+
+
+def _act(own: CarRecords) -> None:
+    """Set valves and demands for a cycle by what the controller has decided and the driver commands."""
+    take_commands(own)
+    command_valves(own.car, own.wheelsets, own.parameters)
+    set_demands(own)
+
+
+def _step_cycle(train: TrainRecords, trace: Trace, steps_per_sample: int, rows: int) -> int:
+    """Step all cars through a controller cycle; return the rows that the trace has then."""
+    p = train.parameters[0]
+    steps = (train.cars[0].cycle - 1) * p.steps_per_cycle
     if steps_per_sample > 0 and rows == 0:
-        rows = _sample(cars, wheelsets, parameters, train_samples, wheelset_samples, rows)
+        rows = _sample(train, trace, rows)
     for _ in range(p.steps_per_cycle):
-        for j in range(len(cars)):
-            release_couplers(cars[j])
-        for j in range(len(couplers)):
-            pull_cars(couplers[j], cars[j], parameters[j], cars[j + 1], parameters[j + 1])
-        for j in range(len(cars)):
-            advance(cars[j], bogies[2 * j : 2 * j + 2], wheelsets[4 * j : 4 * j + 4], parameters[j])
-        for j in range(len(couplers)):
-            account_for_coupler(couplers[j], cars[j], parameters[j], cars[j + 1], parameters[j + 1])
+        _step(train)
         steps += 1
         if steps_per_sample > 0 and steps % steps_per_sample == 0:
-            rows = _sample(cars, wheelsets, parameters, train_samples, wheelset_samples, rows)
+            rows = _sample(train, trace, rows)
     return rows
 
 
-def _sample(
-    cars: Sequence[Car],
-    wheelsets: Sequence[Wheelset],
-    parameters: Sequence[Parameters],
-    train_samples: Any,
-    wheelset_samples: Any,
-    row: int,
-) -> int:
+def _step(train: TrainRecords) -> None:
+    """Make one base step; all coupler forces come from the state before any car moves."""
+    cars, parameters, couplers = train.cars, train.parameters, train.couplers
     for j in range(len(cars)):
-        trace = Trace(train_samples[j], wheelset_samples[j])
-        sample(trace, row, cars[j], wheelsets[4 * j : 4 * j + 4], parameters[j])
+        release_couplers(cars[j])
+    for j in range(len(couplers)):
+        pull_cars(couplers[j], cars[j], parameters[j], cars[j + 1], parameters[j + 1])
+    for j in range(len(cars)):
+        own, needs = car_of(train, j), needs_of(parameters[j])
+        move_air(own.car, own.wheelsets, own.parameters, needs)
+        step_brake(own.car, own.wheelsets, own.parameters)
+        move_car(own.car, own.bogies, own.wheelsets, own.parameters, needs)
+    for j in range(len(couplers)):
+        account_for_coupler(couplers[j], cars[j], parameters[j], cars[j + 1], parameters[j + 1])
+
+
+def _sample(train: TrainRecords, trace: Trace, row: int) -> int:
+    """Write a row of the trace and return the number of the next."""
+    for j in range(len(train.cars)):
+        of_car = Trace(trace.train[j], trace.wheelsets[j])
+        sample(of_car, row, train.cars[j], car_of(train, j).wheelsets, train.parameters[j])
     return row + 1
 
 
-def _observe(
-    cars: Sequence[Car],
-    bogies: Sequence[Bogie],
-    wheelsets: Sequence[Wheelset],
-    parameters: Sequence[Parameters],
-    measures: Sequence[StopMeasures],
-    wheelset_measures: Sequence[WheelsetMeasures],
-) -> int:
+def _observe(train: TrainRecords) -> int:
     """End a cycle: feed the measures of the cars that ran in it; return how many run on.
 
     None does where a controller from outside has failed. All begin their cycles together, so that a car
@@ -246,18 +176,19 @@ def _observe(
     """
     running = 0
     failed = 0
-    for j in range(len(cars)):
-        failed += cars[j].controller_failed
-        car, p, of_stop = cars[j], parameters[j], measures[j]
-        own, of_wheelsets = wheelsets[4 * j : 4 * j + 4], wheelset_measures[4 * j : 4 * j + 4]
-        if car.closed > 0.0:
-            if p.models_disc_temperature > 0.0:
-                warm_discs(own, p)  # others may still push the car along
+    for j in range(len(train.cars)):
+        own = car_of(train, j)
+        failed += own.car.controller_failed
+        if own.car.closed > 0.0:
+            if own.parameters.models_disc_temperature > 0.0:
+                warm_discs(own.wheelsets, own.parameters)  # others may still push the car along
             continue
-        end_cycle(car, own, p, of_stop, of_wheelsets)
-        if is_running(car, p):
+        needs = needs_of(own.parameters)
+        end_cycle(own.car, own.wheelsets, own.measures, own.wheelset_measures, own.parameters, needs)
+        keep_measures(own, own.measures, own.wheelset_measures)
+        if is_running(own.car, own.parameters):
             running += 1
         else:
-            close_stop_measures(car, bogies[2 * j : 2 * j + 2], own, of_stop, of_wheelsets, p)
-            car.closed = 1.0
+            close_stop_measures(own)
+            own.car.closed = 1.0
     return 0 if failed > 0 else running

@@ -6,7 +6,7 @@ does; what is :func:`~uictest.core.record.derived` is computed in
 the step reads them there.
 """
 
-from uictest.core.record import Record, derived, field_copier, from_scenario, layout_of
+from uictest.core.record import FieldCopier, Record, derived, from_scenario, layout_of
 
 
 class WheelsetParameters(Record):
@@ -55,5 +55,5 @@ class WheelsetParameters(Record):
 
 WHEELSET_PARAMETERS = layout_of(WheelsetParameters)
 """Layout of :class:`WheelsetParameters`."""
-copy_wheelset_parameters = field_copier(WheelsetParameters)
+copy_wheelset_parameters = FieldCopier(WheelsetParameters)
 """Set the parameters in the first of two records to those of the second."""

@@ -39,4 +39,3 @@ from .stop import (
     stops_of as stops_of,
     stops_together as stops_together,
 )
-from .train_blocks import compile_for as compile_for

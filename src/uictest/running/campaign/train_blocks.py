@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Final
 
 from uictest import rig
@@ -18,8 +18,6 @@ from uictest.running.campaign.stop import (
     stops_together,
 )
 
-_WORTH_COMPILING: Final = 512
-"""Stops of cars for which the lanes are compiled; chosen: one by one they take about as long as that."""
 _MOST_TOGETHER: Final = 32
 """Trains that a thread simulates in one queue; chosen: four times what the widest registers hold."""
 
@@ -29,7 +27,7 @@ Block = Sequence[Sequence[Stop]]
 
 def blocks_of(cases: Sequence[scenario.Case], request: RecordingRequest, jobs: int) -> Iterator[Block]:
     """Yield what each of so many threads runs in one go, in order of cases and seeds."""
-    trains = _in_lanes(cases, request)
+    trains = sum(_fits(stops, request) for stops in stops_together(cases))
     # As many for each thread: at the end of the longest all others wait.
     rounds = -(-trains // (_MOST_TOGETHER * jobs))
     size = -(-trains // (rounds * jobs)) if trains else 1
@@ -45,13 +43,6 @@ def blocks_of(cases: Sequence[scenario.Case], request: RecordingRequest, jobs: i
             block = []
     if block:
         yield tuple(block)
-
-
-def compile_for(cases: Sequence[scenario.Case], request: RecordingRequest) -> None:
-    """Compile the rig as some cases need it before threads do."""
-    rig.compile_for(cases)
-    if _in_lanes(cases, request):
-        rig.load_train_lanes()
 
 
 def run_block(
@@ -70,14 +61,6 @@ def run_block(
     if stops[0].case.train is not None:
         return run_train(stops, request, run_of_train)
     return [run_stop(stop, request, run) for stop in stops]
-
-
-def _in_lanes(cases: Iterable[scenario.Case], request: RecordingRequest) -> int:
-    """Return how many trains run in lanes: none unless they are many, or the lanes are compiled already."""
-    places = (stops[0].case.train for stops in stops_together(cases) if _fits(stops, request))
-    cars = [len(place.scenarios) for place in places if place is not None]
-    worth = sum(cars) >= _WORTH_COMPILING or (len(cars) > 1 and rig.train_lanes_are_compiled())
-    return len(cars) if worth else 0
 
 
 def _fits(stops: Sequence[Stop], request: RecordingRequest) -> bool:

@@ -25,7 +25,7 @@ from uictest.judging.evaluation import (
     with_rail,
 )
 from uictest.plans.scenario import Case
-from uictest.plans.sweeps import Plan, in_survey_steps, programs_of, train_problem
+from uictest.plans.sweeps import Plan, in_survey_steps, train_problem
 from uictest.running.campaign import RecordingRequest, ThreadedMap, run_trains, stops_together
 from uictest.running.chunked.case_blocks import BlockAssembler, CaseBlock, CaseValues
 from uictest.running.chunked.case_selection import CaseSelection
@@ -73,10 +73,6 @@ class ChunkRunner(ABC):
         return [parquet_bytes(table.slice(*place)) for place in zip(begins, sizes, strict=True)]
 
     @abstractmethod
-    def prepare(self) -> None:
-        """Compile the rig before several threads need it at once."""
-
-    @abstractmethod
     def results_of(self, indices: NDArray[np.int64]) -> tuple[CaseValues, list[CaseResult], list[int]]:
         """Return cases, their results, and the places of those of a survey that are of regular steps."""
 
@@ -88,13 +84,6 @@ class TrainRunner(ChunkRunner):
     plan: Plan
     run_block: RunBlock
     run_train: rig.RunTrain | None = None
-
-    def prepare(self) -> None:
-        """Compile the lanes, and what runs trains with controllers from outside one by one."""
-        if any(programs_of(self.plan)):
-            rig.compiled_train()
-        if not self.plan.base.is_from_outside:
-            rig.load_train_lanes()
 
     def results_of(self, indices: NDArray[np.int64]) -> tuple[CaseValues, list[CaseResult], list[int]]:
         """Return cars and their results; an error in one is its result."""
@@ -136,10 +125,6 @@ class BlockRunner(ChunkRunner):
     """How much verdicts say, see :func:`uictest.judging.evaluation.judge`."""
     regular: BlockRunner | None = None
     """In a survey: simulates in regular steps what lies within its bias of a limit."""
-
-    def prepare(self) -> None:
-        """Compile the rig for the controllers of the plan."""
-        rig.load_block([*programs_of(self.plan)] or [None])
 
     def results_of(self, indices: NDArray[np.int64]) -> tuple[CaseValues, list[CaseResult], list[int]]:
         """Return cases and their results, see :meth:`results`."""

@@ -24,7 +24,7 @@ from uictest.running.chunked.table import SURVEY_TABLE
 
 SOURCES: Final = (*("core", "controllers", "plans", "judging", "rig", "running"),)
 """Rooms and modules of the package that determine the result of a case."""
-_PACKAGES: Final = ("uictest", "numpy", "scipy", "numba", "pyarrow")
+_PACKAGES: Final = ("uictest", "numpy", "scipy", "pyarrow")
 _LIBRARY: Final = "library:"
 _LABELS: Final = {
     "selected": "selection",
@@ -110,12 +110,7 @@ def _words(value: Any) -> str:
 
 
 def _relative_to(folder: Path, name: str) -> str:
-    if name.startswith(_LIBRARY):
-        return name
-    try:
-        return Path(os.path.relpath(name, folder)).as_posix()
-    except ValueError:  # on another drive
-        return name
+    return name if name.startswith(_LIBRARY) else files.relative_path(Path(name), folder)
 
 
 @cache

@@ -9,19 +9,21 @@ found friction low on leaf layers that were partly removed (Lewis et al., Tribol
 108529); this form is ours.
 """
 
-from uictest.core.physics import cleaned_share
-from uictest.core.rail_laws.law import LawNumber, RailLaw
+from collections.abc import Sequence
+
+from uictest.core.rail_laws.law import LawNumber, RailLaw, cleaned_by_energy
 
 
-def clean_part(share: float, weight: float) -> float:
+def clean_part(share: float, numbers: Sequence[float]) -> float:
     """Return how far friction has gone to that of a clean rail; `share` is bare."""
+    weight = numbers[0]
     return share / (share + weight * (1.0 - share))
 
 
 LAW = RailLaw(
     name="film",
     description="A film that stays slippery where it has gaps.",
-    own_share=cleaned_share,
+    own_share=cleaned_by_energy,
     clean_part=clean_part,
     numbers={
         "weight": LawNumber(

@@ -113,8 +113,7 @@ class _Cleaning(Section):
 
     def clean_part(self, share: float) -> float:
         """How far friction and creep curve have gone to those of a clean rail, where a share is clean."""
-        own = (self.law_numbers[k] for k in self.law.passed(self.law.clean_part))
-        return self.law.clean_part(share, *own)
+        return self.law.clean_part(share, self.law_numbers)
 
     @property
     def _named(self) -> list[str]:
